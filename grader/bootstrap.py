@@ -1,0 +1,148 @@
+"""Makes the grader's own environment: run by `make` with whatever `python3` there is.
+
+Standard library only, and readable by old Pythons, since it must be able to say that one is too
+old. It makes `.venv` (locked, every package checked by its hash), complete or not at all, and
+bubblewrap from the system's packages where root may install it.
+"""
+
+import argparse
+import fcntl
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+VENV = os.path.join(ROOT, ".venv")
+OLDEST, NEWEST = (3, 10), (3, 13)
+INSTALLERS = [
+    ["apt-get", "install", "-y", "-qq", "--no-install-recommends", "bubblewrap"],
+    ["dnf", "install", "-y", "-q", "bubblewrap"],
+    ["zypper", "--non-interactive", "install", "bubblewrap"],
+    ["pacman", "-S", "--noconfirm", "bubblewrap"],
+    ["apk", "add", "bubblewrap"],
+]
+
+
+def say(text):
+    """Tell the user on stderr, so that stdout stays the command's own."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def fail(text):
+    """End with the exit status of failed surroundings."""
+    say(text)
+    raise SystemExit(3)
+
+
+def version_of(python):
+    """Return (major, minor) of an interpreter, None if it does not run (a pyenv shim may not)."""
+    code = "import sys; print(sys.version_info[0], sys.version_info[1])"
+    try:
+        out = subprocess.check_output([python, "-c", code], stderr=subprocess.DEVNULL)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return tuple(int(part) for part in out.split())
+
+
+def find_python(asked):
+    """Return an interpreter that can run the grader; the asked one if it fits."""
+    names = [asked, "python3", "python3.12", "python3.13", "python3.11", "python3.10"]
+    for name in names:
+        version = version_of(name)
+        if version is not None and OLDEST <= version <= NEWEST:
+            return name
+        if name == asked and version is not None:
+            say("%s is Python %d.%d: looking for another" % (name, version[0], version[1]))
+    return fail(
+        "No Python %d.%d to %d.%d was found (ROS's wheels exist for these).\n"
+        "Install one, e.g. `apt-get install python3 python3-venv`, or name it: "
+        "make setup PYTHON=/path/to/python3.12" % (OLDEST + NEWEST)
+    )
+
+
+def stamp_of(python, locks):
+    """Return what the environment is made of: interpreter and lock files."""
+    digest = hashlib.sha256(os.path.realpath(shutil.which(python) or python).encode())
+    digest.update(repr(version_of(python)).encode())
+    digest.update(VENV.encode())
+    for lock in locks:
+        with open(lock, "rb") as stream:
+            digest.update(stream.read())
+    return digest.hexdigest()
+
+
+def read(path):
+    """Return a file's text, "" where there is none."""
+    try:
+        with open(path) as stream:
+            return stream.read()
+    except OSError:
+        return ""
+
+
+def make_venv(python, lock, stamp):
+    """Make `.venv` anew; its stamp is written last, so half a one is never taken for a whole."""
+    shutil.rmtree(VENV, ignore_errors=True)
+    say("setting up the grader's Python environment in %s (once)" % VENV)
+    made = subprocess.run([python, "-m", "venv", VENV], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False)
+    if made.returncode:
+        shutil.rmtree(VENV, ignore_errors=True)
+        fail(made.stdout.decode(errors="replace") + "\nThis Python cannot make a virtual "
+             "environment. On Debian and Ubuntu: apt-get install python3-venv")
+    inner = os.path.join(VENV, "bin", "python")
+    command = [inner, "-m", "pip", "install", "-q", "--require-hashes", "-r", lock,
+               "--disable-pip-version-check", "--no-input", "--only-binary", ":all:"]
+    if subprocess.run(command, stdout=sys.stderr, check=False).returncode:
+        fail("pip could not install the locked packages. Check the network (HTTPS_PROXY, "
+             "PIP_CERT), then run the command again.")
+    with open(os.path.join(VENV, "stamp"), "w") as stream:
+        stream.write(stamp)
+
+
+def need_bubblewrap():
+    """Install bubblewrap where root may; else say in one line what to install."""
+    if shutil.which("bwrap"):
+        return
+    if os.geteuid() == 0:
+        for command in INSTALLERS:
+            if shutil.which(command[0]) is None:
+                continue
+            say("installing bubblewrap (%s)" % " ".join(command))
+            quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "check": False,
+                     "env": dict(os.environ, DEBIAN_FRONTEND="noninteractive")}
+            result = subprocess.run(command, **quiet)
+            if result.returncode and command[0] == "apt-get":  # a machine with no package lists yet
+                subprocess.run(["apt-get", "update", "-qq"], **quiet)
+                result = subprocess.run(command, **quiet)
+            if result.returncode == 0 and shutil.which("bwrap"):
+                return
+            say(result.stderr.decode(errors="replace").strip())
+            break
+    say("bubblewrap is missing: install it (e.g. sudo apt-get install bubblewrap), or mark with "
+        "another sandbox (SANDBOX=docker)")
+
+
+def main():
+    """Make what is missing; a second call with nothing to do takes a few milliseconds."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--python", default="python3")
+    parser.add_argument("--tests", action="store_true", help="with what the tests need")
+    options = parser.parse_args()
+    locks = [os.path.join(ROOT, "grader", "requirements.txt"),
+             os.path.join(ROOT, "tests", "requirements.txt")]
+    with open(os.path.join(ROOT, ".venv.lock"), "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        python = find_python(options.python)
+        there = read(os.path.join(VENV, "stamp"))
+        small, full = (stamp_of(python, locks[:1]), stamp_of(python, locks))
+        if there != full and (options.tests or there != small):
+            wanted = (locks[1], full) if options.tests else (locks[0], small)
+            make_venv(python, wanted[0], wanted[1])
+    need_bubblewrap()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,91 @@
+"""How a check is declared and what it may say.
+
+A check is a function of a `Verdict`'s evidence. It returns `Passed` (or None, which is the same)
+or raises `Failed`, `Blocked` or `Inconclusive`; it prints nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import field
+from typing import TYPE_CHECKING
+
+from grader.report.model import Mistake
+from grader.report.model import Where
+
+if TYPE_CHECKING:
+    from grader.evidence import Evidence
+
+
+@dataclass(frozen=True, kw_only=True)
+class Passed:
+    """The check holds; `actual` is what was found, `advice` what could still be better."""
+
+    actual: str = ""
+    advice: Sequence[str] = ()
+
+
+class Outcome(Exception):
+    """Anything but a pass."""
+
+
+class Failed(Outcome):  # noqa: N818 - it is an outcome, not an error
+    """The check does not hold: what was expected, what was found, where, why, and the fix."""
+
+    def __init__(
+        self,
+        *,
+        expected: str,
+        actual: str,
+        rationale: str,
+        fix: str,
+        mistake: str,
+        params: dict[str, str | int | float] | None = None,
+        where: Where | None = None,
+        advice: Sequence[str] = (),
+    ) -> None:
+        super().__init__(actual)
+        self.expected = expected
+        self.actual = actual
+        self.rationale = rationale
+        self.fix = fix
+        self.mistakes = [Mistake(id=mistake, params=params or {})]
+        self.where = where
+        self.advice = list(advice)
+
+
+class Blocked(Outcome):  # noqa: N818
+    """The check cannot be asked because another one failed: it is skipped, never failed."""
+
+    def __init__(self, *, by: str) -> None:
+        super().__init__(by)
+        self.by = by
+
+
+class Inconclusive(Outcome):  # noqa: N818
+    """Our side, or the load of the machine, kept us from knowing."""
+
+
+CheckFunction = Callable[["Evidence"], "Passed | None"]
+
+
+@dataclass(frozen=True)
+class Check:
+    """A declared check; `title` is the first line of the function's docstring."""
+
+    id: str
+    title: str
+    depends: tuple[str, ...]
+    function: CheckFunction = field(repr=False)
+
+
+def check(check_id: str, *, depends: Sequence[str] = ()) -> Callable[[CheckFunction], Check]:
+    """Declare a check: its id, and the checks without which it makes no sense to ask."""
+
+    def declare(function: CheckFunction) -> Check:
+        title = (function.__doc__ or check_id).strip().splitlines()[0].rstrip(".")
+        return Check(check_id, title, tuple(depends), function)
+
+    return declare

@@ -1,0 +1,314 @@
+"""Virtual time: the node runs with `use_sim_time`, and this module drives its `/clock`.
+
+The loop is closed: after each `/clock` message a barrier proves that the node has done what was
+due (two round trips to its parameter service, EXERCISE.md), so the period is measured exactly,
+however busy the machine is. Nodes that do not follow `/clock` are watched on the wall clock.
+"""
+
+from __future__ import annotations
+
+import re
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from dataclasses import field
+from typing import Literal
+
+from grader.assignment import Output
+from grader.probe_link import Answer
+from grader.probe_link import LogRecord
+from grader.probe_link import ProbeLink
+from grader.terminal import Line
+from grader.terminal import Terminal
+
+MILLISECOND = 1_000_000
+SECOND = 1_000_000_000
+BARRIER_SECONDS = 2.0  # wall time for one barrier
+SETTLE_SECONDS = 2.5  # wall time in which a node that spins answers for the first time
+TRIES, TRY_SECONDS = 12, 0.5  # a tick is missing after that many barriers and that much wall time
+GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
+GRID = 20  # steps a period when the period has to be found out
+WALL_TICKS = 5
+WALL_SPARE = 3.0  # seconds of wall time beyond the ticks' own
+STILL = 1.3  # periods of wall time for which the clock stands still to unmask a wall clock
+
+Source = Literal["logger", "print", "faked"]
+
+
+@dataclass(frozen=True)
+class Event:
+    """One line that the node put out: when, and what ROS saw of it.
+
+    `virtual` and `wall` in seconds (None: the clock had not been started); `due` is the number of
+    the due instant at which it came, counted from 0, None if it came at another time.
+    """
+
+    text: str
+    wall: float
+    virtual: float
+    source: Source
+    n: int | None
+    due: int | None = None
+    record: LogRecord | None = None
+
+
+@dataclass
+class Watch:
+    """What a run showed: every event in order, and how the count was timed."""
+
+    clock: Literal["virtual", "wall"] | None = None
+    events: list[Event] = field(default_factory=list)
+    dues: list[float] = field(default_factory=list)
+    early: list[Event] = field(default_factory=list)
+    before_start: list[Event] = field(default_factory=list)
+    missing: list[int] = field(default_factory=list)
+    period: float | None = None
+    settled: bool = False
+    foreign_clock: bool = False
+    note: str = ""
+
+    @property
+    def counted(self) -> list[Event]:
+        """The events that are taken for the count: those of the pattern, else any."""
+        own = [event for event in self.events if event.n is not None]
+        return own or [event for event in self.events if event not in self.before_start]
+
+
+class Observer:
+    """Brings together what the terminal showed and what ROS saw."""
+
+    def __init__(self, terminal: Terminal, probe: ProbeLink, output: Output) -> None:
+        self.terminal = terminal
+        self.probe = probe
+        head, tail = output.text.split("{n}")
+        self._pattern = re.compile(re.escape(head) + r"(-?\d{1,18})" + re.escape(tail))
+        self._unmatched: list[Line] = []
+        self.records: list[LogRecord] = []
+        self.shown: set[tuple[int, str, str]] = set()
+        self.now = 0.0  # virtual seconds
+
+    def number(self, text: str) -> int | None:
+        """Return the count in a line of the expected form, None for any other line."""
+        match = self._pattern.fullmatch(text)
+        return int(match.group(1)) if match else None
+
+    def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
+        """Return the new events of an answer and of the terminal, in order."""
+        events = [self._of_record(record) for record in (answer.logs if answer else ())]
+        for line in self.terminal.read(seconds):
+            if line.log is not None:
+                self._unmatched.append(line)
+            elif line.text.strip():
+                events.append(self._event(line.text, line.wall, "print", None))
+        return events + self._match()
+
+    def _of_record(self, record: LogRecord) -> Event:
+        self.records.append(record)
+        return self._event(record.text, record.stamp / SECOND, "logger", record)
+
+    def _event(self, text: str, wall: float, source: Source, record: LogRecord | None) -> Event:
+        return Event(text, wall, self.now, source, self.number(text), record=record)
+
+    def _match(self) -> list[Event]:
+        """Return the lines that look like log records but are none of ROS's, after a grace time."""
+        known = {(r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]}
+        faked, waiting = [], []
+        for line in self._unmatched:
+            assert line.log is not None  # noqa: S101
+            _, stamp, name, text = line.log
+            if (stamp, name, text) in known:
+                self.shown.add((stamp, name, text))
+            elif time.time() - line.wall > GRACE:
+                faked.append(self._event(text, line.wall, "faked", None))
+            else:
+                waiting.append(line)
+        self._unmatched = waiting
+        return faked
+
+    def settle(self) -> list[Event]:
+        """Give every line that is still waiting for its log record its grace time."""
+        events: list[Event] = []
+        while self._unmatched and not self.terminal.flooded:
+            events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
+        return events
+
+
+class VirtualClock:
+    """Drives `/clock` for one node and watches what comes when."""
+
+    def __init__(self, observer: Observer, output: Output, *, deadline: float) -> None:
+        self._observer = observer
+        self._output = output
+        self._deadline = deadline  # of time.monotonic()
+        self._at = 0
+        self._period = round(output.period * SECOND)
+
+    def drive(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Fill `watch`: N due instants, nothing a millisecond before, one tick at each."""
+        if not self._settle(watch):
+            if self._over():
+                return
+            watch.note = "the node does not answer: it is not spinning"
+            self._watch_wall(watch, tell)
+            if watch.counted or not self._settle(watch):
+                return
+        watch.clock = "virtual"
+        began = time.monotonic()
+        if not self._at_due_instants(watch, self._period, tell):
+            self._find_period(watch, tell)
+        promptly = time.monotonic() - began < 0.5 * self._output.period * len(watch.dues)
+        if watch.missing or watch.early or not promptly:
+            self._unmask(watch, tell)
+
+    def _settle(self, watch: Watch) -> bool:
+        """Start the clock at 1 ms and return whether the node answers: then it spins."""
+        deadline = time.monotonic() + SETTLE_SECONDS
+        while True:
+            events, barrier = self._step(MILLISECOND, seconds=SETTLE_SECONDS / 10)
+            watch.before_start += events
+            watch.events += events
+            if barrier or self._over() or time.monotonic() > deadline:
+                watch.settled = watch.settled or bool(barrier)
+                return watch.settled
+
+    def _at_due_instants(self, watch: Watch, phase: int, tell: Callable[[Event], None]) -> bool:
+        """Watch the due instants from `phase` on; return whether each had its tick, and no other."""
+        already = len(watch.dues)
+        for k in range(already, self._output.ticks):
+            due = phase + (k - already) * self._period
+            early, _ = self._step(due - MILLISECOND)
+            watch.events += early
+            watch.early += [event for event in early if event.n is not None]
+            found = self._wait_for_tick(due, k)
+            watch.dues.append(due / SECOND)
+            watch.events += found
+            for event in found:
+                tell(event)
+            if not found:
+                watch.missing.append(k)
+            if not found or watch.early or self._over():
+                return False
+        return True
+
+    def _wait_for_tick(self, due: int, k: int) -> list[Event]:
+        """Step to a due instant and return what came; [] only after enough barriers and time."""
+        began = time.monotonic()
+        found: list[Event] = []
+        for attempt in range(10 * TRIES):
+            events, _ = self._step(due, wait=attempt > 0)
+            found += [_at(event, k) for event in events]
+            if any(event.n is not None for event in found):
+                break
+            enough = TRIES / 4 if found else TRIES  # another line has come: is it the tick?
+            if attempt >= enough and (found or time.monotonic() - began > TRY_SECONDS):
+                break
+            if self._over():
+                break
+        return found
+
+    def _find_period(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Find out at which instants the ticks do come: small steps, then exactly if it is P."""
+        step = max(self._period // GRID, MILLISECOND)
+        seen: list[float] = [e.virtual for e in watch.counted if e not in watch.before_start]
+        stop = self._at + 12 * self._period
+        fresh: list[float] = []
+        while self._at < stop and len(fresh) < 6 and not self._over():
+            events, _ = self._step(self._at + step)
+            watch.events += events
+            ticks = [event for event in events if event.n is not None] or events
+            for event in ticks:
+                tell(event)
+            fresh += [event.virtual for event in ticks]
+        instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))
+        if len(instants) > 1:
+            gaps = [b - a for a, b in zip(instants, instants[1:])]
+            watch.period = statistics.median(gaps)
+            tolerance = step / SECOND * 1.01
+            if all(abs(gap - self._output.period) <= tolerance for gap in gaps) and len(fresh) > 2:
+                self._verify_phase(watch, round(instants[-1] * SECOND), step, tell)
+
+    def _verify_phase(
+        self, watch: Watch, last: int, step: int, tell: Callable[[Event], None]
+    ) -> None:
+        """The period may be right and only begun later: find the phase to 1 ms and ask again."""
+        events, _ = self._step(last + self._period - step)
+        watch.events += events
+        at = self._at
+        while at < last + self._period and not events and not self._over():
+            at += MILLISECOND
+            events, _ = self._step(at)
+            watch.events += events
+        if not events:
+            return
+        kept = (watch.early, watch.missing, watch.dues)
+        watch.early, watch.missing, watch.dues = [], [], []
+        if self._at_due_instants(watch, at + self._period, tell):
+            watch.period = self._output.period
+        else:
+            watch.early, watch.missing, watch.dues = kept
+
+    def _unmask(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Let the clock stand still: what comes now follows the wall clock."""
+        deadline = time.monotonic() + STILL * self._output.period
+        still: list[Event] = []
+        while time.monotonic() < deadline and not self._observer.terminal.ended:
+            still += self._observer.take(self._observer.probe.ask("wait", seconds=0.1))
+        watch.events += still
+        if any(event.n is not None for event in still) or (still and not watch.dues):
+            watch.note = "lines came while the ROS clock stood still"
+            watch.period = None
+            self._watch_wall(watch, tell)
+
+    def _watch_wall(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Watch a node that does not follow `/clock`: a fixed number of ticks by their stamps."""
+        watch_wall(self._observer, self._output, watch, tell, deadline=self._deadline)
+
+    def _step(
+        self, at: int, *, wait: bool = False, seconds: float = BARRIER_SECONDS
+    ) -> tuple[list[Event], bool | None]:
+        """Set the clock, make the barrier, and return what has come."""
+        self._at = max(at, self._at)
+        observer = self._observer
+        observer.now = self._at / SECOND
+        answer = observer.probe.ask("clock", seconds=seconds, at=self._at, trips=2)
+        if answer.clocks > 1:
+            raise ForeignClock
+        return observer.take(answer, seconds=0.02 if wait else 0), answer.barrier
+
+    def _over(self) -> bool:
+        terminal = self._observer.terminal
+        return terminal.ended or terminal.flooded or time.monotonic() > self._deadline
+
+
+class ForeignClock(Exception):  # noqa: N818
+    """Somebody else publishes `/clock` too: it measures nothing then."""
+
+
+def _at(event: Event, k: int) -> Event:
+    return Event(event.text, event.wall, event.virtual, event.source, event.n, k, event.record)
+
+
+def watch_wall(
+    observer: Observer,
+    output: Output,
+    watch: Watch,
+    tell: Callable[[Event], None],
+    *,
+    deadline: float,
+) -> None:
+    """Watch a fixed number of ticks on the wall clock; the period is the median of their stamps."""
+    watch.clock = "wall"
+    watch.dues, watch.missing, watch.early = [], [], []
+    end = min(deadline, time.monotonic() + (WALL_TICKS + 1) * output.period + WALL_SPARE)
+    while time.monotonic() < end and not observer.terminal.ended and not observer.terminal.flooded:
+        if len(watch.counted) > WALL_TICKS and any(e.n is not None for e in watch.events):
+            break
+        events = observer.take(observer.probe.ask("wait", seconds=0.05))
+        watch.events += events
+        for event in events:
+            tell(event)
+    watch.events += observer.settle()
+    stamps = [event.wall for event in watch.counted]
+    if len(stamps) > 2:
+        watch.period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))

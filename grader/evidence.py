@@ -1,0 +1,58 @@
+"""What the checks may look at: the assignment, the submission, and, made when first asked for, the
+build and the run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+
+from grader.assignment import Assignment
+from grader.report.model import CheckResult
+from grader.running import Run
+from grader.submission import Submission
+from grader.workspace import Build
+
+
+class Evidence:
+    """The evidence of one verdict; `results` holds the checks that are decided."""
+
+    def __init__(
+        self,
+        assignment: Assignment,
+        submission: Submission,
+        *,
+        build: Callable[[], Build],
+        run: Callable[[], Run],
+    ) -> None:
+        self.assignment = assignment
+        self.submission = submission
+        self.results: dict[str, CheckResult] = {}
+        self._make_build = build
+        self._make_run = run
+        self.has_run = False
+
+    @cached_property
+    def build(self) -> Build:
+        """The build; made now if nobody has asked before."""
+        return self._make_build()
+
+    @cached_property
+    def run(self) -> Run:
+        """The run; made now if nobody has asked before."""
+        self.has_run = True
+        return self._make_run()
+
+    @property
+    def was_built(self) -> bool:
+        """Whether somebody has asked for the build."""
+        return "build" in self.__dict__
+
+    def has_failed(self, check_id: str) -> bool:
+        """Whether a check was decided and failed."""
+        result = self.results.get(check_id)
+        return result is not None and result.status == "failed"
+
+    def has_mistake(self, check_id: str, *mistakes: str) -> bool:
+        """Whether a check failed for one of these mistakes."""
+        result = self.results.get(check_id)
+        return result is not None and any(m.id in mistakes for m in result.mistakes)

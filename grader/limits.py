@@ -1,0 +1,65 @@
+"""The limits on a submission: each a number in one place.
+
+Seconds and bytes. An assignment (`limits:`) or the command line (`--limit name=value`) overrides
+any of them; the report says what held each one.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import fields
+from dataclasses import replace
+
+from grader.errors import UsageError
+
+MEGABYTE = 1_000_000
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The limits of one verdict."""
+
+    build_seconds: float = 60
+    """Wall time of `colcon build`."""
+    start_seconds: float = 15
+    """Wall time from `ros2 run` until a node is on the ROS graph."""
+    run_seconds: float = 60
+    """Wall time of the whole run."""
+    stop_seconds: float = 5
+    """Wall time from Ctrl+C until the end of `ros2 run`."""
+    cpu_seconds: float = 60
+    """Processor time of each process."""
+    memory: float = 1_000 * MEGABYTE
+    """Of all processes and files in memory together; of each process where no cgroup is to be had."""
+    processes: float = 200
+    """Processes and threads."""
+    file_size: float = 100 * MEGABYTE
+    """Of one file."""
+    workspace: float = 300 * MEGABYTE
+    """Of the workspace, a file system in memory; `/tmp`, `/dev/shm` and home have a tenth each."""
+    output: float = 1 * MEGABYTE
+    """What a command may print before it is stopped."""
+
+    def override(self, values: Mapping[str, float]) -> Limits:
+        """Return these limits with some changed; UsageError for an unknown name or no number > 0."""
+        for name, value in values.items():
+            if name not in UNITS:
+                close = difflib.get_close_matches(name, UNITS, n=1)
+                hint = f"did you mean '{close[0]}'? " if close else ""
+                raise UsageError(
+                    f"there is no limit '{name}'", remedy=f"{hint}Limits: {', '.join(UNITS)}."
+                )
+            if not value > 0:
+                raise UsageError(f"the limit {name} must be above 0, not {value:g}")
+        return replace(self, **values)
+
+
+def _unit(name: str) -> str:
+    if name.endswith("_seconds"):
+        return "s"
+    return "" if name == "processes" else "bytes"
+
+
+UNITS = {field.name: _unit(field.name) for field in fields(Limits)}

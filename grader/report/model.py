@@ -1,0 +1,186 @@
+"""The report of one verdict, schema 1 (fields may be added, never changed).
+
+The JSON form is `Report.model_dump_json()`; its JSON Schema is `report.schema.json` beside this
+module. All durations are seconds, all sizes bytes, `virtual` instants seconds of ROS time since
+the clock started at 0, `wall` instants seconds of the epoch.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel
+from pydantic import ConfigDict
+from pydantic import Field
+
+CheckStatus = Literal["passed", "failed", "skipped", "inconclusive", "error"]
+Visibility = Literal["visible", "hidden", "after_due_date"]
+Origin = Literal["directory", "zip", "tar", "git"]
+Modes = Literal["recorded", "unknown"]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Mistake(_Part):
+    """A mistake of the catalogue: a stable id and what fills its text."""
+
+    id: str
+    params: dict[str, str | int | float] = Field(default_factory=dict)
+
+
+class Where(_Part):
+    """A place in the submission: `file` relative to the package, `line` counted from 1."""
+
+    file: str
+    line: int | None = None
+
+
+class CheckResult(_Part):
+    """What one check found. `rationale` says why it matters, `fix` the one change that mends it."""
+
+    id: str
+    title: str
+    status: CheckStatus
+    score: float = 0
+    max_score: float
+    visibility: Visibility = "visible"
+    rationale: str = ""
+    expected: str = ""
+    actual: str = ""
+    fix: str = ""
+    patch: str = ""
+    advice: list[str] = Field(default_factory=list)
+    mistakes: list[Mistake] = Field(default_factory=list)
+    where: Where | None = None
+    depends: list[str] = Field(default_factory=list)
+    seconds: float = 0
+
+
+class AssignmentInfo(_Part):
+    """Which assignment was marked; `sha256` of its definition, so that versions can be told apart."""
+
+    id: str
+    title: str
+    sha256: str
+
+
+class SubmissionInfo(_Part):
+    """Whose package was marked, where it was found and what is known of it."""
+
+    name: str
+    student_id: str | None = None
+    path: str
+    sha256: str
+    package: str | None = None
+    origin: Origin = "directory"
+    modes: Modes = "recorded"
+    notes: list[str] = Field(default_factory=list)
+
+
+class LimitInfo(_Part):
+    """A limit: its number, and what holds it here (`cgroup`, `rlimit`, `grader`, `tmpfs` or `none`)."""
+
+    value: float
+    unit: str
+    held_by: str
+
+
+class Environment(_Part):
+    """The world in which the commands ran."""
+
+    distro: str
+    ros: Literal["image", "wheels", "system"]
+    sandbox: Literal["docker", "bubblewrap", "account", "none"]
+    limits: dict[str, LimitInfo] = Field(default_factory=dict)
+    rclpy: str = ""
+    rmw: str = ""
+    python: str = ""
+    colcon: str = ""
+    setuptools: str = ""
+    image: str = ""
+    grader: str = ""
+
+
+class Tick(_Part):
+    """One line of the count: its number, its text, and when it came."""
+
+    n: int | None
+    text: str
+    virtual: float | None = None
+    wall: float | None = None
+
+
+class Exit(_Part):
+    """How `ros2 run` ended; `seconds` from Ctrl+C to the end."""
+
+    status: int | None = None
+    signal: int | None = None
+    seconds: float | None = None
+
+
+class Observed(_Part):
+    """What the run showed."""
+
+    command: str = ""
+    clock: Literal["virtual", "wall"] | None = None
+    ticks: list[Tick] = Field(default_factory=list)
+    nodes: list[str] = Field(default_factory=list)
+    exit: Exit | None = None
+
+
+class Evidence(_Part):
+    """The texts that the verdict rests on, cut to a bounded length in the middle."""
+
+    build_log: str = ""
+    transcript: str = ""
+
+
+class Timing(_Part):
+    """Seconds of wall time of each stage."""
+
+    setup: float = 0
+    intake: float = 0
+    build: float = 0
+    run: float = 0
+    total: float = 0
+
+
+class Report(_Part):
+    """The verdict on one submission on one distro."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+
+    schema_: Literal[1] = Field(default=1, alias="schema")
+    assignment: AssignmentInfo
+    submission: SubmissionInfo
+    environment: Environment
+    status: Literal["graded", "error"]
+    message: str = ""
+    score: float
+    max_score: float
+    lang: str = "en"
+    attempts: int = 1
+    checks: list[CheckResult]
+    observed: Observed = Field(default_factory=Observed)
+    evidence: Evidence = Field(default_factory=Evidence)
+    timing: Timing = Field(default_factory=Timing)
+    started: str
+
+    def check(self, check_id: str) -> CheckResult:
+        """Return the result of one check; KeyError if the assignment does not have it."""
+        for result in self.checks:
+            if result.id == check_id:
+                return result
+        raise KeyError(check_id)
+
+    @property
+    def inconclusive(self) -> float:
+        """The points that could be neither given nor taken."""
+        return sum(c.max_score for c in self.checks if c.status in ("inconclusive", "error"))
+
+    @property
+    def all_passed(self) -> bool:
+        """Whether every check passed."""
+        return self.status == "graded" and all(c.status == "passed" for c in self.checks)

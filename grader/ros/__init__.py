@@ -1,0 +1,1 @@
+"""ROS 2 distros, and the prefixes that stand for them."""

@@ -1,0 +1,72 @@
+"""Where the grader keeps what it makes once, and how a folder is made there: whole or not at all."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from grader.errors import SurroundingsError
+
+Say = Callable[[str], None]
+
+
+def cache_root() -> Path:
+    """Return the cache folder: $GRADER_CACHE, else $XDG_CACHE_HOME/ros2_teaching_lab."""
+    own = os.environ.get("GRADER_CACHE")
+    if own:
+        return Path(own).absolute()
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "ros2_teaching_lab"
+
+
+@contextmanager
+def locked(path: Path, *, say: Say) -> Iterator[None]:
+    """Hold an exclusive lock on `path` (the kernel lets go of it however the holder ends)."""
+    with path.open("a") as handle:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say("another grader is making the same prefix: waiting for it")
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
+def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
+    """Make `folder` by `make(staging)` unless it is there; return whether it was made now.
+
+    Two at once make one: the second waits for the first. What is killed half-way leaves a staging
+    folder that the next one clears away; `folder` appears by one rename, complete.
+    """
+    if folder.is_dir():
+        return False
+    old_umask = os.umask(0o022)  # other user ids inside a sandbox must be able to read it
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with locked(folder.parent / f".{folder.name}.lock", say=say):
+            if folder.is_dir():
+                return False
+            for left in folder.parent.glob(f".{folder.name}.making-*"):
+                shutil.rmtree(left, ignore_errors=True)
+            prefix = f".{folder.name}.making-"
+            staging = Path(tempfile.mkdtemp(prefix=prefix, dir=folder.parent))
+            staging.chmod(0o755)
+            try:
+                make(staging)
+                staging.rename(folder)
+            finally:
+                shutil.rmtree(staging, ignore_errors=True)
+    except OSError as error:
+        raise SurroundingsError(
+            f"cannot make {folder}: {error.strerror or error}",
+            remedy="Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE "
+            "to a folder on another disk.",
+        ) from error
+    finally:
+        os.umask(old_umask)
+    return True

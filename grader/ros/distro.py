@@ -1,0 +1,58 @@
+"""The ROS 2 releases that are known: one row of `distros.toml` each."""
+
+from __future__ import annotations
+
+import difflib
+import sys
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from grader.errors import UsageError
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:  # pragma: no cover - the same reader under its old name
+    import tomli as tomllib
+
+HERE = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class Distro:
+    """One release. `lock` is the lock file of its wheels prefix, None where PyPI has no wheels."""
+
+    name: str
+    ubuntu: str
+    ubuntu_name: str
+    python: str
+    setuptools: str
+    image: str
+    end_of_life: str = ""
+    rclpy: str = ""
+    lock: Path | None = None
+
+
+@lru_cache(maxsize=1)
+def distros() -> dict[str, Distro]:
+    """Return every known distro by name, in the order of their release."""
+    rows = tomllib.loads((HERE / "distros.toml").read_text(encoding="utf-8"))
+    known = {}
+    for name, row in rows.items():
+        wheels = row.pop("wheels", {})
+        lock = HERE / "locks" / wheels["lock"] if wheels else None
+        known[name] = Distro(name=name, rclpy=wheels.get("rclpy", ""), lock=lock, **row)
+    return known
+
+
+def find_distro(name: str) -> Distro:
+    """Return the distro of that name; UsageError (with a "did you mean") if it is not known."""
+    known = distros()
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name.lower(), known, n=1)
+    hint = f"did you mean '{close[0]}'? " if close else ""
+    raise UsageError(
+        f"'{name}' is not a ROS 2 distro that the grader knows",
+        remedy=f"{hint}Known: {', '.join(known)}.",
+    )

@@ -1,0 +1,104 @@
+"""The `ros2` command line: find the command and the verb, read their arguments, run them.
+
+Only the modules that a command line names are imported, as in ros2cli (its
+``add_subparsers_on_demand``): a node should not wait for code that it does not need.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+from .parsing import Parser
+from .parsing import add_commands
+from .parsing import first_word
+from .parsing import summary
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Sequence
+    from types import ModuleType
+
+    from .parsing import Result
+
+COMMANDS = ("node", "pkg", "run", "topic")
+# The real command lists these among its choices; they need its daemon and its plug-ins.
+ABSENT = ("daemon", "extension_points", "extensions")
+
+
+def main(argv: Sequence[str] | None = None) -> Result:
+    """Run `ros2` with these arguments (default: the process's own) and return what to exit with.
+
+    An int is the exit status, a text is an error message for stderr with status 1.
+
+    Raises SystemExit with status 0 after `-h` and 2 after a usage error (argparse), and what the
+    verbs raise: none of it is caught, as in ros2cli, so that the user sees what it shows there.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    command = first_word(arguments)
+    if command in ABSENT and arguments[0] == command:
+        return f"ros2 {command}: not in this prefix made of Python wheels; it needs a full ROS 2"
+    args = _parser(command, arguments).parse_args(arguments)
+    if not args.use_python_default_buffering and hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(line_buffering=True)
+    try:
+        return _run(args)
+    except KeyboardInterrupt:
+        import signal  # noqa: PLC0415 (a small module, yet most verbs have no use for it)
+
+        return signal.SIGINT
+
+
+def _run(args: Namespace) -> Result:
+    verb: ModuleType | None = args.verb
+    if verb is None:
+        args.parser.print_help()
+        return 0
+    result: Result = verb.main(args)
+    return result
+
+
+def _parser(command: str | None, arguments: list[str]) -> Parser:
+    parser = Parser(prog="ros2", description="ros2 is an extensible command-line tool for ROS 2.")
+    parser.add_argument(
+        "--use-python-default-buffering",
+        action="store_true",
+        help="Do not force line buffering in stdout and instead use the python default buffering, "
+        "which might be affected by PYTHONUNBUFFERED/-u and depends on whatever stdout is "
+        "interactive or not",
+    )
+    parser.set_defaults(verb=None, parser=parser)
+    listed = {} if command else {name: summary(_module(name)) for name in COMMANDS}
+    subparsers = add_commands(parser, "ros2", listed)
+    for name in sorted(COMMANDS + ABSENT):
+        selected = _module(name) if name == command and name in COMMANDS else None
+        subparser = subparsers.add_parser(name, description=summary(selected) if selected else None)
+        if selected:
+            _fill(subparser, selected, command_line=f"ros2 {name}", arguments=arguments)
+    return parser
+
+
+def _fill(parser: Parser, module: ModuleType, *, command_line: str, arguments: list[str]) -> None:
+    """Give the selected command's parser its arguments, and its verbs where it has some."""
+    if hasattr(module, "add_arguments"):
+        module.add_arguments(parser)
+    verbs: tuple[str, ...] = getattr(module, "VERBS", ())
+    if not verbs:
+        parser.set_defaults(verb=module, parser=parser)
+        return
+    parser.set_defaults(verb=None, parser=parser)
+    name = command_line.partition(" ")[2]
+    verb = first_word(arguments[arguments.index(name) + 1 :])
+    listed = {} if verb else {each: summary(_module(f"{name}.{each}")) for each in verbs}
+    subparsers = add_commands(parser, command_line, listed)
+    for each in verbs:
+        selected = _module(f"{name}.{each}") if each == verb else None
+        subparser = subparsers.add_parser(each, description=summary(selected) if selected else None)
+        if selected:
+            selected.add_arguments(subparser)
+            subparser.set_defaults(verb=selected, parser=subparser)
+
+
+def _module(name: str) -> ModuleType:
+    return import_module(f".{name}", __package__)

@@ -1,0 +1,3 @@
+"""Various node related sub-commands."""
+
+VERBS = ("list",)

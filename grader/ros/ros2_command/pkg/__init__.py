@@ -1,0 +1,3 @@
+"""Various package related sub-commands."""
+
+VERBS = ("create", "executables", "list", "prefix", "xml")

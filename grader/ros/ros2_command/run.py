@@ -1,0 +1,93 @@
+"""Run a package specific executable.
+
+Sources: ros2run 0.32.2 and, for kilted, ros2cli#899 (the signals are forwarded since 0.38.0).
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from argparse import REMAINDER
+
+from . import distro
+from .ament_index import package_executables
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from types import FrameType
+
+    from .parsing import Parser
+    from .parsing import Result
+
+
+def add_arguments(parser: Parser) -> None:
+    """Declare the arguments of `ros2 run`."""
+    parser.add_argument(
+        "--prefix",
+        help="Prefix command, which should go before the executable. Command must be wrapped in "
+        "quotes if it contains spaces (e.g. --prefix 'gdb -ex run --args').",
+    )
+    parser.add_argument("package_name", help="Name of the ROS package")
+    parser.add_argument("executable_name", help="Name of the executable")
+    parser.add_argument("argv", nargs=REMAINDER, help="Pass arbitrary arguments to the executable")
+
+
+def main(args: Namespace) -> Result:
+    """Run the executable until it ends and return its status, negative for a signal.
+
+    Raises OSError when the program cannot be started (a `--prefix` that does not exist, a script
+    without shebang) or no ROS environment was sourced: the real command does not catch it either.
+    """
+    paths = package_executables(args.package_name)
+    if paths is None:
+        return f"Package '{args.package_name}' not found"
+    paths = [path for path in paths if os.path.basename(path) == args.executable_name]  # noqa: PTH119
+    if not paths:
+        return "No executable found"
+    if len(paths) > 1:
+        return "\n- ".join(["Multiple executables found:", *paths])
+    return run([*_words(args.prefix), paths[0], *args.argv])
+
+
+def run(command: list[str]) -> int:
+    """Start a command, wait for its end, and say on stdout how it failed if it did.
+
+    Ctrl+C on a terminal reaches the whole foreground process group, so the child has had it too:
+    waiting goes on. In kilted SIGINT and SIGTERM are passed on to the child, which makes it two
+    SIGINTs for one Ctrl+C.
+
+    Returns the child's status, -N if signal N ended it. Raises OSError as `main` does.
+    """
+    child = subprocess.Popen(command)
+    if distro.is_kilted():
+        _forward_signals(child)
+    while child.returncode is None:
+        try:
+            child.communicate()
+        except KeyboardInterrupt:
+            continue
+    if -child.returncode in signal.valid_signals():
+        print("[ros2run]:", signal.strsignal(-child.returncode))
+    elif child.returncode != 0:
+        print(f"[ros2run]: Process exited with failure {child.returncode}")
+    return child.returncode
+
+
+def _forward_signals(child: subprocess.Popen[bytes]) -> None:
+    def forward(number: int, _frame: FrameType | None) -> None:
+        print("[ros2run]: Received signal: ", signal.strsignal(number))
+        if child.poll() is None:
+            child.send_signal(number)
+
+    signal.signal(signal.SIGINT, forward)
+    signal.signal(signal.SIGTERM, forward)
+
+
+def _words(prefix: str | None) -> list[str]:
+    if prefix is None:
+        return []
+    import shlex  # noqa: PLC0415 (hardly ever used, and the child waits for it)
+
+    return shlex.split(prefix)

@@ -1,0 +1,16 @@
+"""Various topic related sub-commands."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ..parsing import Parser
+
+VERBS = ("list",)
+
+
+def add_arguments(parser: Parser) -> None:
+    """Declare the option that may stand before the verb."""
+    parser.add_argument(
+        "--include-hidden-topics", action="store_true", help="Consider hidden topics as well"
+    )

@@ -1,0 +1,153 @@
+"""One run: `ros2 run` on a pseudo-terminal, the probe beside it, then Ctrl+C."""
+
+from __future__ import annotations
+
+import shlex
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from dataclasses import field
+
+from grader.assignment import Assignment
+from grader.clock import Event
+from grader.clock import ForeignClock
+from grader.clock import Observer
+from grader.clock import VirtualClock
+from grader.clock import Watch
+from grader.clock import watch_wall
+from grader.probe_link import NodeSeen
+from grader.probe_link import ProbeLink
+from grader.sandbox.base import Sandbox
+from grader.terminal import Terminal
+
+COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen
+
+
+@dataclass
+class Run:
+    """What one run showed. Times in seconds: `first_line` since `ros2 run` was started."""
+
+    command: str
+    watch: Watch = field(default_factory=Watch)
+    nodes: tuple[NodeSeen, ...] = ()
+    started: bool = False
+    ended_by_itself: bool = False
+    interrupted: bool = False
+    stop_seconds: float | None = None
+    status: int | None = None
+    signal: int | None = None
+    transcript: str = ""
+    flooded: bool = False
+    timed_out: bool = False
+    resource: str = ""
+    seconds: float = 0
+    node_seconds: float | None = None
+    first_line_seconds: float | None = None
+
+
+def ros2_run(assignment: Assignment) -> str:
+    """Return the student's command with the one thing that is added to it."""
+    words = ["ros2", "run", assignment.package, assignment.executable]
+    return shlex.join([*words, "--ros-args", "-p", "use_sim_time:=true"])
+
+
+def observe(
+    sandbox: Sandbox,
+    assignment: Assignment,
+    probe: ProbeLink,
+    tell: Callable[[Event], None],
+) -> Run:
+    """Run the node, drive its clock, press Ctrl+C, and return what was seen.
+
+    Raises ProbeError where our own side failed.
+    """
+    limits = sandbox.limits
+    run = Run(command=ros2_run(assignment))
+    probe.ready()
+    script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {run.command}'
+    begin = time.monotonic()
+    terminal = Terminal(
+        sandbox.command(["bash", "-c", script]),
+        env=sandbox.outer_environment("student"),
+        most=int(limits.output),
+    )
+    try:
+        observer = Observer(terminal, probe, assignment.output)
+        follows = _wait_for_node(run, observer, begin, limits.start_seconds)
+        if run.nodes and not terminal.ended:
+            deadline = begin + limits.run_seconds
+            _watch(run, observer, assignment, tell, follows=follows, deadline=deadline)
+        run.watch.events += observer.settle()
+        counted = run.watch.counted
+        if counted:
+            run.first_line_seconds = counted[0].wall - terminal.started
+        run.ended_by_itself = terminal.ended
+        run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
+        run.timed_out = time.monotonic() - begin > limits.run_seconds
+        _stop(run, terminal, limits.stop_seconds)
+        run.watch.events += observer.take()
+    finally:
+        terminal.close()
+        run.transcript = terminal.transcript
+        run.flooded = terminal.flooded
+        run.seconds = time.monotonic() - begin
+    return run
+
+
+def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> bool:
+    """Wait for a node on the graph; return whether it follows `/clock`."""
+    first_seen: float | None = None
+    while not observer.terminal.ended and not observer.terminal.flooded:
+        answer = observer.probe.ask("wait", seconds=0.02)
+        events = observer.take(answer)
+        run.watch.before_start += events
+        run.watch.events += events
+        now = time.monotonic()
+        if answer.nodes:
+            first_seen = first_seen or now
+            run.nodes = answer.nodes
+            run.node_seconds = first_seen - begin
+            node = answer.nodes[0]
+            if node.clock and node.parameters and answer.matched:
+                return True
+            if now - first_seen > COMPLETE_SECONDS:
+                return any(node.clock for node in answer.nodes)
+        elif now - begin > most:
+            return False
+    return False
+
+
+def _watch(
+    run: Run,
+    observer: Observer,
+    assignment: Assignment,
+    tell: Callable[[Event], None],
+    *,
+    follows: bool,
+    deadline: float,
+) -> None:
+    output = assignment.output
+    if follows:
+        try:
+            VirtualClock(observer, output, deadline=deadline).drive(run.watch, tell)
+        except ForeignClock:
+            run.watch.foreign_clock = True
+            run.watch.note = "the node publishes /clock itself"
+            watch_wall(observer, output, run.watch, tell, deadline=deadline)
+    else:
+        run.watch.note = "the node does not follow /clock"
+        watch_wall(observer, output, run.watch, tell, deadline=deadline)
+    nodes = observer.probe.ask("look").nodes
+    run.nodes = nodes or run.nodes
+
+
+def _stop(run: Run, terminal: Terminal, seconds: float) -> None:
+    """Press Ctrl+C and see how it ends."""
+    pressed = time.monotonic()
+    if not terminal.ended and not terminal.flooded:
+        run.interrupted = True
+        terminal.interrupt()
+    _, ended = terminal.finish(seconds)
+    if ended:
+        run.stop_seconds = time.monotonic() - pressed
+        run.status, run.signal = terminal.status

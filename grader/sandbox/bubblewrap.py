@@ -1,0 +1,282 @@
+"""The `bubblewrap` sandbox: Linux namespaces, as root or as a user.
+
+A holder owns a network namespace with loopback alone, a read-only system and the workspace (a
+sized tmpfs). Every command enters it and gets PID, mount and IPC namespaces of its own there. The
+holder reads a pipe from the grader: whichever way the grader ends, the pipe closes, the holder
+ends, and the kernel ends every process in its PID namespace.
+
+What it does not protect from: faults of the kernel, and heat.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterator
+from collections.abc import Sequence
+from pathlib import Path
+from typing import IO
+
+from grader.errors import SurroundingsError
+from grader.limits import Limits
+from grader.ros.prefix import Ros
+from grader.sandbox.base import DISCOVERY_PROFILE
+from grader.sandbox.base import HOME
+from grader.sandbox.base import Role
+from grader.sandbox.base import Sandbox
+from grader.sandbox.base import need
+from grader.sandbox.cgroups import Group
+from grader.sandbox.cgroups import open_group
+
+WORKSPACE = f"{HOME}/ros2_ws"
+PROFILE = "/etc/grader/fastdds.xml"
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-release")
+FIRST_UID = 61_000
+UIDS = 4_000
+CAUSES = (
+    ("setting up uid map", "unprivileged user namespaces are not allowed here"),
+    ("No permissions to create", "unprivileged user namespaces are not allowed here"),
+    ("Operation not permitted", "namespaces are not allowed here (a container's seccomp filter?)"),
+    ("Creating new namespace failed", "the kernel allows no more user namespaces"),
+)
+
+
+class Bubblewrap(Sandbox):
+    """Commands in Linux namespaces made by bubblewrap."""
+
+    name = "bubblewrap"
+
+    def __init__(self, ros: Ros, limits: Limits) -> None:
+        super().__init__(ros, limits)
+        self._root = os.geteuid() == 0
+        self._bwrap = need("bwrap", shutil.which("bwrap"))
+        self._nsenter = need("nsenter", shutil.which("nsenter"))
+        self._holder: subprocess.Popen[bytes] | None = None
+        self._held_pid = 0
+        self._group = Group()
+        uid = FIRST_UID + 2 * (os.getpid() % (UIDS // 2))
+        self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
+
+    @property
+    def workspace(self) -> str:
+        return WORKSPACE
+
+    @property
+    def group(self) -> Group:
+        """The control group of the student's processes."""
+        return self._group
+
+    def profile_path(self, role: Role) -> str:
+        del role
+        return PROFILE
+
+    def open(self) -> None:
+        """Start the holder; SurroundingsError says why namespaces are refused, and the remedy."""
+        texts = {
+            "/etc/passwd": self._passwd(),
+            "/etc/group": "root:x:0:\nstudent:x:1000:\n",
+            "/etc/hosts": "127.0.0.1 localhost\n",
+            "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
+            PROFILE: DISCOVERY_PROFILE,
+        }
+        descriptors = {path: _memory_file(text) for path, text in texts.items()}
+        told, tell = os.pipe()
+        command = [self._bwrap, "--die-with-parent", "--info-fd", str(tell)]
+        command += ["--unshare-net", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
+        command += ["--hostname", "lab"]
+        if not self._root:
+            command += ["--unshare-user", "--uid", "0", "--gid", "0", "--cap-add", "ALL"]
+        command += self._mounts()
+        for path, descriptor in descriptors.items():
+            command += ["--perms", "0444", "--ro-bind-data", str(descriptor), path]
+        command += ["--remount-ro", "/", "--", "/bin/cat"]
+        try:
+            self._holder = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                pass_fds=[tell, *descriptors.values()],
+                start_new_session=True,
+                env={"PATH": "/usr/bin:/bin"},
+                preexec_fn=_ignore_interrupt,
+            )
+        finally:
+            for descriptor in (tell, *descriptors.values()):
+                os.close(descriptor)
+        with os.fdopen(told) as stream:
+            info = stream.read()
+        try:
+            self._held_pid = int(json.loads(info)["child-pid"])
+            self._wait_for_mounts(self._holder)
+        except (ValueError, KeyError):
+            raise self._refused() from None
+        self._group = open_group(self.limits)
+
+    def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
+        if self._holder is None or self._holder.poll() is not None:
+            raise SurroundingsError("the sandbox is closed or was ended from outside")
+        inner = [self._bwrap, *self._own_namespaces(role)]
+        for name, value in self.environment(role).items():
+            inner += ["--setenv", name, value]
+        if self._root:
+            uid = str(self._uids[role])
+            inner += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
+            inner += ["--cap-add", "CAP_SETPCAP", "--", "setpriv", f"--reuid={uid}"]
+            inner += [f"--regid={uid}", "--clear-groups", "--inh-caps=-all", "--bounding-set=-all"]
+        inner += ["--", *self._rlimits(role), "env", "--default-signal=INT", *argv]
+        enter = [self._nsenter, "-t", str(self._held_pid), "-m", "-n", "-p", "-i", "-u"]
+        if not self._root:
+            enter += ["-U", "--preserve-credentials"]
+        # bwrap would die of Ctrl+C and take the node's last words along: it ignores SIGINT, and the
+        # command inside has the default again (env --default-signal)
+        script = "trap '' INT; "
+        if role == "student":
+            script += "".join(f'echo 0 > "{entry}"; ' for entry in self._group.entries)
+        return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *enter, "--", *inner]
+
+    def held(self) -> dict[str, str]:
+        by = {"cpu_seconds": "rlimit", "file_size": "rlimit", "workspace": "tmpfs"}
+        by |= {"memory": "rlimit", "processes": "rlimit"}
+        return by | dict.fromkeys(self._group.holds, "cgroup")
+
+    def close(self) -> None:
+        holder, self._holder = self._holder, None
+        if holder is not None:
+            for stream in (holder.stdin, holder.stderr):
+                if stream is not None:
+                    stream.close()
+            try:  # the end of the first process of a PID namespace is the end of all in it
+                os.kill(self._held_pid, signal.SIGKILL)
+            except (ProcessLookupError, PermissionError):
+                pass
+            if holder.poll() is None:
+                holder.kill()
+            holder.wait()
+        self._group.close()
+
+    def _passwd(self) -> str:
+        uid = self._uids["student"] if self._root else 1000
+        return f"root:x:0:0::/root:/bin/sh\nstudent:x:{uid}:{uid}::{HOME}:/bin/bash\n"
+
+    def _mounts(self) -> Iterator[str]:
+        interpreter = self.ros.interpreter.parent.parent
+        for folder in _parents(WORKSPACE, PROFILE, self.ros.inside, str(interpreter)):
+            if not folder.startswith("/usr"):
+                yield from ("--perms", "0755", "--dir", folder)
+        for path in SYSTEM:
+            place = Path(path)
+            if place.is_symlink():
+                yield from ("--symlink", str(place.readlink()), path)
+            elif place.is_dir():
+                yield from ("--ro-bind", path, path)
+        for path in FILES:
+            yield from ("--ro-bind-try", path, path)
+        if not interpreter.is_relative_to("/usr"):
+            yield from ("--ro-bind", str(interpreter), str(interpreter))
+        yield from ("--ro-bind", str(self.ros.path), self.ros.inside)
+        yield from ("--dir", "/run", "--dir", "/tmp", "--proc", "/proc", "--dev", "/dev")  # noqa: S108
+        size = str(int(self.limits.workspace))
+        yield from ("--perms", "0777", "--size", size, "--tmpfs", WORKSPACE)
+
+    def _own_namespaces(self, role: Role) -> list[str]:
+        """Return the mounts and namespaces of one command."""
+        scratch = str(int(self.limits.workspace / 10))
+        options = ["--unshare-pid", "--unshare-ipc", "--ro-bind", "/", "/"]
+        if not self._root:
+            uid = "1000" if role == "student" else "1001"
+            options += ["--unshare-user", "--uid", uid, "--gid", uid]
+        options += ["--proc", "/proc", "--dev", "/dev"]
+        for path in ("/dev/shm", "/tmp", HOME):  # noqa: S108
+            options += ["--perms", "1777", "--size", scratch, "--tmpfs", path]
+        if role == "student":
+            options += ["--bind", WORKSPACE, WORKSPACE, "--chdir", WORKSPACE]
+        else:
+            options += ["--chdir", HOME]
+        return [*options, "--clearenv"]
+
+    def _rlimits(self, role: Role) -> list[str]:
+        limits = self.limits
+        words = ["prlimit", "--core=0", f"--fsize={int(limits.file_size)}"]
+        if role == "probe":
+            return words
+        words.append(f"--cpu={int(limits.cpu_seconds)}")
+        if "processes" not in self._group.holds:
+            words.append(f"--nproc={int(limits.processes)}")
+        if "memory" not in self._group.holds:
+            words.append(f"--as={int(limits.memory)}")
+        return words
+
+    def _wait_for_mounts(self, holder: subprocess.Popen[bytes]) -> None:
+        """Wait until `cat` runs in the holder: the mounts are complete then."""
+        assert holder.stdin is not None  # noqa: S101
+        while holder.poll() is None:
+            try:
+                if Path(os.readlink(f"/proc/{self._held_pid}/exe")).name != "bwrap":
+                    return
+                children = Path(f"/proc/{self._held_pid}/task/{self._held_pid}/children")
+                for child in children.read_text().split():
+                    if Path(os.readlink(f"/proc/{child}/exe")).name != "bwrap":
+                        return
+            except OSError:
+                pass
+            os.sched_yield()
+        raise ValueError
+
+    def _refused(self) -> SurroundingsError:
+        assert self._holder is not None and self._holder.stderr is not None  # noqa: S101, PT018
+        stream: IO[bytes] = self._holder.stderr
+        self._holder.wait()
+        said = stream.read().decode(errors="replace").strip()
+        return SurroundingsError(
+            f"bubblewrap cannot make a sandbox: {_cause(said)}\n  it said: {said or 'nothing'}",
+            remedy=_remedy(said),
+        )
+
+
+def _cause(said: str) -> str:
+    for mark, cause in CAUSES:
+        if mark in said:
+            return cause
+    return "its call failed"
+
+
+def _remedy(said: str) -> str:
+    restricted = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
+    if restricted.is_file() and restricted.read_text().strip() == "1":
+        return (
+            "This system's AppArmor blocks them (Ubuntu 24.04 and later do). Either mark with "
+            "Docker (SANDBOX=docker), or let bwrap do it: give it an AppArmor profile with "
+            "`userns,` (see docs/sandboxes.md), or run the grader as root."
+        )
+    if Path("/.dockerenv").exists() or Path("/run/.containerenv").exists():
+        return (
+            "Inside a container: start it with `--security-opt seccomp=unconfined "
+            "--security-opt apparmor=unconfined --cap-add SYS_ADMIN`, or, if the container is "
+            "thrown away after each submission, use SANDBOX=account as root."
+        )
+    if "user namespaces" in _cause(said):
+        return "Allow them (sysctl user.max_user_namespaces=15000), or run the grader as root."
+    return "Mark with another sandbox (SANDBOX=docker), or report this with its text."
+
+
+def _parents(*paths: str) -> list[str]:
+    """Return the folders above these paths, outermost first."""
+    found = {str(parent) for path in paths for parent in Path(path).parents} - {"/"}
+    return sorted(found, key=lambda folder: (folder.count("/"), folder))
+
+
+def _memory_file(text: str) -> int:
+    descriptor = os.memfd_create("grader")
+    os.write(descriptor, text.encode())
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    return descriptor
+
+
+def _ignore_interrupt() -> None:
+    """Keep Ctrl+C at the grader's terminal from ending the holder before the grader has."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,0 +1,136 @@
+"""The workspace: `src/<package>` as the course teaches it, built by the real colcon in the sandbox.
+
+`colcon build` runs the student's setup.py, so it is the student's code that runs here; what comes
+back is text and a list of files.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import tarfile
+import time
+from dataclasses import dataclass
+from dataclasses import field
+
+from grader.errors import SurroundingsError
+from grader.sandbox.base import Outcome
+from grader.sandbox.base import Sandbox
+from grader.submission import Submission
+
+BUILD = "colcon build --symlink-install"
+MOST_LISTED = 2_000_000  # bytes of the listing of what was built
+INSPECT_SECONDS = 20.0
+INSPECT = r"""
+find install build -printf '%y %m %s %p\t%l\0' 2>/dev/null | head -c 1000000
+printf '\0\n'
+for file in build/*/*.egg-info/entry_points.txt; do
+  [ -f "$file" ] && head -c 100000 "$file"
+done
+true
+"""
+
+
+@dataclass(frozen=True)
+class Installed:
+    """A file in the workspace after the build; `kind` as find's %y: f, d, l (with `target`)."""
+
+    kind: str
+    mode: int
+    size: int
+    target: str = ""
+
+
+@dataclass(frozen=True)
+class Build:
+    """How the build went. `status` is None where a limit ended it (`stopped_by` says which)."""
+
+    command: str
+    status: int | None
+    log: str
+    seconds: float
+    stopped_by: str = ""
+    files: dict[str, Installed] = field(default_factory=dict, repr=False)
+    entry_points: str = ""
+
+    def is_installed(self, package: str) -> bool:
+        """Whether ROS finds the package: its marker is in the overlay's index."""
+        marker = f"install/{package}/share/ament_index/resource_index/packages/{package}"
+        return marker in self.files
+
+    @property
+    def finished(self) -> int:
+        """How many packages colcon says it has finished."""
+        match = re.search(r"^Summary: (\d+) packages? finished", self.log, re.MULTILINE)
+        return int(match.group(1)) if match else 0
+
+
+def as_tar(submission: Submission, folder: str) -> bytes:
+    """Return the package as a tar stream with `folder` as its root."""
+    stream = io.BytesIO()
+    now = int(time.time())
+    with tarfile.open(fileobj=stream, mode="w", format=tarfile.PAX_FORMAT) as tar:
+        for parent in ["src", f"src/{folder}"]:
+            tar.addfile(_entry(parent, tarfile.DIRTYPE, 0o755, now))
+        for file in submission.files:
+            name = f"src/{folder}/{file.path}"
+            if file.kind == "folder":
+                tar.addfile(_entry(name, tarfile.DIRTYPE, 0o755, now))
+            elif file.kind == "link":
+                entry = _entry(name, tarfile.SYMTYPE, 0o777, now)
+                entry.linkname = file.target
+                tar.addfile(entry)
+            else:
+                entry = _entry(name, tarfile.REGTYPE, file.mode & 0o755 | 0o600, now)
+                entry.size = len(file.data)
+                tar.addfile(entry, io.BytesIO(file.data))
+    return stream.getvalue()
+
+
+def _entry(name: str, kind: bytes, mode: int, now: int) -> tarfile.TarInfo:
+    entry = tarfile.TarInfo(name)
+    entry.type, entry.mode, entry.mtime = kind, mode, now
+    return entry
+
+
+def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
+    """Lay out the workspace and build it; SurroundingsError only where our own side failed."""
+    script = (
+        "tar -xf - || exit 250; "
+        f'. "{sandbox.ros_path}/setup.bash" || exit 251; exec {BUILD} < /dev/null'
+    )
+    outcome = sandbox.run(
+        ["bash", "-c", script],
+        stdin=as_tar(submission, package),
+        seconds=sandbox.limits.build_seconds,
+    )
+    log = outcome.output.decode("utf-8", errors="replace").replace("\r\n", "\n")
+    if outcome.status in (250, 251) and not outcome.stopped_by:
+        raise SurroundingsError(f"the workspace could not be laid out:\n{log[-2000:]}")
+    files, entry_points = _inspect(sandbox)
+    return Build(
+        command=BUILD,
+        status=outcome.status,
+        log=log,
+        seconds=outcome.seconds,
+        stopped_by=outcome.stopped_by,
+        files=files,
+        entry_points=entry_points,
+    )
+
+
+def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], str]:
+    outcome: Outcome = sandbox.run(
+        ["sh", "-c", INSPECT], seconds=INSPECT_SECONDS, output=MOST_LISTED
+    )
+    listing, _, rest = outcome.output.decode("utf-8", errors="replace").partition("\0\0\n")
+    if not rest and "\0\n" in listing:
+        listing, _, rest = listing.partition("\0\n")
+    files = {}
+    for row in listing.split("\0"):
+        head, _, target = row.partition("\t")
+        parts = head.split(" ", 3)
+        if len(parts) == 4 and parts[1].isdigit() and parts[2].isdigit():
+            kind, mode, size, path = parts
+            files[path] = Installed(kind, int(mode, 8), int(size), target)
+    return files, rest

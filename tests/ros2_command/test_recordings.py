@@ -1,0 +1,138 @@
+"""Every recording of the real ros2cli 0.32.2, replayed against ours."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pexpect
+import pytest
+from ros2_surroundings import Surroundings
+from ros2_surroundings import children
+from ros2_surroundings import files
+from ros2_surroundings import running
+from ros2_surroundings import without_places
+
+CASES: list[dict[str, Any]] = json.loads(
+    (Path(__file__).parents[1] / "recordings" / "ros2cli-jazzy.json").read_text()
+)["cases"]
+BY_NAME = {case["name"]: case for case in CASES}
+OUTPUT = [case["name"] for case in CASES if "stdout" in case]
+TYPED = [case["name"] for case in CASES if "after" in case]
+SIGNALLED = [case["name"] for case in CASES if "ros2_alive" in case]
+
+# "create again" is recorded in the folder of "create first", the others each in their own
+BEFORE = {"create again": "create first"}
+FOLDERS = {"create first": "twice", "create again": "twice"}
+# Written in our own words, so their sizes are ours too
+OWN_TEXT = re.compile(r"/test/test_\w+\.py$")
+
+
+def test_every_recording_is_replayed() -> None:
+    assert len(CASES) == 37
+    assert sorted(OUTPUT + TYPED + SIGNALLED) == sorted(BY_NAME)
+
+
+@pytest.mark.parametrize("name", OUTPUT)
+def test_output_status_and_files_are_the_recorded_ones(jazzy: Surroundings, name: str) -> None:
+    case = BY_NAME[name]
+    cwd = jazzy.root / FOLDERS.get(name, re.sub(r"\W", "_", name))
+    cwd.mkdir()
+    if "src" in case["argv"]:
+        (cwd / "src").mkdir()
+    if name in BEFORE:
+        jazzy.ros2(*BY_NAME[BEFORE[name]]["argv"][1:], cwd=cwd)
+    if name == "run without exec bit":
+        (jazzy.executables / "three").chmod(0o644)
+
+    done = jazzy.ros2(*case["argv"][1:], cwd=cwd)
+
+    assert jazzy.normalised(done.stdout) == case["stdout"]
+    assert jazzy.normalised(done.stderr) == case["stderr"]
+    assert done.status == case["status"]
+    if "created" in case:
+        created = files(cwd)
+        assert list(created) == sorted(case["created"])
+        for path, recorded in case["created"].items():
+            ignored = {"bytes"} if OWN_TEXT.search(path) else set()
+            assert {k: v for k, v in created[path].items() if k not in ignored} == {
+                k: v for k, v in recorded.items() if k not in ignored
+            }, path
+
+
+@contextmanager
+def on_a_terminal(jazzy: Surroundings, *command: str) -> Iterator[pexpect.spawn[str]]:
+    terminal: pexpect.spawn[str] = pexpect.spawn(
+        command[0],
+        list(command[1:]),
+        env=jazzy.environment,
+        encoding="utf-8",
+        timeout=30,
+        dimensions=(40, 200),
+    )
+    try:
+        yield terminal
+    finally:
+        terminal.close(force=True)
+
+
+@pytest.mark.parametrize("name", TYPED)
+def test_ctrl_c_on_the_terminal_ends_as_recorded(jazzy: Surroundings, name: str) -> None:
+    case = BY_NAME[name]
+    executable = case["argv"][-1]
+    ros2 = str(jazzy.prefix / "bin" / "ros2")
+    with on_a_terminal(jazzy, ros2, "run", "my_robot_controller", executable) as terminal:
+        terminal.expect_exact({"wait": "waiting", "hang": "hanging"}[executable] + "\r\n")
+        terminal.sendintr()
+        terminal.expect(pexpect.EOF)
+        after = terminal.before
+        terminal.wait()
+
+    assert terminal.exitstatus == case["status"]
+    assert terminal.signalstatus == case["signal"]
+    if executable == "wait":
+        assert after == case["after"]
+    else:
+        # recorded is the last part of the traceback of Python 3.12
+        recorded = without_places(case["after"].partition("\r\n")[2])
+        assert without_places(after).endswith(recorded)
+        if sys.version_info[:2] == (3, 12):  # 3.10 has no ^^^^ yet, 3.13 mixes them with ~~~~
+            assert jazzy.normalised(after).endswith(case["after"])
+
+
+@pytest.mark.parametrize("name", SIGNALLED)
+def test_a_signal_to_ros2_alone_does_as_recorded(jazzy: Surroundings, name: str) -> None:
+    case = BY_NAME[name]
+    number = signal.SIGINT if "SIGINT" in name else signal.SIGTERM
+    # A shell stays on the terminal, as a student's does: the end of the terminal's first process
+    # would end the node as well.
+    line = "ros2 run my_robot_controller hang; echo status $?; read line"
+    with on_a_terminal(jazzy, "/bin/sh", "-c", line) as terminal:
+        terminal.expect_exact("hanging\r\n")
+        (ros2,) = children(terminal.pid)
+        (node,) = children(ros2)
+        os.kill(ros2, number)
+        if case["ros2_alive"]:
+            _let_handle(ros2, number)
+        else:
+            terminal.expect_exact(f"status {128 - case['status']}\r\n")
+        assert (running(ros2), running(node)) == (case["ros2_alive"], case["node_alive"])
+        os.kill(node, signal.SIGKILL)
+
+
+def _let_handle(process: int, number: int) -> None:
+    """Wait until a process has no such signal pending any more."""
+    while _pending(process) & 1 << (number - 1):
+        os.sched_yield()
+
+
+def _pending(process: int) -> int:
+    lines = Path(f"/proc/{process}/status").read_text().splitlines()
+    return sum(int(line.split()[1], 16) for line in lines if line.startswith(("SigPnd", "ShdPnd")))
