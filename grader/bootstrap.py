@@ -121,8 +121,7 @@ def need_bubblewrap():
                 return
             say(result.stderr.decode(errors="replace").strip())
             break
-    say("bubblewrap is missing: install it (e.g. sudo apt-get install bubblewrap), or mark with "
-        "another sandbox (SANDBOX=docker)")
+    say("bubblewrap is missing: install it, e.g. sudo apt-get install bubblewrap")
 
 
 def main():

@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from dataclasses import field
+from dataclasses import replace
 from typing import Literal
 
 from grader.assignment import Output
@@ -51,6 +52,7 @@ class Event:
     n: int | None
     due: int | None = None
     record: LogRecord | None = None
+    logger: str = ""
 
 
 @dataclass
@@ -120,7 +122,7 @@ class Observer:
             if (stamp, name, text) in known:
                 self.shown.add((stamp, name, text))
             elif time.time() - line.wall > GRACE:
-                faked.append(self._event(text, line.wall, "faked", None))
+                faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
             else:
                 waiting.append(line)
         self._unmatched = waiting
@@ -197,7 +199,7 @@ class VirtualClock:
         found: list[Event] = []
         for attempt in range(10 * TRIES):
             events, _ = self._step(due, wait=attempt > 0)
-            found += [_at(event, k) for event in events]
+            found += [replace(event, due=k) for event in events]
             if any(event.n is not None for event in found):
                 break
             enough = TRIES / 4 if found else TRIES  # another line has come: is it the tick?
@@ -283,10 +285,6 @@ class VirtualClock:
 
 class ForeignClock(Exception):  # noqa: N818
     """Somebody else publishes `/clock` too: it measures nothing then."""
-
-
-def _at(event: Event, k: int) -> Event:
-    return Event(event.text, event.wall, event.virtual, event.source, event.n, k, event.record)
 
 
 def watch_wall(

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import cached_property
 
 from grader.assignment import Assignment
+from grader.checks.registry import Inconclusive
 from grader.report.model import CheckResult
 from grader.running import Run
 from grader.submission import Submission
@@ -29,18 +30,31 @@ class Evidence:
         self.results: dict[str, CheckResult] = {}
         self._make_build = build
         self._make_run = run
-        self.has_run = False
+        self._run: Run | None = None
+        self.run_failed: Inconclusive | None = None
 
     @cached_property
     def build(self) -> Build:
         """The build; made now if nobody has asked before."""
         return self._make_build()
 
-    @cached_property
+    @property
     def run(self) -> Run:
-        """The run; made now if nobody has asked before."""
-        self.has_run = True
-        return self._make_run()
+        """The run; made now if nobody has asked before. Raises Inconclusive where it failed us."""
+        if self._run is None:
+            if self.run_failed is not None:
+                raise self.run_failed
+            try:
+                self._run = self._make_run()
+            except Inconclusive as failure:
+                self.run_failed = failure
+                raise
+        return self._run
+
+    @property
+    def has_run(self) -> bool:
+        """Whether there is a run to look at."""
+        return self._run is not None
 
     @property
     def was_built(self) -> bool:

@@ -40,6 +40,7 @@ class Run:
     flooded: bool = False
     timed_out: bool = False
     resource: str = ""
+    inconsistent: bool = False
     seconds: float = 0
     node_seconds: float | None = None
     first_line_seconds: float | None = None

@@ -55,6 +55,7 @@ class CheckResult(_Part):
     mistakes: list[Mistake] = Field(default_factory=list)
     where: Where | None = None
     depends: list[str] = Field(default_factory=list)
+    blocked_by: str = Field(default="", description="the check because of which it was skipped")
     seconds: float = 0
 
 

@@ -17,12 +17,18 @@ Say = Callable[[str], None]
 
 
 def cache_root() -> Path:
-    """Return the cache folder: $GRADER_CACHE, else $XDG_CACHE_HOME/ros2_teaching_lab."""
+    """Return the cache folder: $GRADER_CACHE, else $XDG_CACHE_HOME/ros2_teaching_lab.
+
+    Root's is in /var/cache, since the other users of a sandbox must be able to read it.
+    """
     own = os.environ.get("GRADER_CACHE")
     if own:
         return Path(own).absolute()
     base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "ros2_teaching_lab"
+    if base:
+        return Path(base) / "ros2_teaching_lab"
+    home = Path("/var/cache") if os.geteuid() == 0 else Path.home() / ".cache"
+    return home / "ros2_teaching_lab"
 
 
 @contextmanager

@@ -114,6 +114,10 @@ class Sandbox(ABC):
     def held(self) -> dict[str, str]:
         """Return what holds each limit here: cgroup, rlimit, tmpfs, grader or none."""
 
+    def resource_met(self) -> str:
+        """Return the limit on the whole submission that its processes ran into, "" if none."""
+        return ""
+
     def limit_report(self) -> dict[str, LimitInfo]:
         """Return every limit with what holds it."""
         by = dict.fromkeys(UNITS, "grader") | self.held()
@@ -134,10 +138,15 @@ class Sandbox(ABC):
             "TERM": "xterm-256color",
             "ROS_DOMAIN_ID": "0",
             "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
-            "FASTRTPS_DEFAULT_PROFILES_FILE": self.profile_path(role),
-            "FASTDDS_DEFAULT_PROFILES_FILE": self.profile_path(role),
+            self._profile_variable: self.profile_path(role),
         }
         return base | self.extra_environment()
+
+    @property
+    def _profile_variable(self) -> str:
+        """Fast DDS 3 (kilted on) has another name for it, and fails if both are set."""
+        old = self.ros.distro.name in ("humble", "jazzy")
+        return "FASTRTPS_DEFAULT_PROFILES_FILE" if old else "FASTDDS_DEFAULT_PROFILES_FILE"
 
     def extra_environment(self) -> dict[str, str]:
         """Return what this kind of sandbox adds to (or changes in) the list."""
@@ -242,6 +251,6 @@ def need(program: str, found: str | None) -> str:
         raise SurroundingsError(
             f"the program {program} is missing",
             remedy="Install it (Debian and Ubuntu: `sudo apt-get install bubblewrap util-linux "
-            "coreutils`), or choose another sandbox (SANDBOX=docker).",
+            "coreutils`).",
         )
     return found

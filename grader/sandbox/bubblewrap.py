@@ -65,11 +65,6 @@ class Bubblewrap(Sandbox):
     def workspace(self) -> str:
         return WORKSPACE
 
-    @property
-    def group(self) -> Group:
-        """The control group of the student's processes."""
-        return self._group
-
     def profile_path(self, role: Role) -> str:
         del role
         return PROFILE
@@ -138,6 +133,9 @@ class Bubblewrap(Sandbox):
         if role == "student":
             script += "".join(f'echo 0 > "{entry}"; ' for entry in self._group.entries)
         return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *enter, "--", *inner]
+
+    def resource_met(self) -> str:
+        return self._group.met()
 
     def held(self) -> dict[str, str]:
         by = {"cpu_seconds": "rlimit", "file_size": "rlimit", "workspace": "tmpfs"}
@@ -249,8 +247,7 @@ def _remedy(said: str) -> str:
     restricted = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
     if restricted.is_file() and restricted.read_text().strip() == "1":
         return (
-            "This system's AppArmor blocks them (Ubuntu 24.04 and later do). Either mark with "
-            "Docker (SANDBOX=docker), or let bwrap do it: give it an AppArmor profile with "
+            "This system's AppArmor blocks them (Ubuntu 24.04 and later do). Either give bwrap an AppArmor profile with "
             "`userns,` (see docs/sandboxes.md), or run the grader as root."
         )
     if Path("/.dockerenv").exists() or Path("/run/.containerenv").exists():
@@ -261,7 +258,7 @@ def _remedy(said: str) -> str:
         )
     if "user namespaces" in _cause(said):
         return "Allow them (sysctl user.max_user_namespaces=15000), or run the grader as root."
-    return "Mark with another sandbox (SANDBOX=docker), or report this with its text."
+    return "Report this with its text."
 
 
 def _parents(*paths: str) -> list[str]:

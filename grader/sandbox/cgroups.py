@@ -49,6 +49,12 @@ class Group:
                     return True
         return False
 
+    def met(self) -> str:
+        """Return which limit the group ran into, "" if none."""
+        if self.killed_for_memory():
+            return "memory"
+        return "processes" if self.hit_process_limit() else ""
+
     def close(self) -> None:
         """Remove the group; its processes have been killed already, the kernel may need a moment."""
         for folder in self.folders:

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from ros2_surroundings import Surroundings
-from ros2_surroundings import umask_of_a_student
+
+from .surroundings import Surroundings
+from .surroundings import umask_of_a_student
 
 
 @pytest.fixture(autouse=True)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 import pytest
-from ros2_surroundings import PACKAGE
-from ros2_surroundings import Surroundings
+
+from .surroundings import PACKAGE
+from .surroundings import Surroundings
 
 ROOT_HELP = """\
 usage: ros2 [-h] [--use-python-default-buffering]

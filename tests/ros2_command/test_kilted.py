@@ -10,8 +10,9 @@ import sys
 
 import pexpect
 import pytest
-from ros2_surroundings import Surroundings
-from ros2_surroundings import files
+
+from .surroundings import Surroundings
+from .surroundings import files
 
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
 # Tells of each SIGINT and SIGTERM, and ends at SIGTERM

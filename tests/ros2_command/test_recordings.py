@@ -14,11 +14,12 @@ from typing import Any
 
 import pexpect
 import pytest
-from ros2_surroundings import Surroundings
-from ros2_surroundings import children
-from ros2_surroundings import files
-from ros2_surroundings import running
-from ros2_surroundings import without_places
+
+from .surroundings import Surroundings
+from .surroundings import children
+from .surroundings import files
+from .surroundings import running
+from .surroundings import without_places
 
 CASES: list[dict[str, Any]] = json.loads(
     (Path(__file__).parents[1] / "recordings" / "ros2cli-jazzy.json").read_text()

@@ -6,9 +6,10 @@ import os
 import signal
 
 import pytest
-from ros2_surroundings import Surroundings
-from ros2_surroundings import add_marker
-from ros2_surroundings import write_script
+
+from .surroundings import Surroundings
+from .surroundings import add_marker
+from .surroundings import write_script
 
 SAY_WHERE = '#!/bin/sh\necho "$0" "$@"\n'
 

@@ -63,16 +63,30 @@ def run(command: list[str]) -> int:
     child = subprocess.Popen(command)
     if distro.is_kilted():
         _forward_signals(child)
-    while child.returncode is None:
-        try:
-            child.communicate()
-        except KeyboardInterrupt:
-            continue
+    _outlive(child)
     if -child.returncode in signal.valid_signals():
         print("[ros2run]:", signal.strsignal(-child.returncode))
     elif child.returncode != 0:
         print(f"[ros2run]: Process exited with failure {child.returncode}")
     return child.returncode
+
+
+def _outlive(child: subprocess.Popen[bytes]) -> None:
+    """Wait for the child's end, whatever is typed meanwhile.
+
+    ros2cli calls communicate() again after each KeyboardInterrupt. On a busy machine the child's
+    end and the interrupt come together, the status is lost with the interrupted call, and
+    subprocess makes a 0 of it. Here the end is awaited first, and the status fetched after that.
+    """
+    while child.returncode is None:
+        try:
+            os.waitid(os.P_PID, child.pid, os.WEXITED | os.WNOWAIT)
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+            child.wait()
+        except KeyboardInterrupt:
+            continue
+        except ChildProcessError:  # reaped already: by poll(), or as SIGCHLD is ignored
+            child.wait()
 
 
 def _forward_signals(child: subprocess.Popen[bytes]) -> None:

@@ -1,0 +1,62 @@
+# The front door. Variables are data: `make grade STUDENT='any name; $(at) all'` runs nothing of it.
+# GNU make's own rule: every failure is exit status 2. Scripts call .venv/bin/grader.
+
+.DEFAULT_GOAL := help
+.PHONY: help setup grade check test test-all bench lock lint clean
+SHELL := /bin/sh
+
+# A variable's raw text goes to the recipes through the environment, never through make or a shell.
+VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT PYTHON PYTEST_ARGS
+$(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
+
+BOOTSTRAP := python3 grader/bootstrap.py --python "$${PYTHON:-python3}"
+GRADER := .venv/bin/python -m grader
+OPTIONS := $${ASSIGNMENT:+--assignment "$$ASSIGNMENT"} $${DISTRO:+--distro "$$DISTRO"} \
+  $${SANDBOX:+--sandbox "$$SANDBOX"}
+
+help:  ## Show this help
+	@echo "ROS 2 teaching lab and autograder"
+	@echo
+	@sed -n 's/^\([a-z-]*\):.*##/  make \1\t/p' Makefile | expand -t 18
+	@echo
+	@echo "Variables: STUDENT=path PACKAGE=path ASSIGNMENT=hello_time DISTRO=jazzy[,kilted]"
+	@echo "           SANDBOX=auto NAME=student OUT=reports PYTHON=python3"
+
+setup:  ## Make the grader's environment and the ROS prefix, once (DISTRO=jazzy)
+	@$(BOOTSTRAP)
+	@$(GRADER) prefix $${DISTRO:+--distro "$$DISTRO"}
+
+grade:  ## Mark one package: make grade STUDENT=path
+	@if [ -z "$$STUDENT" ]; then \
+	  echo "make grade: say which package: make grade STUDENT=path/to/package" >&2; exit 2; fi
+	@$(BOOTSTRAP)
+	@$(GRADER) grade $(OPTIONS) $${NAME:+--name "$$NAME"} $${OUT:+--out "$$OUT"} -- "$$STUDENT"
+
+check:  ## Check your own package before handing it in: make check [PACKAGE=path]
+	@$(BOOTSTRAP)
+	@$(GRADER) check $(OPTIONS) $${PACKAGE:+-- "$$PACKAGE"}
+
+test:  ## Run the tests that need no Docker
+	@$(BOOTSTRAP) --tests
+	@$(MAKE) --no-print-directory lint
+	@.venv/bin/python -m pytest -q -m "not full" $${PYTEST_ARGS}
+
+test-all:  ## Run every test
+	@$(BOOTSTRAP) --tests
+	@$(MAKE) --no-print-directory lint
+	@.venv/bin/python -m pytest -q $${PYTEST_ARGS}
+
+lint:
+	@.venv/bin/python -m ruff check .
+	@.venv/bin/python -m ruff format --check .
+	@.venv/bin/python -m mypy grader tests
+
+bench:  ## Measure a verdict against the bare commands, as ratios in one run
+	@$(BOOTSTRAP) --tests
+	@.venv/bin/python -m tests.bench
+
+lock:  ## Write the lock files anew from their .in files (needs uv)
+	@sh grader/ros/locks/lock.sh
+
+clean:  ## Remove the environment and what was built here (not the ROS prefixes in the cache)
+	rm -rf .venv .venv.lock build install log .mypy_cache .ruff_cache .pytest_cache

@@ -1,0 +1,32 @@
+"""Every built-in check, in the order in which they are asked (a cause before what it causes)."""
+
+from __future__ import annotations
+
+from grader.checks import build
+from grader.checks import installed
+from grader.checks import package
+from grader.checks import running
+from grader.checks import source
+from grader.checks.registry import Check
+
+CHECKS: dict[str, Check] = {
+    declared.id: declared
+    for declared in (
+        package.found,
+        package.manifest,
+        package.marker,
+        package.setup_cfg,
+        source.node_file,
+        source.exec_bit,
+        source.shebang,
+        installed.mapping,
+        build.colcon_builds,
+        installed.executable,
+        running.starts,
+        running.node_name,
+        running.output,
+        running.logger,
+        running.period,
+        running.interrupt,
+    )
+}

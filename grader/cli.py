@@ -1,0 +1,272 @@
+"""The `grader` command. Exit status: 0 every check passed, 1 graded and something failed, 2 wrong
+usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+import click
+
+import grader
+from grader.errors import GraderError
+from grader.errors import UsageError
+
+if TYPE_CHECKING:
+    from grader.report.model import Report
+    from grader.runner import Order
+
+ISSUES = "the project's issue tracker"
+COURSE = "GRADER_COURSE"
+
+
+class Terminated(BaseException):
+    """SIGTERM came: everything is closed on the way out."""
+
+
+def _terminated(number: int, frame: FrameType | None) -> None:
+    del number, frame
+    raise Terminated
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    signal.signal(signal.SIGTERM, _terminated)
+    signal.signal(signal.SIGHUP, _terminated)
+    try:
+        status = commands.main(args=argv, prog_name="grader", standalone_mode=False)
+        return status if isinstance(status, int) else 0
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    except click.ClickException as error:
+        error.show()
+        return 2
+    except GraderError as error:
+        click.echo(f"grader: {error}", err=True)
+        return error.exit_status
+    except (KeyboardInterrupt, click.Abort):
+        click.echo("grader: interrupted; nothing was left running", err=True)
+        return 130
+    except Terminated:
+        click.echo("grader: terminated; nothing was left running", err=True)
+        return 143
+    except BrokenPipeError:  # the reader of our output has gone (| head)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(grader.__version__, "-V", "--version", prog_name="grader")
+def commands() -> None:
+    """Marks ROS 2 packages and says why.
+
+    Exit status: 0 every check passed, 1 something failed, 2 wrong usage, 3 the grader's own
+    surroundings failed, 130 interrupted.
+    """
+
+
+_assignment = click.option(
+    "--assignment",
+    default="hello_time",
+    show_default=True,
+    metavar="ID|FILE",
+    help="The assignment: its id, or the path of an assignment.yaml.",
+)
+_distro = click.option(
+    "--distro",
+    default="jazzy",
+    show_default=True,
+    help="The ROS 2 distro to mark on; several with commas between them.",
+)
+_sandbox = click.option(
+    "--sandbox",
+    default="auto",
+    show_default=True,
+    help="Where the student's code runs: auto, bubblewrap, account or none.",
+)
+_limit = click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated.",
+)
+_out = click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=Path("reports"),
+    show_default=True,
+    help="The folder that reports are written to.",
+)
+_verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence of every check.")
+
+
+@commands.command()
+@click.argument("path", type=click.Path(path_type=Path))
+@_assignment
+@_distro
+@_sandbox
+@click.option("--name", help="The student's name in the report (default: the folder's).")
+@_limit
+@_out
+@_verbose
+def grade(
+    path: Path,
+    assignment: str,
+    distro: str,
+    sandbox: str,
+    name: str | None,
+    limits: tuple[str, ...],
+    out: Path,
+    verbose: bool,
+) -> int:
+    """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
+    orders = _orders(path, assignment, distro, sandbox, limits, name=name)
+    return _mark(orders, out, verbose=verbose, show_hidden=True)
+
+
+@commands.command()
+@click.argument("path", type=click.Path(path_type=Path), required=False)
+@_assignment
+@_distro
+@_sandbox
+@_limit
+@_verbose
+def check(
+    path: Path | None,
+    assignment: str,
+    distro: str,
+    sandbox: str,
+    limits: tuple[str, ...],
+    verbose: bool,
+) -> int:
+    """Check your own package before handing it in: the same verdict, with the visible checks.
+
+    PATH is your package or workspace (default: the package in ~/ros2_ws, else the current
+    folder). It is your own code: where no sandbox is to be had it runs without one, and says so.
+    """
+    if path is None:
+        workspace = Path.home() / "ros2_ws"
+        path = workspace if workspace.is_dir() else Path.cwd()
+        click.echo(f"checking {path}", err=True)
+    orders = _orders(path, assignment, distro, sandbox, limits, own_code=True)
+    return _mark(orders, None, verbose=verbose, show_hidden=False)
+
+
+@commands.command()
+@click.option("--distro", default="jazzy", show_default=True)
+def prefix(distro: str) -> int:
+    """Make the ROS prefix of a distro from PyPI's wheels, if it is not there, and say where it is."""
+    from grader.ros.distro import find_distro  # noqa: PLC0415
+    from grader.ros.prefix import wheels_prefix  # noqa: PLC0415
+
+    found = wheels_prefix(find_distro(distro), say=lambda text: click.echo(text, err=True))
+    click.echo(found)
+    return 0
+
+
+def _orders(
+    path: Path,
+    assignment: str,
+    distro: str,
+    sandbox: str,
+    limits: tuple[str, ...],
+    *,
+    name: str | None = None,
+    own_code: bool = False,
+) -> list[Order]:
+    """Check every word of the command line before anything is run."""
+    # what takes long to import is imported only once a command needs it: --help does not
+    from grader.assignment import load_assignment  # noqa: PLC0415
+    from grader.limits import UNITS  # noqa: PLC0415
+    from grader.limits import Limits  # noqa: PLC0415
+    from grader.ros.distro import find_distro  # noqa: PLC0415
+    from grader.runner import Order  # noqa: PLC0415
+    from grader.sandbox.choose import check_name  # noqa: PLC0415
+
+    check_name(sandbox)
+    distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
+    if not distros:
+        raise UsageError("no distro was named", remedy="For example: --distro jazzy")
+    given = _limit_values(limits)
+    file, hidden = _assignment_files(assignment)
+    if own_code:
+        hidden = None
+    wanted = load_assignment(file, hidden=hidden, known_limits=tuple(UNITS))
+    bounds = Limits().override(wanted.limits).override(given)
+    return [
+        Order(
+            path=path,
+            assignment=wanted,
+            distro=found,
+            sandbox=sandbox,
+            name=name,
+            limits=bounds,
+            own_code=own_code,
+        )
+        for found in dict.fromkeys(distros)
+    ]
+
+
+def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
+    values = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        try:
+            values[name.strip()] = float(value)
+        except ValueError:
+            equals = ""
+        if not equals:
+            raise UsageError(f"--limit takes NAME=NUMBER, not '{word}'")
+    return values
+
+
+def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
+    """Return the assignment's file and its hidden checks, if this side has any."""
+    if "/" in assignment or assignment.endswith((".yaml", ".yml")):
+        return Path(assignment), None
+    here = Path(__file__).resolve().parent
+    course = Path(os.environ.get(COURSE) or here.parent / "lab" / "course")
+    file = course / assignment / "assignment.yaml"
+    if not file.is_file():
+        known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
+        raise UsageError(
+            f"there is no assignment '{assignment}' in {course}",
+            remedy=f"Assignments: {', '.join(known) or 'none'}; or give a file's path. "
+            f"${COURSE} names another course folder.",
+        )
+    hidden = here / "keys" / assignment / "hidden.yaml"
+    return file, hidden if hidden.is_file() else None
+
+
+def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:
+    from grader.report import files  # noqa: PLC0415
+    from grader.report import terminal  # noqa: PLC0415
+    from grader.runner import grade as mark  # noqa: PLC0415
+
+    reports: list[Report] = []
+    for order in orders:
+        with terminal.LiveProgress(sys.stderr) as progress:
+            report = mark(order, progress)
+        reports.append(report)
+        if out is not None:
+            written = files.write_report(report, out, report.submission.name)
+        if len(orders) == 1:
+            terminal.print_report(
+                report,
+                file=sys.stdout,
+                verbose=verbose,
+                show_hidden=show_hidden,
+                path=written if out is not None else None,
+            )
+        if report.environment.sandbox == "none":
+            click.echo("No sandbox was used: the package ran as you, with your files.", err=True)
+    if len(orders) > 1:
+        if out is not None:
+            files.write_matrix(reports, out, reports[0].submission.name)
+        terminal.print_matrix(reports, file=sys.stdout)
+    return 0 if all(report.all_passed for report in reports) else 1

@@ -1,0 +1,165 @@
+"""A page of text for a terminal, made with rich and returned as one string.
+
+It knows nothing of reports, and what it makes depends on its arguments alone: neither on the
+environment nor on the terminal that this process happens to have.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+NARROW = 60  # columns; below, what stands side by side comes one below the other
+WIDEST = 100  # columns; longer lines are hard to read
+LABEL = 11  # columns
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """A line of the table of checks, each cell fit to be shown."""
+
+    mark: str
+    style: str
+    name: str
+    text: str
+    score: str
+
+
+class Page:
+    """A page of `width` columns; without `styled` it has no control sequence at all.
+
+    Every string that it is given must be fit to be shown (see `grader.report.plain`); markup is
+    never interpreted.
+    """
+
+    def __init__(self, *, width: int, styled: bool) -> None:
+        self._out = io.StringIO()
+        self._styled = styled
+        self._width = max(20, min(width, WIDEST))
+        self._console = Console(
+            file=self._out,
+            width=self._width,
+            height=25,
+            force_terminal=styled,
+            force_jupyter=False,
+            color_system="standard" if styled else None,
+            no_color=not styled,
+            markup=False,
+            emoji=False,
+            highlight=False,
+            legacy_windows=False,
+        )
+
+    @property
+    def narrow(self) -> bool:
+        """Whether there is no room for columns."""
+        return self._width < NARROW
+
+    def __str__(self) -> str:
+        text = self._out.getvalue()
+        if self._styled:
+            return text
+        return "".join(f"{line.rstrip()}\n" for line in text.splitlines())
+
+    def gap(self) -> None:
+        """Leave a line free."""
+        self._console.print()
+
+    def line(self, *parts: str | tuple[str, str], indent: int = 0) -> None:
+        """Write a paragraph of strings and (string, style) pairs, wrapped at words."""
+        self._hang(Text.assemble(*parts), " " * indent, " " * indent)
+
+    def field(self, label: str, text: str | Sequence[str], style: str = "") -> None:
+        """Write `text` (lines, each wrapped at words) beside its label."""
+        lines = text.split("\n") if isinstance(text, str) else text
+        first = f"  {label:<{LABEL - 2}}"
+        rest = " " * LABEL
+        if self.narrow:
+            self._verbatim(Text(f"  {label}", style="bold"))
+            first = rest = "    "
+        for number, line in enumerate(lines):
+            self._hang(Text(line, style=style), first if number == 0 else rest, rest)
+
+    def code(self, label: str, lines: Sequence[str]) -> None:
+        """Write lines as they are: the terminal wraps what is too long, so they can be copied."""
+        rest = " " * (4 if self.narrow else LABEL)
+        first = f"  {label:<{LABEL - 2}}"
+        if self.narrow:
+            self._verbatim(Text(f"  {label}", style="bold"))
+            first = rest
+        for number, line in enumerate(lines):
+            lead = first if number == 0 else rest
+            self._verbatim(Text.assemble((lead, "bold"), (line, _diff_style(line))))
+
+    def quote(self, lines: Sequence[str]) -> None:
+        """Write what a program printed, with a bar before each line: nobody takes it for ours."""
+        for line in lines:
+            self._hang(Text(line), "  | ", "  |   ")
+
+    def table(self, rows: Sequence[Row]) -> None:
+        """Write the rows in columns; on a narrow page the text stands below the name."""
+        table = Table.grid(padding=(0, 2, 0, 0), expand=False)
+        table.add_column(no_wrap=True)
+        if not self.narrow:
+            table.add_column(no_wrap=True)
+        table.add_column(overflow="fold")
+        table.add_column(justify="right", no_wrap=True)
+        for row in rows:
+            mark, score = Text(row.mark, style=row.style), Text(row.score)
+            if self.narrow:
+                table.add_row(mark, Text(f"{row.name}\n{row.text}"), score)
+            else:
+                table.add_row(mark, Text(row.name), Text(row.text), score)
+        self._console.print(table)
+
+    def grid(self, heads: Sequence[str], rows: Sequence[Sequence[tuple[str, str]]]) -> None:
+        """Write a table with heads; the first column holds names, a cell is (string, style).
+
+        Columns that have no room go into another table below.
+        """
+        widths = [max(len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
+                  for n in range(len(heads))]
+        start = 1
+        while start < len(heads):
+            end, room = start + 1, self._width - min(widths[0], self._width // 2) - widths[start]
+            while end < len(heads) and widths[end] <= room:
+                room -= widths[end]
+                end += 1
+            self._grid([0, *range(start, end)], heads, rows)
+            start = end
+            if start < len(heads):
+                self.gap()
+
+    def _grid(
+        self,
+        columns: Sequence[int],
+        heads: Sequence[str],
+        rows: Sequence[Sequence[tuple[str, str]]],
+    ) -> None:
+        table = Table.grid(padding=(0, 2, 0, 0), expand=False)
+        table.add_column(overflow="fold", max_width=self._width // 2 if self.narrow else None)
+        for _ in columns[1:]:
+            table.add_column(no_wrap=True)
+        table.add_row(*(Text(heads[n], style="bold") for n in columns))
+        for cells in rows:
+            table.add_row(*(Text(cells[n][0], style=cells[n][1]) for n in columns))
+        self._console.print(table)
+
+    def _hang(self, text: Text, first: str, rest: str) -> None:
+        room = max(self._width - max(len(first), len(rest)), 10)
+        for number, line in enumerate(text.wrap(self._console, room, overflow="fold")):
+            lead = Text(first if number == 0 else rest, style="bold" if number == 0 else "")
+            line.rstrip()
+            self._verbatim(Text.assemble(lead, line))
+
+    def _verbatim(self, text: Text) -> None:
+        self._console.print(text, soft_wrap=True)
+
+
+def _diff_style(line: str) -> str:
+    return {"+": "green", "-": "red"}.get(line[:1], "")

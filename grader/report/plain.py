@@ -1,0 +1,80 @@
+"""Text of unknown origin made fit to be shown: no control characters, a bounded length.
+
+A submission decides what stands in its log lines, file names and error messages. Shown raw, they
+could move the cursor, change the clipboard, turn the reading direction or fake lines of a report.
+What cannot be seen is written as Python writes it in a string: `\\x1b`, `\\u202e`, `\\xa0`.
+"""
+
+from __future__ import annotations
+
+TAB = 4  # columns
+
+
+def visible(text: str) -> str:
+    """Return `text` with everything but printable characters, newlines and blanks spelled out.
+
+    Printable is what `str.isprintable` says: no control (C0, C1), format (bidi overrides, zero
+    width), surrogate or unassigned character, no separator but the blank.
+    """
+    text = text.replace("\r\n", "\n")
+    if "\t" in text:
+        text = text.expandtabs(TAB)
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" else _spelled(c) for c in text)
+
+
+def _spelled(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")
+
+
+def one_line(text: str, *, most: int = 300) -> str:
+    """Return `text` on one line (newlines spelled out), cut in the middle to `most` characters."""
+    return visible(_shorten(text, most=most)).replace("\n", "\\n")
+
+
+def first_lines(text: str, *, lines: int, most: int = 500) -> list[str]:
+    """Return at most `lines` lines of at most `most` characters; the middle is what is left out."""
+    found = _split(text)
+    if len(found) > lines:
+        head = (lines + 1) // 2
+        tail = lines - head
+        left_out = f"[... {len(found) - lines:,} lines left out ...]"
+        found = [*found[:head], left_out, *(found[-tail:] if tail else [])]
+    return [visible(_shorten(line, most=most)) for line in found]
+
+
+def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], int]:
+    """Return the last `lines` lines of at most `most` characters, and how many there are in all.
+
+    If Python's last traceback begins not far before them, all of it is kept.
+    """
+    found = _split(text)
+    start = max(len(found) - lines, 0)
+    for number in range(len(found) - 1, max(len(found) - 3 * lines, 0) - 1, -1):
+        if found[number].lstrip().startswith("Traceback (most recent call last)"):
+            start = min(start, number)
+            break
+    return [visible(_shorten(line, most=most)) for line in found[start:]], len(found)
+
+
+def points(value: float) -> str:
+    """Return points as people write them: 5, 2.5, 33.33."""
+    return f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def encodable(text: str, encoding: str | None) -> str:
+    """Return `text` with what the encoding does not have spelled out."""
+    name = encoding or "utf-8"
+    return text.encode(name, "backslashreplace").decode(name)
+
+
+def _split(text: str) -> list[str]:
+    return text.replace("\r\n", "\n").strip("\n").rstrip().split("\n")
+
+
+def _shorten(text: str, *, most: int) -> str:
+    if len(text) <= most:
+        return text
+    half = most // 2
+    return f"{text[:half]}[... {len(text) - 2 * half:,} characters left out ...]{text[-half:]}"

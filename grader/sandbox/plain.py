@@ -1,0 +1,281 @@
+"""The sandboxes without namespaces: `account` (another user id) and `none`.
+
+`account` is for a grader that runs as root in a container that is thrown away afterwards
+(Gradescope's, for one): student and probe are two unprivileged users, and every process of theirs
+is killed at the end. It does not keep the submission from the network or from reading what all
+users may read. `none` protects from nothing: it is for one's own code.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import random
+import secrets
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from collections.abc import Sequence
+from pathlib import Path
+
+from grader.errors import SurroundingsError
+from grader.limits import Limits
+from grader.ros.prefix import Ros
+from grader.sandbox.base import DISCOVERY_PROFILE
+from grader.sandbox.base import Role
+from grader.sandbox.base import Sandbox
+from grader.sandbox.base import need
+from grader.sandbox.cgroups import Group
+from grader.sandbox.cgroups import open_group
+
+PR_SET_CHILD_SUBREAPER = 36
+MARK = "GRADER_RUN"
+DOMAINS = range(1, 101)  # safe on Linux by ROS's documentation on ROS_DOMAIN_ID
+FIRST_UID = 65_600
+END_SECONDS = 10.0
+
+
+class Bare(Sandbox):
+    """No sandbox at all: the commands run as the user that runs the grader."""
+
+    name = "none"
+
+    def __init__(self, ros: Ros, limits: Limits) -> None:
+        super().__init__(ros, limits)
+        self._folder: Path | None = None
+        self._mark = secrets.token_hex(8)
+        self._domain = random.choice(DOMAINS)  # noqa: S311 - only to keep two runs apart
+        self._prlimit = need("prlimit", shutil.which("prlimit"))
+        self._group = Group()
+
+    @property
+    def folder(self) -> Path:
+        """The temporary folder that holds the workspace."""
+        if self._folder is None:
+            raise SurroundingsError("the sandbox is not open")
+        return self._folder
+
+    @property
+    def workspace(self) -> str:
+        return str(self.folder / "home" / "ros2_ws")
+
+    @property
+    def ros_path(self) -> str:
+        """`/opt/ros/<distro>` where it is there, else the prefix's own place."""
+        inside = Path(self.ros.inside)
+        return str(inside if (inside / "setup.bash").is_file() else self.ros.path)
+
+    def profile_path(self, role: Role) -> str:
+        del role
+        return str(self.folder / "fastdds.xml")
+
+    def open(self) -> None:
+        # the orphans of what we start become our children: so they can be found and ended
+        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+        self._folder = Path(tempfile.mkdtemp(prefix="grader-"))
+        self._folder.chmod(0o755)
+        for place in ("home", "home/ros2_ws", "probe", "tmp"):
+            (self._folder / place).mkdir()
+        (self._folder / "fastdds.xml").write_text(DISCOVERY_PROFILE, encoding="utf-8")
+        self._group = open_group(self.limits)
+
+    def extra_environment(self) -> dict[str, str]:
+        return {
+            "HOME": str(self.folder / "home"),
+            "TMPDIR": str(self.folder / "tmp"),
+            "ROS_DOMAIN_ID": str(self._domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            MARK: self._mark,
+        }
+
+    def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
+        environment = self.environment(role)
+        place = self.workspace if role == "student" else str(self.folder / "probe")
+        if role == "probe":
+            environment["HOME"] = place
+        words = ["env", "-i", f"--chdir={place}", "--default-signal=INT"]
+        words += [f"{name}={value}" for name, value in environment.items()]
+        inner = [*self._become(role), *self._rlimits(role), *words, *argv]
+        entries = self._group.entries if role == "student" else []
+        script = "".join(f'echo 0 > "{entry}"; ' for entry in entries)
+        return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *inner]
+
+    def resource_met(self) -> str:
+        return self._group.met()
+
+    def held(self) -> dict[str, str]:
+        by = {"cpu_seconds": "rlimit", "file_size": "rlimit", "workspace": "none"}
+        by |= {"memory": "rlimit", "processes": "none" if os.geteuid() == 0 else "rlimit"}
+        return by | dict.fromkeys(self._group.holds, "cgroup")
+
+    def close(self) -> None:
+        self._end_all()
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)
+            self._folder = None
+        self._group.close()
+
+    def _become(self, role: Role) -> list[str]:
+        del role
+        return []
+
+    def _rlimits(self, role: Role) -> list[str]:
+        limits = self.limits
+        words = [self._prlimit, "--core=0", f"--fsize={int(limits.file_size)}"]
+        if role == "student":
+            words.append(f"--cpu={int(limits.cpu_seconds)}")
+            if "memory" not in self._group.holds:
+                words.append(f"--as={int(limits.memory)}")
+        return words
+
+    def _end_all(self) -> None:
+        """Kill what carries our mark, until there is none (a child inherits the environment)."""
+        deadline = time.monotonic() + END_SECONDS
+        while time.monotonic() < deadline:
+            alive = list(self._ours())
+            for pid in alive:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    continue
+            _reap(alive)
+            if not alive:
+                return
+
+    def _ours(self) -> Iterator[int]:
+        mark = f"{MARK}={self._mark}".encode()
+        own = os.getpid()
+        children = _descendants(own)
+        for pid in _processes():
+            if pid == own:
+                continue
+            try:
+                marked = mark in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
+                state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+            except OSError:
+                continue
+            if marked and (state != "Z" or pid in children):
+                yield pid
+
+
+class Account(Bare):
+    """Student and probe as two unprivileged users; for root in a container thrown away later."""
+
+    name = "account"
+
+    def __init__(self, ros: Ros, limits: Limits) -> None:
+        super().__init__(ros, limits)
+        if os.geteuid() != 0:
+            raise SurroundingsError(
+                "the account sandbox needs root: it changes to other user ids",
+                remedy="Run the grader as root in a container that is thrown away afterwards, or "
+                "mark with SANDBOX=bubblewrap.",
+            )
+        uid = FIRST_UID + 2 * (os.getpid() % 10_000)
+        self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
+        self._linked: Path | None = None
+
+    def open(self) -> None:
+        super().open()
+        for place, role in (("home", "student"), ("home/ros2_ws", "student"), ("tmp", "student")):
+            os.chown(self.folder / place, self._uids[role], self._uids[role])  # type: ignore[index]
+        os.chown(self.folder / "probe", self._uids["probe"], self._uids["probe"])
+        inside = Path(self.ros.inside)
+        if not inside.exists():
+            inside.parent.mkdir(parents=True, exist_ok=True)
+            inside.symlink_to(self.ros.path)
+            self._linked = inside
+        for path in (self.ros.path, self.ros.interpreter):
+            _must_be_readable(path)
+
+    def held(self) -> dict[str, str]:
+        return {"processes": "rlimit"} | super().held() | dict.fromkeys(self._group.holds, "cgroup")
+
+    def close(self) -> None:
+        super().close()
+        if self._linked is not None:
+            self._linked.unlink(missing_ok=True)
+            self._linked = None
+
+    def end(self, process: subprocess.Popen[bytes]) -> None:
+        super().end(process)
+        self._end_user("student")
+
+    def _become(self, role: Role) -> list[str]:
+        uid = str(self._uids[role])
+        return [
+            "setpriv",
+            f"--reuid={uid}",
+            f"--regid={uid}",
+            "--clear-groups",
+            "--inh-caps=-all",
+            "--bounding-set=-all",
+            "--no-new-privs",
+        ]
+
+    def _rlimits(self, role: Role) -> list[str]:
+        words = super()._rlimits(role)
+        if role == "student" and "processes" not in self._group.holds:
+            words.append(f"--nproc={int(self.limits.processes)}")
+        return words
+
+    def _end_all(self) -> None:
+        for role in ("student", "probe"):
+            self._end_user(role)  # type: ignore[arg-type]
+        super()._end_all()
+
+    def _end_user(self, role: Role) -> None:
+        """Kill every process of a user at once: one call, which a fork bomb cannot outrun."""
+        script = "import os; os.kill(-1, 9)"
+        command = [*self._become(role), sys.executable, "-I", "-S", "-c", script]
+        if shutil.which("setpriv") is None:
+            return
+        subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
+        _reap(_descendants(os.getpid()))
+
+
+def _must_be_readable(path: Path) -> None:
+    for place in (path, *path.resolve().parents):
+        if not place.stat().st_mode & stat.S_IXOTH:
+            raise SurroundingsError(
+                f"other users cannot read {path}: {place} is closed to them",
+                remedy="Set GRADER_CACHE to a folder that everybody may read (e.g. "
+                "/var/cache/grader), and run the grader with a Python under /usr.",
+            )
+
+
+def _processes() -> Iterator[int]:
+    for entry in os.listdir("/proc"):
+        if entry.isdigit():
+            yield int(entry)
+
+
+def _descendants(root: int) -> set[int]:
+    parents: dict[int, int] = {}
+    for pid in _processes():
+        try:
+            stat_line = Path(f"/proc/{pid}/stat").read_text()
+        except OSError:
+            continue
+        parents[pid] = int(stat_line.rpartition(")")[2].split()[1])
+    found: set[int] = set()
+    todo = {root}
+    while todo:
+        todo = {pid for pid, parent in parents.items() if parent in todo and pid not in found}
+        found |= todo
+    return found
+
+
+def _reap(pids: object) -> None:
+    """Collect orphans that became our children; those of `subprocess` are left to it."""
+    for pid in pids if isinstance(pids, (list, set)) else ():
+        try:
+            if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
+                os.waitpid(pid, os.WNOHANG)
+        except OSError:
+            continue

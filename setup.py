@@ -1,0 +1,36 @@
+"""The ament_python package ros2_teaching_lab: colcon builds it like any other."""
+
+from pathlib import Path
+
+from setuptools import find_namespace_packages
+from setuptools import setup
+
+PACKAGE = "ros2_teaching_lab"
+COURSE = Path("lab/course")
+
+# the course content is data, found in the share folder as ROS packages have it
+course = {}
+for file in sorted(COURSE.rglob("*")):
+    if file.is_file() and "__pycache__" not in file.parts:
+        course.setdefault(f"share/{PACKAGE}/{file.parent.relative_to('lab')}", []).append(str(file))
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_namespace_packages(include=["grader", "grader.*"]),
+    include_package_data=True,
+    package_data={"": ["*.toml", "*.json", "*.txt", "*.in", "*.yaml"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        *course.items(),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+    maintainer="The maintainers",
+    maintainer_email="maintainers@users.noreply.h-seed-bdf1a219.example",
+    description="A ROS 2 teaching lab, and the autograder that marks its exercises.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={"console_scripts": ["grader = grader.cli:main"]},
+)

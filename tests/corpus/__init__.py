@@ -1,0 +1,1 @@
+"""The corpus: packages as students hand them in, and what each of them deserves."""

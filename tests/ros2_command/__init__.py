@@ -1,0 +1,1 @@
+"""The wheels' `ros2` command, against recordings of the real one."""
