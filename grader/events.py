@@ -10,7 +10,6 @@ from collections.abc import Callable
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-from typing import Union
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -70,7 +69,7 @@ class Note:
     text: str
 
 
-Event: TypeAlias = Union[StageStarted, StageFinished, CheckStarted, CheckFinished, TickSeen, Note]
+Event: TypeAlias = StageStarted | StageFinished | CheckStarted | CheckFinished | TickSeen | Note
 Listener: TypeAlias = Callable[[Event], None]
 
 

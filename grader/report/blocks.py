@@ -23,8 +23,13 @@ MARKS = {
     "inconclusive": ("?", "yellow"),
     "error": ("ERR", "magenta"),
 }
-WORDS = {"passed": "passed", "failed": "failed", "skipped": "skipped",
-         "inconclusive": "inconclusive", "error": "could not be asked"}
+WORDS = {
+    "passed": "passed",
+    "failed": "failed",
+    "skipped": "skipped",
+    "inconclusive": "inconclusive",
+    "error": "could not be asked",
+}
 UNSEEN = "a hidden check"
 
 
@@ -42,11 +47,14 @@ def row(check: CheckResult) -> Row:
 
 
 def roots(check: CheckResult, checks: Sequence[CheckResult]) -> list[CheckResult]:
-    """Return the checks for whose sake this one was skipped: those that did not pass themselves.
+    """Return the checks because of which this one was skipped.
 
-    A check that was skipped because of another is followed to that one.
+    What it says itself, else those of its dependencies that did not pass; one that was skipped as
+    well is followed to its cause.
     """
     by_id = {other.id: other for other in checks}
+    if check.blocked_by in by_id:
+        return [by_id[check.blocked_by]]
     found: dict[str, CheckResult] = {}
     seen: set[str] = set()
     ahead = list(check.depends)

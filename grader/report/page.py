@@ -122,8 +122,10 @@ class Page:
 
         Columns that have no room go into another table below.
         """
-        widths = [max(len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
-                  for n in range(len(heads))]
+        widths = [
+            max(len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
+            for n in range(len(heads))
+        ]
         start = 1
         while start < len(heads):
             end, room = start + 1, self._width - min(widths[0], self._width // 2) - widths[start]

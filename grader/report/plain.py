@@ -1,8 +1,8 @@
-"""Text of unknown origin made fit to be shown: no control characters, a bounded length.
+r"""Text of unknown origin made fit to be shown: no control characters, a bounded length.
 
 A submission decides what stands in its log lines, file names and error messages. Shown raw, they
 could move the cursor, change the clipboard, turn the reading direction or fake lines of a report.
-What cannot be seen is written as Python writes it in a string: `\\x1b`, `\\u202e`, `\\xa0`.
+What cannot be seen is written as Python writes it in a string: `\x1b`, `\u202e`, `\xa0`.
 """
 
 from __future__ import annotations

@@ -42,11 +42,11 @@ def report_page(
     lines = LINES_VERBOSE if verbose else LINES
     _head(page, report)
     _table(page, report, checks)
-    _blocks(page, report, checks, lines)
+    quoted = _blocks(page, report, checks, lines)
     _skipped(page, report, checks)
     _advice(page, checks)
     if verbose:
-        _details(page, report, checks)
+        _details(page, report, checks, quoted)
     _foot(page, report, checks, path)
     return str(page)
 
@@ -88,23 +88,27 @@ def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
 
 def _counts(checks: Sequence[CheckResult]) -> str:
     if checks and all(check.status == "passed" for check in checks):
-        return "  (all checks below your eyes passed)" if False else "  (every check passed)"
+        return "  (every check passed)"
     count = {word: sum(c.status == status for c in checks) for status, word in WORDS.items()}
     said = ", ".join(f"{number} {word}" for word, number in count.items() if number)
     return f"  ({said})" if said else ""
 
 
-def _blocks(page: Page, report: Report, checks: Sequence[CheckResult], lines: int) -> None:
-    shown: set[str] = set()
+def _blocks(
+    page: Page, report: Report, checks: Sequence[CheckResult], lines: int
+) -> frozenset[str]:
+    """Write the block of each check that did not pass; return the texts quoted on the way."""
+    quoted: set[str] = set()
     for check in checks:
         if check.status in ("passed", "skipped"):
             continue
         page.gap()
         block(page, check, lines=lines)
         text, title = evidence_of(check, report.evidence)
-        if text.strip() and title not in shown:
-            shown.add(title)
+        if text.strip() and title not in quoted:
+            quoted.add(title)
             quotation(page, text, title, lines=lines)
+    return frozenset(quoted)
 
 
 def _skipped(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
@@ -137,7 +141,9 @@ def _advice(page: Page, checks: Sequence[CheckResult]) -> None:
             page.line((one_line(check.id, most=60), "cyan"), f": {text}", indent=2)
 
 
-def _details(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
+def _details(
+    page: Page, report: Report, checks: Sequence[CheckResult], quoted: frozenset[str]
+) -> None:
     env, timing = report.environment, report.timing
     page.gap()
     page.line(("Details", "bold"))
@@ -163,14 +169,12 @@ def _details(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
         (report.evidence.build_log, "colcon build printed"),
         (report.evidence.transcript, "ros2 run printed"),
     ):
-        if text.strip():
+        if text.strip() and title not in quoted:
             page.gap()
             quotation(page, text, title, lines=LINES_VERBOSE)
 
 
-def _foot(
-    page: Page, report: Report, checks: Sequence[CheckResult], path: Path | None
-) -> None:
+def _foot(page: Page, report: Report, checks: Sequence[CheckResult], path: Path | None) -> None:
     page.gap()
     first = next((check for check in checks if check.status == "failed"), None)
     if first is not None:

@@ -10,6 +10,7 @@ What it does not protect from: faults of the kernel, and heat.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import shutil
@@ -148,10 +149,11 @@ class Bubblewrap(Sandbox):
             for stream in (holder.stdin, holder.stderr):
                 if stream is not None:
                     stream.close()
-            try:  # the end of the first process of a PID namespace is the end of all in it
-                os.kill(self._held_pid, signal.SIGKILL)
-            except (ProcessLookupError, PermissionError):
-                pass
+            if self._held_pid > 0:  # 0 would be the grader's own process group
+                with contextlib.suppress(ProcessLookupError, PermissionError):
+                    # the end of the first process of a PID namespace is the end of all in it
+                    os.kill(self._held_pid, signal.SIGKILL)
+                self._held_pid = 0
             if holder.poll() is None:
                 holder.kill()
             holder.wait()
@@ -184,7 +186,8 @@ class Bubblewrap(Sandbox):
     def _own_namespaces(self, role: Role) -> list[str]:
         """Return the mounts and namespaces of one command."""
         scratch = str(int(self.limits.workspace / 10))
-        options = ["--unshare-pid", "--unshare-ipc", "--ro-bind", "/", "/"]
+        # without --die-with-parent, what a command leaves in the background would keep it open
+        options = ["--die-with-parent", "--unshare-pid", "--unshare-ipc", "--ro-bind", "/", "/"]
         if not self._root:
             uid = "1000" if role == "student" else "1001"
             options += ["--unshare-user", "--uid", uid, "--gid", uid]

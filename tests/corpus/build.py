@@ -6,18 +6,18 @@ import shutil
 from functools import singledispatch
 from pathlib import Path
 
-from tests.corpus.model import Chmod
-from tests.corpus.model import Copy
-from tests.corpus.model import Crlf
-from tests.corpus.model import Delete
-from tests.corpus.model import Edit
-from tests.corpus.model import Link
-from tests.corpus.model import Nest
-from tests.corpus.model import Package
-from tests.corpus.model import Raw
-from tests.corpus.model import Rename
-from tests.corpus.model import Replace
-from tests.corpus.model import Write
+from .model import Chmod
+from .model import Copy
+from .model import Crlf
+from .model import Delete
+from .model import Edit
+from .model import Link
+from .model import Nest
+from .model import Package
+from .model import Raw
+from .model import Rename
+from .model import Replace
+from .model import Write
 
 ROOT = Path(__file__).parents[2]
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"

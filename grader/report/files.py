@@ -1,0 +1,168 @@
+"""Where reports are kept: `<out>/<student>/<distro>/report.json` and `<out>/<student>/matrix.json`.
+
+Two submissions never share a folder: whose it is, is told by the reports in it. The second one's
+is `<student>-<8 hex digits of its path's SHA-256>`, the same at each run.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from collections.abc import Sequence
+from pathlib import Path
+
+from grader.errors import SurroundingsError
+from grader.report.folder import Folder
+from grader.report.matrix import matrix_of
+from grader.report.model import Report
+
+REPORT = "report.json"
+MATRIX = "matrix.json"
+NAME_BYTES = 255  # the longest file name on Linux and macOS
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+FORBIDDEN = (errno.EACCES, errno.EPERM, errno.EROFS)
+IN_THE_WAY = (errno.ELOOP, errno.ENOTDIR, errno.EISDIR)
+
+
+def report_json(report: Report) -> str:
+    """Return a report in its published form, which `report.schema.json` describes."""
+    return report.model_dump_json(by_alias=True, indent=2) + "\n"
+
+
+def write_report(report: Report, out: Path, student: str) -> Path:
+    """Write a report below `out` (made if it is not there) and return the path of its file.
+
+    Killed at any moment, the file is the old report or the new one. It can be read by its owner
+    only; a link in its place or in that of its folders is not followed. ValueError for a name
+    that is no file name; SurroundingsError if it cannot be written.
+    """
+    distro = _file_name(report.environment.distro)
+    with _student_folder(out, student, report.submission.path) as (folder, locked):
+        with folder.private(distro) as place:
+            if locked:
+                place.sweep()
+            place.replace(REPORT, report_json(report).encode())
+        return folder.path / distro / REPORT
+
+
+def write_matrix(reports: Sequence[Report], out: Path, student: str) -> Path:
+    """Write the comparison of one submission's reports on several distros beside them.
+
+    All else as `write_report`; ValueError as well for reports that do not belong together.
+    """
+    matrix = matrix_of(reports)
+    with _student_folder(out, student, matrix.submission.path) as (folder, locked):
+        if locked:
+            folder.sweep()
+        folder.replace(MATRIX, (matrix.model_dump_json(by_alias=True, indent=2) + "\n").encode())
+        return folder.path / MATRIX
+
+
+@contextlib.contextmanager
+def _student_folder(out: Path, student: str, submission: str) -> Iterator[tuple[Folder, bool]]:
+    """Open the submission's folder, locked against other writers, if the file system can."""
+    names = _folder_names(_file_name(student), submission)
+    try:
+        with _open_out(out) as top:
+            locked = top.lock()
+            name = _choose(top, names, submission)
+            with top.private(name) as folder:
+                yield folder, locked
+    except OSError as error:
+        raise _explained(error, out) from error
+
+
+def _open_out(out: Path) -> Folder:
+    """Open the folder of all reports; one that we make is for its owner and ignored by git."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        out.mkdir(mode=0o700)
+    except FileExistsError:
+        return Folder.open(out)
+    folder = Folder.open(out)
+    folder.replace(".gitignore", b"*\n")
+    return folder
+
+
+def _folder_names(student: str, submission: str) -> list[str]:
+    """Return the names that the folder may have, the best first."""
+    digest = hashlib.sha256(os.fsencode(os.path.realpath(submission))).hexdigest()
+    names = [student]
+    for digits in (8, 64):
+        room = NAME_BYTES - digits - 1
+        start = student.encode()[:room].decode(errors="ignore")
+        names.append(f"{start}-{digest[:digits]}")
+    return names
+
+
+def _choose(top: Folder, names: Sequence[str], submission: str) -> str:
+    """Return the first name whose folder is this submission's already, else the first free one."""
+    own = os.path.realpath(submission)
+    free = []
+    for name in names:
+        owner = _owner(top, name, own)
+        if owner == own:
+            return name
+        if owner is None:
+            free.append(name)
+    if not free:
+        raise FileExistsError(errno.EEXIST, "every name for it is taken", str(top.path / names[0]))
+    return free[0]
+
+
+def _owner(top: Folder, name: str, own: str) -> str | None:
+    """Return the path of the submission whose folder it is; None if it is nobody's.
+
+    What is no folder (a link, a file), holds reports that cannot be read, or is the submission
+    itself, is somebody else's: "".
+    """
+    kind = top.kind(name)
+    if kind != "folder":
+        return None if kind == "" else ""
+    if os.path.realpath(top.path / name) == own:
+        return ""
+    owners = set()
+    with top.sub(name) as folder:
+        for distro in folder.names():
+            if folder.kind(distro) != "folder":
+                continue
+            with folder.sub(distro) as place:
+                if place.kind(REPORT):
+                    owners.add(_submission_path(place.read(REPORT)))
+    if not owners:
+        return None
+    return owners.pop() if len(owners) == 1 else ""
+
+
+def _submission_path(content: bytes | None) -> str:
+    try:
+        return os.path.realpath(str(json.loads(content or b"")["submission"]["path"]))
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return ""
+
+
+def _file_name(name: str) -> str:
+    if name in ("", ".", "..") or "/" in name or "\0" in name:
+        raise ValueError(f"not a file name: {name!r}")
+    return name
+
+
+def _explained(error: OSError, out: Path) -> SurroundingsError:
+    where = error.filename if isinstance(error.filename, str) else str(out)
+    reason = error.strerror or str(error)
+    if error.errno in FULL:
+        remedy = "The disk is full (or a quota is). Make room, or name another folder with --out."
+    elif error.errno in FORBIDDEN:
+        remedy = "This folder is not yours to write to. Name another one with --out."
+    elif error.errno in IN_THE_WAY:
+        remedy = "A link or file stands where a folder belongs. Look at it and remove it, or name "
+        remedy += "another folder with --out."
+    else:
+        remedy = "Name another folder with --out."
+    return SurroundingsError(
+        f"the report could not be written below {out}: {where}: {reason}", remedy=remedy
+    )

@@ -1,0 +1,152 @@
+"""What is going on, while it goes on: a live line on a terminal, a line a stage elsewhere."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import sys
+import time
+from types import TracebackType
+from typing import TYPE_CHECKING
+from typing import TextIO
+from typing import cast
+
+from grader.events import CheckFinished
+from grader.events import CheckStarted
+from grader.events import Event
+from grader.events import Note
+from grader.events import StageFinished
+from grader.events import StageStarted
+from grader.events import TickSeen
+from grader.report.plain import encodable
+from grader.report.plain import one_line
+from grader.report.surface import is_terminal
+from grader.report.surface import takes_styles
+from grader.report.surface import width_of
+
+if TYPE_CHECKING:
+    from rich.live import Live
+    from rich.text import Text
+
+REFRESH = 8  # times a second
+SPINNER = "|/-\\"
+
+
+class LiveProgress:
+    """A listener that shows stage, check and elapsed time on a terminal (standard error).
+
+    Used as a context manager; the line is gone when it ends, and the cursor is back. Where `file`
+    is no terminal, or `TERM=dumb`, each stage is one plain line and nothing else is printed. A
+    terminal that has gone away never disturbs the work: what cannot be written is dropped.
+    """
+
+    def __init__(self, file: TextIO | None = None, *, show_hidden: bool = False) -> None:
+        self._file = file or sys.stderr
+        self._show_hidden = show_hidden
+        self._live: Live | None = None
+        self._stage = "Starting"
+        self._check = ""
+        self._tick = ""
+        self._begin = time.monotonic()
+
+    def __enter__(self) -> LiveProgress:
+        self._begin = time.monotonic()
+        if is_terminal(self._file):
+            self._live = self._start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._live is not None:
+            self._live.stop()
+            self._live = None
+
+    def __call__(self, event: Event) -> None:
+        """Take one event of the runner."""
+        match event:
+            case StageStarted(title=title):
+                self._stage, self._check, self._tick = one_line(title, most=80), "", ""
+                self._begin = time.monotonic()
+                if self._live is None:
+                    self._print(f"{self._stage} ...\n")
+            case StageFinished():
+                self._check = self._tick = ""
+            case CheckStarted(title=title, visibility=visibility):
+                seen = self._show_hidden or visibility == "visible"
+                self._check = one_line(title, most=100) if seen else "a hidden check"
+            case CheckFinished():
+                self._check = ""
+            case TickSeen(text=text):
+                self._tick = one_line(text, most=60)
+            case Note(text=text):
+                if self._live is not None:
+                    self._live.console.print(one_line(text, most=500), soft_wrap=True)
+
+    def _print(self, text: str) -> None:
+        stream = _Sturdy(self._file)
+        stream.write(text)
+        stream.flush()
+
+    def _line(self) -> Text:
+        """Return the line as it is now: rich asks for it at each refresh, in its own thread."""
+        from rich.text import Text  # noqa: PLC0415
+
+        now = time.monotonic()
+        spinner = SPINNER[int(now * REFRESH) % len(SPINNER)]
+        line = Text.assemble(
+            (f"{spinner} {self._stage}", "bold cyan"), f"  {int(now - self._begin)} s"
+        )
+        for part in (self._check, self._tick):
+            line.append(f"  {part}" if part else "")
+        line.truncate(max(width_of(self._file) - 1, 1))
+        return line
+
+    def _start(self) -> Live:
+        from rich.console import Console  # noqa: PLC0415 - only where there is a terminal
+        from rich.live import Live  # noqa: PLC0415
+
+        styled = takes_styles(self._file)
+        console = Console(
+            file=cast("TextIO", _Sturdy(self._file)),
+            force_terminal=True,
+            force_jupyter=False,
+            color_system="standard" if styled else None,
+            no_color=not styled,
+            markup=False,
+            emoji=False,
+            highlight=False,
+        )
+        live = Live(
+            get_renderable=self._line,
+            console=console,
+            refresh_per_second=REFRESH,
+            transient=True,
+            redirect_stdout=False,  # it may be a pipe, and the live line is on standard error
+            redirect_stderr=False,
+        )
+        live.start()
+        console.show_cursor(True)  # killed now, the terminal is still usable
+        return live
+
+
+class _Sturdy(io.TextIOBase):
+    """A stream that never raises: what it cannot write is dropped."""
+
+    def __init__(self, file: TextIO) -> None:
+        self._to = file
+
+    def write(self, text: str) -> int:
+        with contextlib.suppress(OSError, ValueError):
+            self._to.write(encodable(text, self._to.encoding))
+        return len(text)
+
+    def flush(self) -> None:
+        with contextlib.suppress(OSError, ValueError):
+            self._to.flush()
+
+    def isatty(self) -> bool:
+        return self._to.isatty()

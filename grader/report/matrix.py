@@ -1,0 +1,132 @@
+"""The reports of one submission on several distros beside each other: `matrix.json`, schema 1.
+
+It holds what can differ between distros; everything else is in the reports, whose paths relative
+to `matrix.json` it names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+from pydantic import BaseModel
+from pydantic import ConfigDict
+from pydantic import Field
+
+from grader.report.model import AssignmentInfo
+from grader.report.model import CheckStatus
+from grader.report.model import Mistake
+from grader.report.model import Report
+from grader.report.model import SubmissionInfo
+from grader.report.model import Visibility
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+
+
+class Cell(_Part):
+    """What one check said on one distro."""
+
+    status: CheckStatus
+    score: float
+    max_score: float
+    mistakes: list[Mistake]
+
+
+class CheckAcross(_Part):
+    """One check on the distros that have it; `differs` if not all verdicts are equal.
+
+    Verdicts are equal if status, score and the ids of the mistakes are.
+    """
+
+    id: str
+    title: str
+    visibility: Visibility
+    differs: bool
+    distros: dict[str, Cell]
+
+
+class Total(_Part):
+    """The sum on one distro, and where its report is."""
+
+    status: Literal["graded", "error"]
+    message: str
+    score: float
+    max_score: float
+    inconclusive: float
+    report: str
+
+
+class Matrix(_Part):
+    """One submission on several distros."""
+
+    schema_: Literal[1] = Field(default=1, alias="schema")
+    assignment: AssignmentInfo
+    submission: SubmissionInfo
+    distros: dict[str, Total]
+    checks: list[CheckAcross]
+
+
+def matrix_of(reports: Sequence[Report]) -> Matrix:
+    """Put the reports of one submission beside each other, in their order.
+
+    ValueError if there is none, if they are of different submissions, or two of one distro.
+    """
+    if not reports:
+        raise ValueError("a matrix needs at least one report")
+    if len({report.submission.path for report in reports}) > 1:
+        raise ValueError("a matrix is of one submission, these reports are of several")
+    by_distro = {report.environment.distro: report for report in reports}
+    if len(by_distro) < len(reports):
+        raise ValueError("a matrix has one report of each distro, here is more than one")
+    return Matrix(
+        assignment=reports[0].assignment,
+        submission=reports[0].submission,
+        distros={
+            distro: Total(
+                status=report.status,
+                message=report.message,
+                score=report.score,
+                max_score=report.max_score,
+                inconclusive=report.inconclusive,
+                report=f"{distro}/report.json",
+            )
+            for distro, report in by_distro.items()
+        },
+        checks=[_across(check_id, by_distro) for check_id in _ids(reports)],
+    )
+
+
+def _ids(reports: Sequence[Report]) -> list[str]:
+    return list(dict.fromkeys(check.id for report in reports for check in report.checks))
+
+
+def _across(check_id: str, by_distro: dict[str, Report]) -> CheckAcross:
+    found = {
+        distro: check
+        for distro, report in by_distro.items()
+        for check in report.checks
+        if check.id == check_id
+    }
+    first = next(iter(found.values()))
+    verdicts = {
+        (check.status, check.score, tuple(mistake.id for mistake in check.mistakes))
+        for check in found.values()
+    }
+    hidden = [c.visibility for c in found.values() if c.visibility != "visible"]
+    return CheckAcross(
+        id=check_id,
+        title=first.title,
+        visibility=hidden[0] if hidden else "visible",
+        differs=len(verdicts) > 1 or len(found) < len(by_distro),
+        distros={
+            distro: Cell(
+                status=check.status,
+                score=check.score,
+                max_score=check.max_score,
+                mistakes=check.mistakes,
+            )
+            for distro, check in found.items()
+        },
+    )

@@ -1,0 +1,146 @@
+"""The page of one submission on several distros: the checks by the distros, what differs, why."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from grader.report.blocks import MARKS
+from grader.report.blocks import UNSEEN
+from grader.report.blocks import WORDS
+from grader.report.blocks import block
+from grader.report.blocks import roots
+from grader.report.matrix import CheckAcross
+from grader.report.matrix import Matrix
+from grader.report.matrix import matrix_of
+from grader.report.page import Page
+from grader.report.plain import first_lines
+from grader.report.plain import one_line
+from grader.report.plain import points
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from grader.report.model import CheckResult
+    from grader.report.model import Report
+
+LINES = 12  # of one text
+
+
+def matrix_page(
+    reports: Sequence[Report],
+    *,
+    width: int,
+    styled: bool,
+    show_hidden: bool,
+    path: Path | None,
+) -> str:
+    """Return the page as a string; it depends on the arguments alone. ValueError as `matrix_of`."""
+    matrix = matrix_of(reports)
+    page = Page(width=width, styled=styled)
+    shown = [c for c in matrix.checks if show_hidden or c.visibility == "visible"]
+    _head(page, matrix)
+    _grid(page, matrix, shown)
+    hidden = len(matrix.checks) - len(shown)
+    if hidden:
+        page.line(f"{hidden} hidden check{'s' if hidden > 1 else ''}: not shown")
+    for distro, total in matrix.distros.items():
+        if total.status == "error":
+            page.gap()
+            page.line((f"Not graded on {one_line(distro)}: ", "bold magenta"))
+            page.line("\n".join(first_lines(total.message, lines=8)), indent=2)
+    _differences(page, reports, shown)
+    _blocks(page, reports, {check.id for check in shown})
+    page.gap()
+    if path is not None:
+        page.code("report", [one_line(str(path), most=4_000)])
+    return str(page)
+
+
+def _head(page: Page, matrix: Matrix) -> None:
+    page.line((one_line(matrix.assignment.title), "bold"))
+    page.gap()
+    who = matrix.submission
+    page.field("student", one_line(who.name, most=100))
+    page.field("package", one_line(who.package, most=100) if who.package else "none was found")
+    page.code("in", [one_line(who.path, most=4_000)])
+    page.gap()
+
+
+def _grid(page: Page, matrix: Matrix, shown: Sequence[CheckAcross]) -> None:
+    rows = []
+    for check in shown:
+        cells = [(one_line(check.id, most=60), "bold" if check.differs else "")]
+        for distro in matrix.distros:
+            cell = check.distros.get(distro)
+            cells.append(("-", "") if cell is None else MARKS[cell.status])
+        rows.append(cells)
+    scores = [("Score", "bold")]
+    scores += [
+        (f"{points(t.score)} / {points(t.max_score)}", "bold") for t in matrix.distros.values()
+    ]
+    rows.append(scores)
+    if any(total.inconclusive for total in matrix.distros.values()):
+        rows.append(
+            [("inconclusive", "")]
+            + [(points(total.inconclusive), "") for total in matrix.distros.values()]
+        )
+    page.grid(["", *(one_line(distro, most=20) for distro in matrix.distros)], rows)
+
+
+def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcross]) -> None:
+    page.gap()
+    differing = [check for check in shown if check.differs]
+    if not differing:
+        page.line("The same on every distro.")
+        return
+    page.line(("What differs:", "bold"))
+    for check in differing:
+        page.line((one_line(check.id, most=60), "bold"), indent=2)
+        said: dict[str, list[str]] = {}
+        for report in reports:
+            reason = _reason(report, check.id, {one.id for one in shown})
+            said.setdefault(reason, []).append(one_line(report.environment.distro, most=40))
+        for reason, distros in said.items():
+            page.line(f"{_listed(distros)}: {reason}", indent=4)
+
+
+def _reason(report: Report, check_id: str, shown: set[str]) -> str:
+    check = next((check for check in report.checks if check.id == check_id), None)
+    if check is None:
+        return "not asked there"
+    if check.status == "skipped":
+        names = dict.fromkeys(
+            one_line(other.id, most=60) if other.id in shown else UNSEEN
+            for other in roots(check, report.checks)
+        )
+        return f"skipped because {' and '.join(names)} did not pass" if names else "skipped"
+    actual = one_line(check.actual.strip(), most=200)
+    said = WORDS[check.status]
+    return f"{said}: {actual}" if actual and check.status != "passed" else said
+
+
+def _blocks(page: Page, reports: Sequence[Report], shown: set[str]) -> None:
+    """Write each block once, with the distros on which it says the same."""
+    groups: dict[str, tuple[CheckResult, list[str]]] = {}
+    for report in reports:
+        for check in report.checks:
+            if check.id in shown and check.status not in ("passed", "skipped"):
+                key = check.model_copy(update={"seconds": 0}).model_dump_json()
+                group = groups.setdefault(key, (check, []))
+                group[1].append(one_line(report.environment.distro, most=40))
+    order = {
+        check_id: n
+        for n, check_id in enumerate(
+            dict.fromkeys(check.id for report in reports for check in report.checks)
+        )
+    }
+    for check, distros in sorted(groups.values(), key=lambda group: order[group[0].id]):
+        page.gap()
+        everywhere = len(distros) == len(reports)
+        on = "" if everywhere else f" (on {_listed(distros)})"
+        block(page, check, lines=LINES, on=on)
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names)

@@ -1,0 +1,107 @@
+"""The renderer for a terminal: the live line while work goes on, and the report afterwards.
+
+What is printed is a pure function of the report, of the width and of whether the file is a
+terminal that takes styles. rich is imported when the first page is made, not before.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+from typing import TextIO
+
+from grader.report.live import LiveProgress
+from grader.report.plain import encodable
+from grader.report.surface import takes_styles
+from grader.report.surface import width_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from grader.report.model import Report
+
+__all__ = ["LiveProgress", "print_matrix", "print_report", "render_matrix", "render_report"]
+
+
+def render_report(
+    report: Report,
+    *,
+    width: int = 80,
+    styled: bool = False,
+    verbose: bool = False,
+    show_hidden: bool = False,
+    path: Path | None = None,
+) -> str:
+    """Return the page of a report, `width` columns wide; plain ASCII beside the report's own text.
+
+    `verbose` adds versions, limits, times and the whole evidence. Checks that are not `visible`
+    are counted only, unless `show_hidden`. `path` is where the report was written.
+    """
+    from grader.report.report_page import report_page  # noqa: PLC0415 - rich costs 35 ms
+
+    return report_page(
+        report, width=width, styled=styled, verbose=verbose, show_hidden=show_hidden, path=path
+    )
+
+
+def render_matrix(
+    reports: Sequence[Report],
+    *,
+    width: int = 80,
+    styled: bool = False,
+    show_hidden: bool = False,
+    path: Path | None = None,
+) -> str:
+    """Return the page of one submission on several distros: checks by distros, what differs, why.
+
+    ValueError if there is no report, or if they are of several submissions.
+    """
+    from grader.report.matrix_page import matrix_page  # noqa: PLC0415 - rich costs 35 ms
+
+    return matrix_page(reports, width=width, styled=styled, show_hidden=show_hidden, path=path)
+
+
+def print_report(
+    report: Report,
+    *,
+    file: TextIO | None = None,
+    verbose: bool = False,
+    show_hidden: bool = False,
+    path: Path | None = None,
+) -> None:
+    """Print a report (see `render_report`) to `file`, standard output if there is none given."""
+    file = file or sys.stdout
+    text = render_report(
+        report,
+        width=width_of(file),
+        styled=takes_styles(file),
+        verbose=verbose,
+        show_hidden=show_hidden,
+        path=path,
+    )
+    _write(file, text)
+
+
+def print_matrix(
+    reports: Sequence[Report],
+    *,
+    file: TextIO | None = None,
+    show_hidden: bool = False,
+    path: Path | None = None,
+) -> None:
+    """Print the reports of one submission on several distros (see `render_matrix`)."""
+    file = file or sys.stdout
+    text = render_matrix(
+        reports,
+        width=width_of(file),
+        styled=takes_styles(file),
+        show_hidden=show_hidden,
+        path=path,
+    )
+    _write(file, text)
+
+
+def _write(file: TextIO, text: str) -> None:
+    file.write(encodable(text, file.encoding))
+    file.flush()

@@ -1,0 +1,39 @@
+"""Fixtures that every test may ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from grader.limits import Limits
+from grader.ros.distro import find_distro
+from grader.ros.prefix import Ros
+from grader.ros.prefix import find_ros
+from grader.sandbox.base import Sandbox
+from grader.sandbox.bubblewrap import Bubblewrap
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def jazzy() -> Ros:
+    """ROS jazzy from PyPI's wheels (made once; several test processes at once make one)."""
+    return find_ros(find_distro("jazzy"))
+
+
+@pytest.fixture(scope="session")
+def kilted() -> Ros:
+    return find_ros(find_distro("kilted"))
+
+
+@pytest.fixture(scope="session")
+def jazzy_prefix(jazzy: Ros) -> Path:
+    return jazzy.path
+
+
+@pytest.fixture
+def sandbox(jazzy: Ros) -> Iterator[Sandbox]:
+    with Bubblewrap(jazzy, Limits()) as opened:
+        yield opened

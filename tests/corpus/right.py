@@ -1,0 +1,10 @@
+"""Packages that deserve full marks, however they are written."""
+
+from __future__ import annotations
+
+from .model import Package
+from .right_node import COUNTING
+from .right_package import PACKAGING
+from .right_timing import TIMING
+
+RIGHT: tuple[Package, ...] = (*COUNTING, *TIMING, *PACKAGING)

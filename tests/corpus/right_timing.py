@@ -1,0 +1,141 @@
+"""The node that keeps time otherwise: timers, executors, threads, clocks."""
+
+from __future__ import annotations
+
+from .model import NODE
+from .model import Edit
+from .model import Replace
+from .model import Write
+from .model import right
+from .right_node import CATCH
+from .right_node import LINE
+from .right_node import STEP
+from .right_node import TIMER
+
+SPIN = "rclpy.spin(node)"
+
+
+def _imports(*lines: str) -> Edit:
+    return Replace(NODE, "import rclpy\n", "".join(f"{line}\n" for line in lines) + "import rclpy\n")
+
+
+def _timer(new: str) -> Edit:
+    return Replace(NODE, TIMER, new)
+
+
+def _spin(new: str) -> Edit:
+    return Replace(NODE, SPIN, new)
+
+
+def _executor(kind: str) -> tuple[Edit, ...]:
+    return (
+        _imports(f"from rclpy.executors import {kind}"),
+        _spin(f"executor = {kind}()\n        executor.add_node(node)\n        executor.spin()"),
+    )
+
+
+GROUP = "self.create_timer(1.0, self.timer_callback, callback_group=ReentrantCallbackGroup())"
+RATE = """\
+    thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+    thread.start()
+    rate = node.create_rate(1.0)
+    try:
+        while rclpy.ok():
+            rate.sleep()
+            node.timer_callback()
+    except (KeyboardInterrupt, ROSInterruptException):
+        pass
+    rclpy.try_shutdown()
+    thread.join()
+"""
+LOOP = """\
+    try:
+        while rclpy.ok():
+            time.sleep(1.0)
+            node.timer_callback()
+    except KeyboardInterrupt:
+        pass
+    rclpy.try_shutdown()
+"""
+TENTHS = f"""\
+        self.tenths += 1
+        if self.tenths % 10 == 0:
+            {LINE}
+            {STEP}"""
+TWO_NODES = """\
+other = Node('my_idle_node')
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        executor.add_node(other)
+        executor.spin()"""
+THREAD = """\
+thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+        thread.start()
+        thread.join()"""
+
+TIMING = (
+    right("period_int", _timer("timer_period = 1\n        self.create_timer(timer_period, "
+          "self.timer_callback)")),
+    right("timer_kept", _timer(f"self.timer = {TIMER}")),
+    right("timer_keywords",
+          _timer("self.create_timer(timer_period_sec=1.0, callback=self.timer_callback)")),
+    right("timer_in_helper", _timer("self._start()\n\n    def _start(self):\n"
+          f"        self._timer = {TIMER}")),
+    right("timer_in_main", _timer("pass"),
+          Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode()\n"
+                  "    node.create_timer(1.0, node.timer_callback)")),
+    right("lambda_callback", _timer("self.create_timer(1.0, lambda: self.timer_callback())")),
+    right("partial_callback", _imports("from functools import partial", ""),
+          _timer("self.create_timer(1.0, partial(self.timer_callback, 'Hello time: '))"),
+          Replace(NODE, "def timer_callback(self)", "def timer_callback(self, text)"),
+          Replace(NODE, "'Hello time: ' + ", "text + ")),
+    right("async_callback", Replace(NODE, "def timer_callback", "async def timer_callback")),
+    right("reentrant_group",
+          _imports("from rclpy.callback_groups import ReentrantCallbackGroup"), _timer(GROUP)),
+    right("single_threaded_executor", *_executor("SingleThreadedExecutor")),
+    right("multi_threaded_executor", *_executor("MultiThreadedExecutor")),
+    right("reentrant_on_threads", *_executor("MultiThreadedExecutor"), _timer(GROUP),
+          _imports("from rclpy.callback_groups import ReentrantCallbackGroup")),
+    right("spin_once_loop", _spin("while rclpy.ok():\n            rclpy.spin_once(node)")),
+    right("spin_once_timeout",
+          _spin("while rclpy.ok():\n            rclpy.spin_once(node, timeout_sec=0.1)")),
+    right("spin_in_thread", _imports("import threading", ""), _spin(THREAD)),
+    right("two_nodes", _imports("from rclpy.executors import SingleThreadedExecutor"),
+          _spin(TWO_NODES), note="an unrelated second node in the same program"),
+    right("idle_second_timer", _timer(f"{TIMER}\n        self.create_timer(0.25, lambda: None)")),
+    right("rate_in_main", _imports("import threading", ""), _timer("pass"),
+          _imports("from rclpy.exceptions import ROSInterruptException"),
+          Replace(NODE, CATCH, RATE),
+          note="follows /clock, but the lines come from a thread of which the executor knows "
+          "nothing: an answered parameter request does not prove that a line was due"),
+    right("tenths", _timer("self.tenths = 0\n        self.create_timer(0.1, self.timer_callback)"),
+          Replace(NODE, f"        {LINE}\n        {STEP}", TENTHS),
+          note="ten short periods to a line: a clock that jumps by a second loses nine of them"),
+    right("escapes_sim_time", Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args=[])"),
+          wall_clock=True, note="use_sim_time never reaches it; right all the same"),
+    right("steady_timer", _imports("from rclpy.clock import Clock", "from rclpy.clock import "
+          "ClockType"), _timer("self.create_timer(1.0, self.timer_callback, "
+                               "clock=Clock(clock_type=ClockType.STEADY_TIME))"),
+          wall_clock=True, note="subscribes to /clock all the same"),
+    right("sleep_loop", _imports("import time", ""), _timer("pass"), Replace(NODE, CATCH, LOOP),
+          wall_clock=True, note="not what the lesson teaches, but right lines at right instants"),
+    right("procedural_sleep", Write(NODE, """\
+#!/usr/bin/env python3
+import time
+
+import rclpy
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('my_first_node')
+    n = 0
+    while rclpy.ok():
+        time.sleep(1)
+        node.get_logger().info('Hello time: ' + str(n))
+        n += 1
+
+
+main() if __name__ == '__main__' else None
+"""), wall_clock=True, note="ends with the KeyboardInterrupt traceback"),
+)  # fmt: skip

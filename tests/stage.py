@@ -1,0 +1,83 @@
+"""Stages on which a command is put for a test: as an ordinary user, or as root of a container."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from grader.ros.cache import cache_root
+from grader.ros.prefix import base_interpreter
+
+ROOT = Path(__file__).resolve().parent.parent
+USER = 54_321
+
+
+def grader(*words: str | Path) -> list[str]:
+    """Return the command line of this checkout's grader."""
+    return [sys.executable, "-m", "grader", *map(str, words)]
+
+
+def run(
+    command: Sequence[str | Path],
+    *,
+    cwd: Path = ROOT,
+    env: dict[str, str] | None = None,
+    timeout: float = 120,
+) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end and return it with its output."""
+    return subprocess.run(
+        [str(word) for word in command],
+        cwd=cwd,
+        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        check=False,
+    )
+
+
+def _readable_by_all() -> list[str]:
+    """Return the bwrap words for a view of this machine in which our Python is open to all.
+
+    (A root user's Python may lie in /root, which is closed to the others.)
+    """
+    words = ["bwrap", "--dev-bind", "/", "/"]
+    # only what lies in root's home is hidden by the new one, and comes back piece by piece
+    needed = {base_interpreter().parent.parent, Path(sys.prefix), cache_root()}
+    inside = sorted(str(path) for path in needed if str(path).startswith("/root/"))
+    words += ["--perms", "0755", "--tmpfs", "/root"]
+    for path in inside:
+        words += ["--bind-try", path, path]
+    return words
+
+
+def as_user(command: Sequence[str]) -> list[str]:
+    """Return the command as an ordinary user runs it; the test itself may be run by root."""
+    if os.geteuid() != 0:
+        return list(command)
+    become = ["setpriv", f"--reuid={USER}", f"--regid={USER}", "--clear-groups"]
+    become += ["--inh-caps=-all", "--bounding-set=-all", "--"]
+    caps = [word for cap in ("SETUID", "SETGID", "SETPCAP") for word in ("--cap-add", f"CAP_{cap}")]
+    return [*_readable_by_all(), *caps, "--", *become, *command]
+
+
+def as_root_of_a_container(command: Sequence[str]) -> list[str]:
+    """Return the command as root of a throwaway container runs it: /opt is the container's own."""
+    return [*_readable_by_all(), "--tmpfs", "/opt", "--cap-add", "ALL", "--", *command]
+
+
+def alive(mark: str) -> list[str]:
+    """Return the command lines of the processes on this machine that have `mark` in theirs."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit() and int(entry.name) != os.getpid():
+            try:
+                line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            except OSError:
+                continue
+            if mark in line:
+                found.append(line)
+    return found
