@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 from typing import Literal
 
 from pydantic import BaseModel
@@ -23,7 +25,7 @@ class Output(_Part):
     text: str = "Hello time: {n}"
     start: int = 0
     step: int = 1
-    period: float = Field(default=1.0, gt=0)
+    period: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     ticks: int = Field(default=10, ge=2)
 
     def line(self, k: int) -> str:
@@ -35,7 +37,7 @@ class CheckUse(_Part):
     """A check that the assignment uses, its points, and who sees it."""
 
     id: str
-    points: float = Field(ge=0)
+    points: float = Field(ge=0, allow_inf_nan=False)
     visibility: Visibility = "visible"
 
 
@@ -63,6 +65,37 @@ class Assignment(_Part):
         return sum(use.points for use in self.checks)
 
 
-def load_assignment(path: Path, *, hidden: Path | None = None) -> Assignment:
-    """Load `assignment.yaml` (and the hidden checks of the instructor's side, if any)."""
-    raise NotImplementedError(path, hidden, Any)
+def load_assignment(
+    path: Path,
+    *,
+    hidden: Path | None = None,
+    known_checks: Iterable[str] | None = None,
+    known_limits: Iterable[str] | None = None,
+) -> Assignment:
+    """Load `assignment.yaml` (and the hidden checks of the instructor's side, if any).
+
+    `hidden` is a YAML file with `checks: […]`, whose visibility is `hidden` where it says no
+    other. `known_checks` are the ids that a check may have (default: the built-in ones),
+    `known_limits` the keys that `limits:` may have (default: any).
+
+    Raises AssignmentError; each line of its message reads `file:line: what is wrong`.
+    """
+    from grader.assignment_rules import check_content  # noqa: PLC0415 - it imports this module
+    from grader.assignment_rules import merge_hidden  # noqa: PLC0415
+    from grader.checks import known_ids  # noqa: PLC0415
+    from grader.positioned_yaml import read_yaml  # noqa: PLC0415
+
+    ids = tuple(known_ids() if known_checks is None else known_checks)
+    limits = None if known_limits is None else tuple(known_limits)
+    document = read_yaml(path)
+    assignment = check_content(document, known_checks=ids, known_limits=limits)
+    if hidden is not None:
+        assignment = merge_hidden(assignment, document, read_yaml(hidden), known_checks=ids)
+    return assignment.model_copy(update={"sha256": _digest(assignment)})
+
+
+def _digest(assignment: Assignment) -> str:
+    """Return the hash of what the assignment says, however its files are laid out."""
+    content = assignment.model_dump(mode="json", by_alias=True, exclude={"sha256"})
+    canonical = json.dumps(content, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(canonical.encode()).hexdigest()

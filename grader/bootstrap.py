@@ -13,6 +13,10 @@ import shutil
 import subprocess
 import sys
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import NoReturn
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 VENV = os.path.join(ROOT, ".venv")
 OLDEST, NEWEST = (3, 10), (3, 13)
@@ -25,28 +29,28 @@ INSTALLERS = [
 ]
 
 
-def say(text):
+def say(text: str) -> None:
     """Tell the user on stderr, so that stdout stays the command's own."""
     print(text, file=sys.stderr, flush=True)
 
 
-def fail(text):
+def fail(text: str) -> "NoReturn":
     """End with the exit status of failed surroundings."""
     say(text)
     raise SystemExit(3)
 
 
-def version_of(python):
+def version_of(python: str) -> "tuple[int, ...] | None":
     """Return (major, minor) of an interpreter, None if it does not run (a pyenv shim may not)."""
     code = "import sys; print(sys.version_info[0], sys.version_info[1])"
     try:
         out = subprocess.check_output([python, "-c", code], stderr=subprocess.DEVNULL)
     except (OSError, subprocess.CalledProcessError):
         return None
-    return tuple(int(part) for part in out.split())
+    return tuple(map(int, out.split()))
 
 
-def find_python(asked):
+def find_python(asked: str) -> str:
     """Return an interpreter that can run the grader; the asked one if it fits."""
     names = [asked, "python3", "python3.12", "python3.13", "python3.11", "python3.10"]
     for name in names:
@@ -55,14 +59,14 @@ def find_python(asked):
             return name
         if name == asked and version is not None:
             say("%s is Python %d.%d: looking for another" % (name, version[0], version[1]))
-    return fail(
+    raise fail(
         "No Python %d.%d to %d.%d was found (ROS's wheels exist for these).\n"
         "Install one, e.g. `apt-get install python3 python3-venv`, or name it: "
         "make setup PYTHON=/path/to/python3.12" % (OLDEST + NEWEST)
     )
 
 
-def stamp_of(python, locks):
+def stamp_of(python: str, locks: "list[str]") -> str:
     """Return what the environment is made of: interpreter and lock files."""
     digest = hashlib.sha256(os.path.realpath(shutil.which(python) or python).encode())
     digest.update(repr(version_of(python)).encode())
@@ -73,7 +77,7 @@ def stamp_of(python, locks):
     return digest.hexdigest()
 
 
-def read(path):
+def read(path: str) -> str:
     """Return a file's text, "" where there is none."""
     try:
         with open(path) as stream:
@@ -82,7 +86,7 @@ def read(path):
         return ""
 
 
-def make_venv(python, lock, stamp):
+def make_venv(python: str, lock: str, stamp: str) -> None:
     """Make `.venv` anew; its stamp is written last, so half a one is never taken for a whole."""
     shutil.rmtree(VENV, ignore_errors=True)
     say("setting up the grader's Python environment in %s (once)" % VENV)
@@ -102,7 +106,15 @@ def make_venv(python, lock, stamp):
         stream.write(stamp)
 
 
-def need_bubblewrap():
+def run_quietly(command: "list[str]") -> "tuple[bool, str]":
+    """Run a command; return whether it failed, and what it said on stderr."""
+    environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
+    result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                            check=False, env=environment)
+    return result.returncode != 0, result.stderr.decode(errors="replace").strip()
+
+
+def need_bubblewrap() -> None:
     """Install bubblewrap where root may; else say in one line what to install."""
     if shutil.which("bwrap"):
         return
@@ -111,20 +123,18 @@ def need_bubblewrap():
             if shutil.which(command[0]) is None:
                 continue
             say("installing bubblewrap (%s)" % " ".join(command))
-            quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "check": False,
-                     "env": dict(os.environ, DEBIAN_FRONTEND="noninteractive")}
-            result = subprocess.run(command, **quiet)
-            if result.returncode and command[0] == "apt-get":  # a machine with no package lists yet
-                subprocess.run(["apt-get", "update", "-qq"], **quiet)
-                result = subprocess.run(command, **quiet)
-            if result.returncode == 0 and shutil.which("bwrap"):
+            failed, said = run_quietly(command)
+            if failed and command[0] == "apt-get":  # a machine that has no package lists yet
+                run_quietly(["apt-get", "update", "-qq"])
+                failed, said = run_quietly(command)
+            if not failed and shutil.which("bwrap"):
                 return
-            say(result.stderr.decode(errors="replace").strip())
+            say(said)
             break
     say("bubblewrap is missing: install it, e.g. sudo apt-get install bubblewrap")
 
 
-def main():
+def main() -> None:
     """Make what is missing; a second call with nothing to do takes a few milliseconds."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--python", default="python3")

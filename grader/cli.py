@@ -1,5 +1,6 @@
 """The `grader` command. Exit status: 0 every check passed, 1 graded and something failed, 2 wrong
-usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated."""
+usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated.
+"""
 
 from __future__ import annotations
 

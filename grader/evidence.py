@@ -1,5 +1,6 @@
 """What the checks may look at: the assignment, the submission, and, made when first asked for, the
-build and the run."""
+build and the run.
+"""
 
 from __future__ import annotations
 

@@ -10,10 +10,13 @@ publishes `at` and makes `trips` round trips to every node (EXERCISE.md's barrie
 Answer: `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock).
 """
 
+from __future__ import annotations
+
 import json
 import os
 import sys
 import time
+from typing import Any
 
 import rclpy
 from rcl_interfaces.msg import Log
@@ -33,16 +36,16 @@ MOST_NODES = 8
 class Probe:
     """One rclpy node that looks at the others."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         rclpy.init(args=[])
         self.node = rclpy.create_node(
             NAME, enable_rosout=False, start_parameter_services=False, use_global_arguments=False
         )
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
-        self.logs = []
+        self.logs: list[dict[str, Any]] = []
         self.dropped = 0
-        self.clients = {}
+        self.clients: dict[str, Any] = {}
         self.clock = self.node.create_publisher(Clock, "/clock", 10)
         rosout = QoSProfile(
             depth=1000,
@@ -51,7 +54,7 @@ class Probe:
         )
         self.rosout = self.node.create_subscription(Log, "/rosout", self.on_log, rosout)
 
-    def on_log(self, log):
+    def on_log(self, log: Log) -> None:
         """Keep a record until the next answer."""
         if len(self.logs) >= MOST_LOGS:
             self.dropped += 1
@@ -67,9 +70,9 @@ class Probe:
             "stamp": log.stamp.sec * 1_000_000_000 + log.stamp.nanosec,
         })
 
-    def graph(self):
+    def graph(self) -> list[dict[str, Any]]:
         """Return the other nodes with what is known of them."""
-        found = {}
+        found: dict[str, dict[str, Any]] = {}
         for name, space in self.node.get_node_names_and_namespaces():
             if name != NAME and len(found) < MOST_NODES:
                 full = (space if space.endswith("/") else space + "/") + name
@@ -87,17 +90,17 @@ class Probe:
             node["parameters"] = self.client(full).service_is_ready()
         return list(found.values())
 
-    def client(self, full):
+    def client(self, full: str) -> Any:
         """Return the client of a node's parameter service."""
         if full not in self.clients:
             self.clients[full] = self.node.create_client(GetParameters, full + "/get_parameters")
         return self.clients[full]
 
-    def matched(self):
+    def matched(self) -> bool:
         """Return whether the other side's readers and writers have found ours."""
-        return self.clock.get_subscription_count() > 0
+        return bool(self.clock.get_subscription_count() > 0)
 
-    def barrier(self, trips, deadline):
+    def barrier(self, trips: int, deadline: float) -> bool | None:
         """Make round trips to every node with parameter services; None if there is none."""
         ready = [client for client in self.clients.values() if client.service_is_ready()]
         if not ready:
@@ -114,7 +117,7 @@ class Probe:
                 self.executor.spin_once(timeout_sec=left)
         return True
 
-    def answer(self, command):
+    def answer(self, command: dict[str, Any]) -> dict[str, Any]:
         """Do one command and return its answer."""
         deadline = time.monotonic() + command.get("seconds", 0)
         barrier = None
@@ -138,7 +141,7 @@ class Probe:
         return answer
 
 
-def main():
+def main() -> None:
     """Answer commands until the end of the input."""
     # what C libraries print must not end up between the answers
     answers = os.fdopen(os.dup(1), "w", buffering=1)

@@ -89,7 +89,7 @@ class ProbeLink:
     def ask(self, do: str, *, seconds: float = 0, **more: int) -> Answer:
         """Send one command and return the answer; ProbeError if none comes."""
         self.ready()
-        assert self._process.stdin is not None  # noqa: S101
+        assert self._process.stdin is not None
         try:
             command = {"do": do, "seconds": seconds, **more}
             self._process.stdin.write(json.dumps(command).encode() + b"\n")
@@ -109,7 +109,7 @@ class ProbeLink:
             raise self._lost("its answer is not one of a probe") from error
 
     def _read(self, seconds: float) -> dict[str, Any]:
-        assert self._process.stdout is not None  # noqa: S101
+        assert self._process.stdout is not None
         descriptor = self._process.stdout.fileno()
         deadline = time.monotonic() + seconds
         while b"\n" not in self._buffer:
@@ -131,7 +131,7 @@ class ProbeLink:
 
     def _lost(self, why: str) -> ProbeError:
         self._sandbox.end(self._process)
-        assert self._process.stderr is not None  # noqa: S101
+        assert self._process.stderr is not None
         said = self._process.stderr.read(4_000).decode(errors="replace").strip()
         return ProbeError(f"the probe failed: {why}" + (f"\n{said}" if said else ""))
 

@@ -9,6 +9,7 @@ import time
 import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass
+from dataclasses import field
 from datetime import datetime
 from datetime import timezone
 from pathlib import Path
@@ -56,7 +57,7 @@ class Order:
     distro: Distro
     sandbox: str = "auto"
     name: str | None = None
-    limits: Limits = Limits()
+    limits: Limits = field(default_factory=Limits)
     own_code: bool = False
 
 

@@ -57,8 +57,10 @@ def observe(
     assignment: Assignment,
     probe: ProbeLink,
     tell: Callable[[Event], None],
+    *,
+    fine: bool = False,
 ) -> Run:
-    """Run the node, drive its clock, press Ctrl+C, and return what was seen.
+    """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, say what was seen.
 
     Raises ProbeError where our own side failed.
     """
@@ -77,7 +79,8 @@ def observe(
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)
         if run.nodes and not terminal.ended:
             deadline = begin + limits.run_seconds
-            _watch(run, observer, assignment, tell, follows=follows, deadline=deadline)
+            clock = VirtualClock(observer, assignment.output, deadline=deadline, fine=fine)
+            _watch(run, observer, clock, tell, follows=follows, deadline=deadline)
         run.watch.events += observer.settle()
         counted = run.watch.counted
         if counted:
@@ -121,16 +124,16 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
 def _watch(
     run: Run,
     observer: Observer,
-    assignment: Assignment,
+    clock: VirtualClock,
     tell: Callable[[Event], None],
     *,
     follows: bool,
     deadline: float,
 ) -> None:
-    output = assignment.output
+    output = observer.output
     if follows:
         try:
-            VirtualClock(observer, output, deadline=deadline).drive(run.watch, tell)
+            clock.drive(run.watch, tell)
         except ForeignClock:
             run.watch.foreign_clock = True
             run.watch.note = "the node publishes /clock itself"

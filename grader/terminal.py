@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import select
@@ -127,10 +128,8 @@ class Terminal:
     def close(self) -> None:
         """End what still runs on it."""
         if self._spawn.isalive():
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.killpg(self._spawn.pid, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
         self._spawn.close(force=True)
 
 

@@ -49,6 +49,9 @@ def _readable_by_all() -> list[str]:
     needed = {base_interpreter().parent.parent, Path(sys.prefix), cache_root()}
     inside = sorted(str(path) for path in needed if str(path).startswith("/root/"))
     words += ["--perms", "0755", "--tmpfs", "/root"]
+    for folder in sorted({str(p) for path in inside for p in Path(path).parents if p != p.parent}):
+        if folder.startswith("/root/"):
+            words += ["--perms", "0755", "--dir", folder]
     for path in inside:
         words += ["--bind-try", path, path]
     return words

@@ -27,11 +27,11 @@ class Passed:
     advice: Sequence[str] = ()
 
 
-class Outcome(Exception):
+class Outcome(Exception):  # noqa: N818 - what a check says is not an error
     """Anything but a pass."""
 
 
-class Failed(Outcome):  # noqa: N818 - it is an outcome, not an error
+class Failed(Outcome):
     """The check does not hold: what was expected, what was found, where, why, and the fix."""
 
     def __init__(
@@ -56,7 +56,7 @@ class Failed(Outcome):  # noqa: N818 - it is an outcome, not an error
         self.advice = list(advice)
 
 
-class Blocked(Outcome):  # noqa: N818
+class Blocked(Outcome):
     """The check cannot be asked because another one failed: it is skipped, never failed."""
 
     def __init__(self, *, by: str) -> None:
@@ -64,7 +64,7 @@ class Blocked(Outcome):  # noqa: N818
         self.by = by
 
 
-class Inconclusive(Outcome):  # noqa: N818
+class Inconclusive(Outcome):
     """Our side, or the load of the machine, kept us from knowing."""
 
 

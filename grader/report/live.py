@@ -100,7 +100,7 @@ class LiveProgress:
         line = Text.assemble(
             (f"{spinner} {self._stage}", "bold cyan"), f"  {int(now - self._begin)} s"
         )
-        for part in (self._check, self._tick):
+        for part in (self._tick, self._check):
             line.append(f"  {part}" if part else "")
         line.truncate(max(width_of(self._file) - 1, 1))
         return line

@@ -95,14 +95,19 @@ def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcr
         page.line("The same on every distro.")
         return
     page.line(("What differs:", "bold"))
+    visible = {check.id for check in shown}
+    groups: dict[tuple[str, ...], list[str]] = {}
     for check in differing:
-        page.line((one_line(check.id, most=60), "bold"), indent=2)
         said: dict[str, list[str]] = {}
         for report in reports:
-            reason = _reason(report, check.id, {one.id for one in shown})
-            said.setdefault(reason, []).append(one_line(report.environment.distro, most=40))
-        for reason, distros in said.items():
-            page.line(f"{_listed(distros)}: {reason}", indent=4)
+            distro = one_line(report.environment.distro, most=40)
+            said.setdefault(_reason(report, check.id, visible), []).append(distro)
+        lines = tuple(f"{', '.join(distros)}: {reason}" for reason, distros in said.items())
+        groups.setdefault(lines, []).append(one_line(check.id, most=60))
+    for lines, ids in groups.items():
+        page.line((", ".join(ids), "bold"), indent=2)
+        for line in lines:
+            page.line(line, indent=4)
 
 
 def _reason(report: Report, check_id: str, shown: set[str]) -> str:
@@ -129,18 +134,9 @@ def _blocks(page: Page, reports: Sequence[Report], shown: set[str]) -> None:
                 key = check.model_copy(update={"seconds": 0}).model_dump_json()
                 group = groups.setdefault(key, (check, []))
                 group[1].append(one_line(report.environment.distro, most=40))
-    order = {
-        check_id: n
-        for n, check_id in enumerate(
-            dict.fromkeys(check.id for report in reports for check in report.checks)
-        )
-    }
-    for check, distros in sorted(groups.values(), key=lambda group: order[group[0].id]):
+    order = list(dict.fromkeys(check.id for report in reports for check in report.checks))
+    for check, distros in sorted(groups.values(), key=lambda group: order.index(group[0].id)):
         page.gap()
         everywhere = len(distros) == len(reports)
-        on = "" if everywhere else f" (on {_listed(distros)})"
+        on = "" if everywhere else f" (on {', '.join(distros)})"
         block(page, check, lines=LINES, on=on)
-
-
-def _listed(names: Sequence[str]) -> str:
-    return ", ".join(names)

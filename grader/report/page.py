@@ -10,13 +10,16 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from rich.cells import cell_len
+from rich.cells import chop_cells
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 NARROW = 60  # columns; below, what stands side by side comes one below the other
 WIDEST = 100  # columns; longer lines are hard to read
-LABEL = 11  # columns
+LABEL = 12  # columns
+QUOTED, CONTINUED = "  | ", "  |   "
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,35 +74,41 @@ class Page:
         self._console.print()
 
     def line(self, *parts: str | tuple[str, str], indent: int = 0) -> None:
-        """Write a paragraph of strings and (string, style) pairs, wrapped at words."""
-        self._hang(Text.assemble(*parts), " " * indent, " " * indent)
+        """Write a paragraph of strings and (string, style) pairs, wrapped at words.
+
+        Only its first line begins at `indent`: what it quotes cannot begin a line of ours.
+        """
+        self._hang(Text.assemble(*parts), " " * indent, " " * (indent + 2))
 
     def field(self, label: str, text: str | Sequence[str], style: str = "") -> None:
         """Write `text` (lines, each wrapped at words) beside its label."""
         lines = text.split("\n") if isinstance(text, str) else text
-        first = f"  {label:<{LABEL - 2}}"
-        rest = " " * LABEL
-        if self.narrow:
-            self._verbatim(Text(f"  {label}", style="bold"))
-            first = rest = "    "
+        first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             self._hang(Text(line, style=style), first if number == 0 else rest, rest)
 
     def code(self, label: str, lines: Sequence[str]) -> None:
         """Write lines as they are: the terminal wraps what is too long, so they can be copied."""
-        rest = " " * (4 if self.narrow else LABEL)
-        first = f"  {label:<{LABEL - 2}}"
-        if self.narrow:
-            self._verbatim(Text(f"  {label}", style="bold"))
-            first = rest
+        first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             lead = first if number == 0 else rest
             self._verbatim(Text.assemble((lead, "bold"), (line, _diff_style(line))))
 
+    def _lead(self, label: str, lines: Sequence[str]) -> tuple[str, str]:
+        """Return what stands before the first line and before the others."""
+        if not self.narrow:
+            return f"  {label:<{LABEL - 2}}", " " * LABEL
+        if len(lines) == 1 and cell_len(f"  {label}  {lines[0]}") <= self._width:
+            return f"  {label}  ", "    "
+        self._verbatim(Text(f"  {label}", style="bold"))
+        return "    ", "    "
+
     def quote(self, lines: Sequence[str]) -> None:
         """Write what a program printed, with a bar before each line: nobody takes it for ours."""
         for line in lines:
-            self._hang(Text(line), "  | ", "  |   ")
+            pieces = chop_cells(line, self._width - len(CONTINUED)) or [""]
+            for number, piece in enumerate(pieces):
+                self._verbatim(Text(f"{CONTINUED if number else QUOTED}{piece}"))
 
     def table(self, rows: Sequence[Row]) -> None:
         """Write the rows in columns; on a narrow page the text stands below the name."""
@@ -122,29 +131,33 @@ class Page:
 
         Columns that have no room go into another table below.
         """
-        widths = [
+        others = [
             max(len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
-            for n in range(len(heads))
+            for n in range(1, len(heads))
         ]
+        names = max(len(cells[0][0]) for cells in rows) + 2
+        names = min(names, max(self._width - max(others), 12))
         start = 1
         while start < len(heads):
-            end, room = start + 1, self._width - min(widths[0], self._width // 2) - widths[start]
-            while end < len(heads) and widths[end] <= room:
-                room -= widths[end]
+            end, room = start + 1, self._width - names - others[start - 1]
+            while end < len(heads) and others[end - 1] <= room:
+                room -= others[end - 1]
                 end += 1
-            self._grid([0, *range(start, end)], heads, rows)
-            start = end
-            if start < len(heads):
+            if start > 1:
                 self.gap()
+            self._grid([0, *range(start, end)], heads, rows, names=names - 2)
+            start = end
 
     def _grid(
         self,
         columns: Sequence[int],
         heads: Sequence[str],
         rows: Sequence[Sequence[tuple[str, str]]],
+        *,
+        names: int,
     ) -> None:
         table = Table.grid(padding=(0, 2, 0, 0), expand=False)
-        table.add_column(overflow="fold", max_width=self._width // 2 if self.narrow else None)
+        table.add_column(overflow="fold", width=names)
         for _ in columns[1:]:
             table.add_column(no_wrap=True)
         table.add_row(*(Text(heads[n], style="bold") for n in columns))

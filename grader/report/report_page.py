@@ -60,7 +60,8 @@ def _head(page: Page, report: Report) -> None:
     page.field("package", one_line(who.package, most=100) if who.package else "none was found")
     page.code("in", [one_line(who.path, most=4_000)])
     clock = CLOCKS[report.observed.clock]
-    world = [f"ROS 2 {one_line(env.distro, most=40)} ({env.ros})", f"sandbox {env.sandbox}", clock]
+    sandbox = "no sandbox" if env.sandbox == "none" else f"sandbox {env.sandbox}"
+    world = [f"ROS 2 {one_line(env.distro, most=40)} ({env.ros})", sandbox, clock]
     page.field("ran on", ", ".join(part for part in world if part))
     for note in who.notes:
         page.field("note", first_lines(note, lines=3))
@@ -80,7 +81,7 @@ def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
         total += f", {points(report.inconclusive)} inconclusive"
     page.line((total, "bold"), _counts(checks))
     if report.status == "graded" and report.message.strip():
-        page.line("\n".join(first_lines(report.message, lines=8)))
+        page.line("\n".join(first_lines(report.message, lines=8)), indent=2)
     hidden = len(report.checks) - len(checks)
     if hidden:
         page.line(f"{hidden} hidden check{'s' if hidden > 1 else ''}: not shown")
@@ -151,8 +152,8 @@ def _details(
         if value := getattr(env, name):
             page.field(name, one_line(str(value)))
     for name, limit in env.limits.items():
-        text = f"{one_line(name, most=60)} {limit.value:g} {limit.unit}, held by {limit.held_by}"
-        page.field("limit", one_line(text))
+        value = f"{limit.value:,.10g} {limit.unit}"
+        page.field("limit", one_line(f"{name} {value}, held by {limit.held_by}"))
     spent = [f"{name} {seconds:.2f} s" for name, seconds in timing.model_dump().items()]
     page.field("time", ", ".join(spent))
     if report.attempts > 1:
@@ -182,7 +183,7 @@ def _foot(page: Page, report: Report, checks: Sequence[CheckResult], path: Path 
         if first.where is not None:
             line = "" if first.where.line is None else f", line {first.where.line}"
             place = f" (in {one_line(first.where.file, most=100)}{line})"
-        page.field("next", f"Mend {one_line(first.id, most=60)}{place}, save, and grade again.")
+        page.field("next", f"Fix {one_line(first.id, most=60)}{place}, save, and grade again.")
     if report.observed.command:
         page.code("command", [one_line(report.observed.command, most=4_000)])
     if path is not None:

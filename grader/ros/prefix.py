@@ -142,7 +142,7 @@ def _make(distro: Distro, staging: Path, say: Say) -> None:
 
 def _install(distro: Distro, staging: Path, say: Say) -> None:
     lock = distro.lock
-    assert lock is not None  # noqa: S101 - prefix_path has refused it
+    assert lock is not None
     total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
     command = [sys.executable, "-m", "pip", "install", "--prefix", str(staging)]
     command += ["--ignore-installed", "--no-deps", "--require-hashes", "-r", str(lock)]
@@ -153,7 +153,7 @@ def _install(distro: Distro, staging: Path, say: Say) -> None:
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment
     ) as pip:
-        assert pip.stdout is not None  # noqa: S101
+        assert pip.stdout is not None
         tail: list[str] = []
         seen = 0
         for line in pip.stdout:

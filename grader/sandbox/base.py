@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import selectors
 import signal
@@ -195,17 +196,15 @@ class Sandbox(ABC):
     def end(self, process: subprocess.Popen[bytes]) -> None:
         """End a process that `command` made, and what it started, at once."""
         if process.poll() is None:
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
 
 
 def _converse(
     process: subprocess.Popen[bytes], stdin: bytes, deadline: float, most: int
 ) -> tuple[bytes, str]:
     """Feed stdin and read the output until the end of it; return it and which limit was met."""
-    assert process.stdin is not None and process.stdout is not None  # noqa: S101, PT018
+    assert process.stdin is not None and process.stdout is not None
     output = bytearray()
     rest = memoryview(stdin)
     os.set_blocking(process.stdin.fileno(), False)

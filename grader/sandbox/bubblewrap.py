@@ -97,9 +97,8 @@ class Bubblewrap(Sandbox):
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 pass_fds=[tell, *descriptors.values()],
-                start_new_session=True,
+                start_new_session=True,  # Ctrl+C at the grader's terminal is not the holder's
                 env={"PATH": "/usr/bin:/bin"},
-                preexec_fn=_ignore_interrupt,
             )
         finally:
             for descriptor in (tell, *descriptors.values()):
@@ -214,14 +213,12 @@ class Bubblewrap(Sandbox):
 
     def _wait_for_mounts(self, holder: subprocess.Popen[bytes]) -> None:
         """Wait until `cat` runs in the holder: the mounts are complete then."""
-        assert holder.stdin is not None  # noqa: S101
+        assert holder.stdin is not None
         while holder.poll() is None:
             try:
-                if Path(os.readlink(f"/proc/{self._held_pid}/exe")).name != "bwrap":
-                    return
                 children = Path(f"/proc/{self._held_pid}/task/{self._held_pid}/children")
-                for child in children.read_text().split():
-                    if Path(os.readlink(f"/proc/{child}/exe")).name != "bwrap":
+                for pid in [self._held_pid, *children.read_text().split()]:
+                    if Path(f"/proc/{pid}/exe").readlink().name != "bwrap":
                         return
             except OSError:
                 pass
@@ -229,7 +226,7 @@ class Bubblewrap(Sandbox):
         raise ValueError
 
     def _refused(self) -> SurroundingsError:
-        assert self._holder is not None and self._holder.stderr is not None  # noqa: S101, PT018
+        assert self._holder is not None and self._holder.stderr is not None
         stream: IO[bytes] = self._holder.stderr
         self._holder.wait()
         said = stream.read().decode(errors="replace").strip()
@@ -275,8 +272,3 @@ def _memory_file(text: str) -> int:
     os.write(descriptor, text.encode())
     os.lseek(descriptor, 0, os.SEEK_SET)
     return descriptor
-
-
-def _ignore_interrupt() -> None:
-    """Keep Ctrl+C at the grader's terminal from ending the holder before the grader has."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -6,6 +6,7 @@ documentation, admin-guide/cgroup-v1 and admin-guide/cgroup-v2.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
 from dataclasses import dataclass
@@ -108,7 +109,7 @@ def _open_v2(group: Group, limits: Limits, root: Path, name: str) -> None:
     own = _read(Path("/proc/self/cgroup")).strip().rpartition("::")[2].lstrip("/")
     parent = root / own
     have = set(_read(parent / "cgroup.subtree_control").split())
-    values = {}
+    values: dict[str, int] = {}
     if "memory" in have:
         values |= {"memory.max": int(limits.memory), "memory.swap.max": 0}
     if "pids" in have:
@@ -142,10 +143,8 @@ def _set(folder: Path, values: dict[str, int]) -> bool:
 
 def _kill(folder: Path) -> None:
     for pid in _read(folder / "cgroup.procs").split():
-        try:
+        with contextlib.suppress(OSError):
             os.kill(int(pid), 9)
-        except OSError:
-            pass
     os.sched_yield()
 
 

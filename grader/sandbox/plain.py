@@ -225,8 +225,9 @@ class Account(Bare):
         return words
 
     def _end_all(self) -> None:
-        for role in ("student", "probe"):
-            self._end_user(role)  # type: ignore[arg-type]
+        roles: tuple[Role, ...] = ("student", "probe")
+        for role in roles:
+            self._end_user(role)
         super()._end_all()
 
     def _end_user(self, role: Role) -> None:
@@ -250,9 +251,9 @@ def _must_be_readable(path: Path) -> None:
 
 
 def _processes() -> Iterator[int]:
-    for entry in os.listdir("/proc"):
-        if entry.isdigit():
-            yield int(entry)
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            yield int(entry.name)
 
 
 def _descendants(root: int) -> set[int]:

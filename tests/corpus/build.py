@@ -136,8 +136,8 @@ def _(edit: Link, root: Path) -> None:
 
 @_apply.register
 def _(edit: Nest, root: Path) -> None:
-    there = list(root.iterdir())
+    aside = root.with_name(f"{root.name}~")
+    root.rename(aside)
     target = root / edit.folder
-    target.mkdir(parents=True)
-    for path in there:
-        path.rename(target / path.name)
+    target.parent.mkdir(parents=True)
+    aside.rename(target)

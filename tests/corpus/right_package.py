@@ -67,7 +67,8 @@ STALE = "import os\n\nraise SystemExit('an old copy that nobody may run')\n"
 
 PACKAGING = (
     right("two_entries", Write(f"{INNER}/second.py", SECOND, 0o755),
-          Replace(SETUP, ENTRY, ENTRY + "            'other = my_robot_controller.second:main',\n")),
+          Replace(SETUP, ENTRY, ENTRY + ENTRY.replace("test_node", "other")
+                  .replace("my_first_node", "second"))),
     right("other_entry_misses_its_module",
           Replace(SETUP, ENTRY, ENTRY + "            'other = my_robot_controller.gone:main',\n"),
           note="8 of 147 public packages; not what was asked about"),
@@ -112,7 +113,8 @@ PACKAGING = (
     right("workspace", Nest(f"src/{PACKAGE}"), note="the whole workspace handed in"),
     right("workspace_with_neighbour", Nest(f"src/{PACKAGE}"),
           Copy(f"src/{PACKAGE}", "src/my_other_package"),
-          Replace(f"src/my_other_package/{MANIFEST}", f"<name>{PACKAGE}<", "<name>my_other_package<"),
+          Replace(f"src/my_other_package/{MANIFEST}", f"<name>{PACKAGE}<",
+                  "<name>my_other_package<"),
           Replace(f"src/my_other_package/{SETUP}", f"package_name = '{PACKAGE}'",
                   "package_name = 'my_other_package'"),
           note="another, unfinished package beside it (its build is nobody's business)"),
@@ -132,7 +134,8 @@ PACKAGING = (
           note="committed build, install and log of another machine, with stale copies"),
     right("compiled", Raw(f"{INNER}/__pycache__/my_first_node.cpython-312.pyc", b"\0\1\2stale"),
           note="105 of 147 committed __pycache__"),
-    right("egg_info", Write(f"{PACKAGE}.egg-info/entry_points.txt", "[console_scripts]\nold = a:b\n"),
+    right("egg_info",
+          Write(f"{PACKAGE}.egg-info/entry_points.txt", "[console_scripts]\nold = a:b\n"),
           Write(f"{PACKAGE}.egg-info/PKG-INFO", "Metadata-Version: 2.1\nName: old\nVersion: 0\n")),
     right("editor_and_system_files", Write(".vscode/settings.json", "{}\n"),
           Raw(".DS_Store", b"\0\0\0\1Bud1"), Raw(f"{INNER}/.my_first_node.py.swp", b"b0VIM\0\xff")),

@@ -16,7 +16,9 @@ SPIN = "rclpy.spin(node)"
 
 
 def _imports(*lines: str) -> Edit:
-    return Replace(NODE, "import rclpy\n", "".join(f"{line}\n" for line in lines) + "import rclpy\n")
+    return Replace(
+        NODE, "import rclpy\n", "".join(f"{line}\n" for line in lines) + "import rclpy\n"
+    )
 
 
 def _timer(new: str) -> Edit:
@@ -69,9 +71,15 @@ other = Node('my_idle_node')
         executor.add_node(other)
         executor.spin()"""
 THREAD = """\
-thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
-        thread.start()
-        thread.join()"""
+    thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+    thread.start()
+    try:
+        thread.join()
+    except KeyboardInterrupt:
+        pass
+    rclpy.try_shutdown()
+    thread.join()
+"""
 
 TIMING = (
     right("period_int", _timer("timer_period = 1\n        self.create_timer(timer_period, "
@@ -99,7 +107,9 @@ TIMING = (
     right("spin_once_loop", _spin("while rclpy.ok():\n            rclpy.spin_once(node)")),
     right("spin_once_timeout",
           _spin("while rclpy.ok():\n            rclpy.spin_once(node, timeout_sec=0.1)")),
-    right("spin_in_thread", _imports("import threading", ""), _spin(THREAD)),
+    right("spin_in_thread", _imports("import threading", ""), Replace(NODE, CATCH, THREAD)),
+    right("short_sleep_in_callback", _imports("import time", ""),
+          Replace(NODE, STEP, f"{STEP}\n        time.sleep(0.05)")),
     right("two_nodes", _imports("from rclpy.executors import SingleThreadedExecutor"),
           _spin(TWO_NODES), note="an unrelated second node in the same program"),
     right("idle_second_timer", _timer(f"{TIMER}\n        self.create_timer(0.25, lambda: None)")),

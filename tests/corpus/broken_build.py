@@ -1,0 +1,50 @@
+"""setup.py: colcon runs it, and what it does then."""
+
+from __future__ import annotations
+
+from .model import INSTALLED
+from .model import SETUP
+from .model import Delete
+from .model import Edit
+from .model import Package
+from .model import Replace
+from .model import broken
+
+CALL = "\nsetup(\n"
+
+
+def _stops(name: str, *edits: Edit, mistake: str, mapping: bool = True, note: str = "") -> Package:
+    """Return a package whose setup.py stops; `mapping`: its entry can still be read."""
+    blocked = INSTALLED if mapping else INSTALLED | {"entry_point.mapping"}
+    return broken(
+        name,
+        *edits,
+        failed={"build.colcon": mistake},
+        skipped=blocked,
+        score=55 if mapping else 40,
+        note=note,
+    )
+
+
+BUILD = (
+    _stops("setup_syntax_error", Replace(SETUP, "    version='0.0.0',", "    version='0.0.0'"),
+           mistake="build.setup_error", mapping=False),
+    _stops("setup_indentation", Replace(SETUP, "    zip_safe=True,\n", "    zip_safe=True,\n  )\n"),
+           mistake="build.setup_error", mapping=False),
+    _stops("setup_name_error", Replace(SETUP, CALL, "\nprint(pakage_name)\nsetup(\n"),
+           mistake="build.setup_error"),
+    _stops("setup_import_error",
+           Replace(SETUP, "from setuptools import setup", "from setuptool import setup"),
+           mistake="build.setup_error"),
+    _stops("setup_raises", Replace(SETUP, CALL, "\nraise RuntimeError('not today')\nsetup(\n"),
+           mistake="build.setup_error"),
+    _stops("setup_exits", Replace(SETUP, CALL, "\nimport sys\nsys.exit(0)\nsetup(\n"),
+           mistake="build.exited"),
+    _stops("setup_never_called", Replace(SETUP, CALL, "\ndict(\n"), mistake="build.exited"),
+    _stops("setup_loops", Replace(SETUP, CALL, "\nwhile True:\n    pass\n\nsetup(\n"),
+           mistake="build.timeout"),
+    _stops("setup_missing", Delete(SETUP), mistake="build.failed", mapping=False),
+    _stops("setup_data_file_missing",
+           Replace(SETUP, "['package.xml']", "['package.xml', 'launch/hello.launch.py']"),
+           mistake="build.failed", note="error: can't copy 'launch/hello.launch.py'"),
+)  # fmt: skip

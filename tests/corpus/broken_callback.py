@@ -1,0 +1,85 @@
+"""The callback: it dies at its first call, is never called, or not for long."""
+
+from __future__ import annotations
+
+from .model import NODE
+from .model import TICKS
+from .model import Edit
+from .model import Package
+from .model import Replace
+from .model import broken
+from .right_node import COUNT
+from .right_node import LINE
+from .right_node import STEP
+from .right_node import TIMER
+
+LOG = "self.get_logger().info"
+
+
+def _dies(name: str, *edits: Edit, note: str = "") -> Package:
+    """Return a package whose node ends before its first line."""
+    return broken(
+        name,
+        *edits,
+        failed={"run.output": "run.ended_early"},
+        skipped=TICKS | {"run.interrupt"},
+        score=80,
+        note=note,
+    )
+
+
+def _silent(name: str, *edits: Edit, note: str = "") -> Package:
+    """Return a package whose node says nothing, until Ctrl+C."""
+    return broken(
+        name, *edits, failed={"run.output": "run.no_lines"}, skipped=TICKS, score=83, note=note
+    )
+
+
+def _node(old: str, new: str) -> Edit:
+    return Replace(NODE, old, new)
+
+
+CALLBACK = (
+    _dies("str_missing", _node("str(self.counter_)", "self.counter_"),
+          note="can only concatenate str (not \"int\") to str"),
+    _dies("callback_without_self", _node("def timer_callback(self)", "def timer_callback()")),
+    _dies("callback_wants_message",
+          _node("def timer_callback(self)", "def timer_callback(self, msg)")),
+    _dies("get_logger_not_called", _node(LOG, "self.get_logger.info")),
+    _dies("logger_misspelt", _node(LOG, "self.get_loger().info")),
+    _dies("logger_with_comma", _node("'Hello time: ' + str", "'Hello time: ', str"),
+          note="as print would take it"),
+    _dies("counter_not_set", _node(f"        {COUNT}\n", "")),
+    _dies("counter_without_self", _node(COUNT, "counter_ = 0")),
+    _dies("counter_local", _node(LINE, LINE.replace("self.counter_", "counter_")),
+          _node(STEP, "counter_ += 1")),
+    _dies("counter_of_other_name", _node(COUNT, "self.counter = 0")),
+    _dies("name_error_in_callback", _node(LINE, LINE.replace("str(", "string("))),
+    _dies("spin_once", _node("rclpy.spin(node)", "rclpy.spin_once(node)"),
+          note="in virtual time the message on /clock is the one callback it does"),
+    _silent("timer_missing", _node(f"        {TIMER}\n", "")),
+    _silent("timer_in_callback", _node(f"        {TIMER}\n", ""),
+            _node(LINE, f"{TIMER}\n        {LINE}")),
+    _silent("timer_cancelled", _node(TIMER, f"{TIMER}.cancel()")),
+    _silent("period_in_milliseconds", _node("(1.0,", "(1000.0,")),
+    _silent("logged_as_debug", _node(LOG, "self.get_logger().debug"),
+            note="below the default level: neither on the terminal nor on /rosout"),
+    _silent("log_line_forgotten", _node(f"        {LINE}\n", "")),
+    _silent("callback_is_another", _node("self.timer_callback)", "self.get_name)")),
+    broken("three_then_silence",
+           _node(TIMER, f"self.timer_ = {TIMER}"),
+           _node(STEP, f"{STEP}\n        if self.counter_ == 3:\n            self.timer_.cancel()"),
+           failed={"run.output": "run.stops"}, score=90),
+    broken("three_then_exit",
+           _node(STEP, f"{STEP}\n        if self.counter_ == 3:\n            raise SystemExit"),
+           failed={"run.output": "run.ended_early"}, skipped=frozenset({"run.interrupt"}),
+           score=87),
+    broken("spins_three_times", _node("rclpy.spin(node)", "for _ in range(30):\n"
+           "            rclpy.spin_once(node, timeout_sec=0.1)"),
+           failed={"run.output": "run.ended_early"}, skipped=TICKS | {"run.interrupt"}, score=80,
+           note="three seconds by the wall clock, thirty messages of /clock at most"),
+    broken("brackets_behind_callback", _node("self.timer_callback)", "self.timer_callback())"),
+           failed={"run.output": "run.ended_early", "run.period": "run.by_hand"},
+           skipped=frozenset({"run.interrupt"}), score=83,
+           note="one line at once, then 'NoneType' object is not callable"),
+)  # fmt: skip

@@ -1,0 +1,99 @@
+"""The entry point: which part of package, file and function is wrong."""
+
+from __future__ import annotations
+
+from .model import BUILT
+from .model import INNER
+from .model import INSTALLED
+from .model import NODE
+from .model import RUN
+from .model import SETUP
+from .model import Edit
+from .model import Package
+from .model import Replace
+from .model import Write
+from .model import broken
+
+TARGET = "my_robot_controller.my_first_node:main"
+ENTRY = f"            'test_node = {TARGET}',\n"
+SECOND = "def main():\n    pass\n"
+
+
+def _lost(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
+    """Return a package that builds and has no executable `test_node`."""
+    return broken(
+        name,
+        *edits,
+        failed={"entry_point.mapping": mistake},
+        skipped=INSTALLED,
+        score=50,
+        note=note,
+    )
+
+
+def _unbuilt(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
+    """Return a package whose entry keeps it from building."""
+    return broken(
+        name, *edits, failed={"entry_point.mapping": mistake}, skipped=BUILT, score=40, note=note
+    )
+
+
+def _dead(name: str, *edits: Edit, mistake: str | None, note: str = "") -> Package:
+    """Return a package whose executable is there and dies of its entry."""
+    return broken(
+        name, *edits, failed={"entry_point.mapping": mistake}, skipped=RUN, score=55, note=note
+    )
+
+
+def _target(new: str) -> Edit:
+    return Replace(SETUP, TARGET, new)
+
+
+ENTRY_POINT = (
+    _lost("entry_missing", Replace(SETUP, ENTRY, ""), mistake="entry_point.none"),
+    _lost("entry_commented_out", Replace(SETUP, ENTRY, ENTRY.replace("'test", "# 'test")),
+          mistake="entry_point.none"),
+    _lost("entry_points_lost", Replace(SETUP, "    entry_points={\n        'console_scripts': [\n"
+          f"{ENTRY}        ],\n    }},\n", ""), mistake="entry_point.none"),
+    _lost("executable_is_file_name", Replace(SETUP, "'test_node =", "'my_first_node ="),
+          mistake="entry_point.wrong_name", note="No executable found"),
+    _lost("executable_misspelt", Replace(SETUP, "'test_node =", "'test_nod ="),
+          mistake="entry_point.wrong_name"),
+    _lost("executable_capital", Replace(SETUP, "'test_node =", "'Test_node ="),
+          mistake="entry_point.wrong_name"),
+    _lost("executable_with_suffix", Replace(SETUP, "'test_node =", "'test_node.py ="),
+          mistake="entry_point.wrong_name"),
+    _lost("console_script", Replace(SETUP, "'console_scripts'", "'console_script'"),
+          mistake="entry_point.wrong_group", note="a group that nobody reads"),
+    _lost("gui_scripts", Replace(SETUP, "'console_scripts'", "'consol_scripts'"),
+          mistake="entry_point.wrong_group"),
+    _unbuilt("comma_missing", Write(f"{INNER}/second.py", SECOND),
+             Replace(SETUP, ENTRY, ENTRY.replace(",", "")
+                     + "            'second = my_robot_controller.second:main',\n"),
+             mistake="entry_point.missing_comma", note="was never called, says colcon"),
+    _unbuilt("colon_for_equals", Replace(SETUP, "test_node = my", "test_node : my"),
+             mistake="entry_point.bad_syntax"),
+    _unbuilt("slash_for_dot", _target("my_robot_controller/my_first_node:main"),
+             mistake="entry_point.bad_syntax"),
+    _unbuilt("dash_in_module", _target("my-robot-controller.my_first_node:main"),
+             mistake="entry_point.bad_syntax"),
+    _dead("module_misspelt", _target("my_robot_controller.my_frist_node:main"),
+          mistake="entry_point.wrong_module"),
+    _dead("package_left_out", _target("my_first_node:main"), mistake="entry_point.wrong_module"),
+    _dead("package_misspelt", _target("my_robot_controler.my_first_node:main"),
+          mistake="entry_point.wrong_module"),
+    _dead("suffix_in_module", _target("my_robot_controller.my_first_node.py:main"),
+          mistake="entry_point.wrong_module"),
+    _dead("main_left_out", _target("my_robot_controller.my_first_node"),
+          mistake="entry_point.no_function"),
+    _dead("dot_for_colon", _target("my_robot_controller.my_first_node.main"),
+          mistake="entry_point.no_function"),
+    _dead("function_misspelt", _target("my_robot_controller.my_first_node:mian"),
+          mistake="entry_point.wrong_function"),
+    _dead("function_called", _target("my_robot_controller.my_first_node:main()"),
+          mistake=None, note="brackets behind main"),
+    _dead("main_missing", Replace(NODE, "def main(", "def run("),
+          Replace(NODE, "\n    main()\n", "\n    run()\n"), mistake="entry_point.wrong_function"),
+    _dead("main_misspelt", Replace(NODE, "def main(", "def mein("),
+          Replace(NODE, "\n    main()\n", "\n    mein()\n"), mistake="entry_point.wrong_function"),
+)  # fmt: skip

@@ -1,0 +1,118 @@
+"""Nothing to mark, the wrong package, or a package whose parts do not fit together."""
+
+from __future__ import annotations
+
+from .model import BUILT
+from .model import CFG
+from .model import FOUND
+from .model import INNER
+from .model import INSTALLED
+from .model import MANIFEST
+from .model import MARKER
+from .model import NODE
+from .model import PACKAGE
+from .model import SETUP
+from .model import Copy
+from .model import Delete
+from .model import Nest
+from .model import Raw
+from .model import Rename
+from .model import Replace
+from .model import Write
+from .model import broken
+
+ALL = tuple(Delete(path) for path in (INNER, "resource", MANIFEST, SETUP, CFG))
+MARKER_LINES = """\
+        ('share/ament_index/resource_index/packages',
+            ['resource/' + package_name]),
+"""
+OTHER = "my_controller"
+CMAKE = """\
+cmake_minimum_required(VERSION 3.8)
+project(my_robot_controller)
+find_package(ament_cmake REQUIRED)
+ament_package()
+"""
+NAME_LINE = f"<name>{PACKAGE}</name>"
+TYPE = "<build_type>ament_python</build_type>"
+
+PACKAGES = (
+    broken("empty_folder", *ALL, failed={"package.found": "package.none"}, skipped=FOUND, score=0),
+    broken("only_a_text", *ALL, Write("submission.txt", "see my repository\n"),
+           failed={"package.found": "package.none"}, skipped=FOUND, score=0),
+    broken("only_the_node", *(e for e in ALL if e.path != INNER), Delete(f"{INNER}/__init__.py"),
+           Rename(NODE, "my_first_node.py"),
+           failed={"package.found": "package.no_manifest"}, skipped=FOUND, score=0,
+           note="the node's file alone"),
+    broken("no_manifest", Delete(MANIFEST), failed={"package.found": "package.no_manifest"},
+           skipped=FOUND, score=0, note="colcon does not see a package there"),
+    broken("two_of_one_name", Nest(f"src/{PACKAGE}"), Copy(f"src/{PACKAGE}", "src/backup"),
+           failed={"package.found": "package.duplicate"}, skipped=FOUND, score=0,
+           note="a backup copy kept in src"),
+    broken("other_name_throughout",
+           Replace(MANIFEST, NAME_LINE, f"<name>{OTHER}</name>"),
+           Replace(SETUP, f"package_name = '{PACKAGE}'", f"package_name = '{OTHER}'"),
+           Replace(SETUP, f"test_node = {PACKAGE}.", f"test_node = {OTHER}."),
+           Write(CFG, f"[develop]\nscript_dir=$base/lib/{OTHER}\n[install]\n"
+                      f"install_scripts=$base/lib/{OTHER}\n"),
+           Rename(MARKER, f"resource/{OTHER}"), Rename(INNER, OTHER),
+           failed={"package.found": "package.other_name"}, skipped=FOUND, score=0,
+           note="a sound package, but not the one that was asked for"),
+    broken("cmake_package", *(Delete(p) for p in (SETUP, CFG, "resource", INNER)),
+           Write("CMakeLists.txt", CMAKE), Replace(MANIFEST, "ament_python", "ament_cmake"),
+           failed={"package.manifest": "package.build_type", "package.marker": None,
+                   "package.setup_cfg": None, "source.node_file": None,
+                   "entry_point.mapping": None},
+           skipped=BUILT | {"source.exec_bit", "source.shebang"}, score=5,
+           note="--build-type forgotten"),
+    broken("manifest_not_xml", Replace(MANIFEST, "</description>", "</decription>"),
+           failed={"package.manifest": "package.broken_xml"}, skipped=BUILT, score=50,
+           note="colcon takes it for plain Python: it builds, and ros2 run does not find it"),
+    broken("manifest_empty", Write(MANIFEST, ""),
+           failed={"package.manifest": "package.broken_xml"}, skipped=BUILT, score=50),
+    broken("manifest_not_utf8", Raw(MANIFEST, b'<?xml version="1.0"?>\n<package format="3">'
+           b"<name>my_robot_controller</name><version>0.0.0</version><description>f\xfcr"
+           b"</description></package>\n"),
+           failed={"package.manifest": "package.broken_xml"}, skipped=BUILT, score=50),
+    broken("manifest_other_name", Replace(MANIFEST, NAME_LINE, "<name>my_robot_controler</name>"),
+           failed={"package.manifest": "package.name_mismatch"}, skipped=BUILT, score=50,
+           note="setup.py has the right name; ros2 run knows the package by the manifest's"),
+    broken("setup_other_name",
+           Replace(SETUP, "name=package_name", "name='my_robot'"),
+           failed={"package.manifest": "package.name_mismatch"}, score=95),
+    broken("setup_variable_other_name",
+           Replace(SETUP, f"package_name = '{PACKAGE}'", "package_name = 'robot_controller'"),
+           failed={"package.manifest": "package.name_mismatch",
+                   "package.marker": "package.marker_missing"}, skipped=BUILT, score=45),
+    broken("build_type_missing", Replace(MANIFEST, f"    {TYPE}\n", ""),
+           failed={"package.manifest": "package.build_type"}, skipped=BUILT, score=50),
+    broken("build_type_cmake", Replace(MANIFEST, "ament_python", "ament_cmake"),
+           failed={"package.manifest": "package.build_type"}, skipped=BUILT, score=50),
+    broken("build_type_misspelt", Replace(MANIFEST, "ament_python", "ament_pyton"),
+           failed={"package.manifest": "package.build_type"}, skipped=BUILT, score=50),
+    broken("marker_missing", Delete(MARKER), failed={"package.marker": "package.marker_missing"},
+           skipped=BUILT, score=50),
+    broken("marker_folder_missing", Delete("resource"),
+           failed={"package.marker": "package.marker_missing"}, skipped=BUILT, score=50,
+           note="git keeps no empty folders, and some tools drop empty files"),
+    broken("marker_misnamed", Rename(MARKER, "resource/my_robot_controler"),
+           failed={"package.marker": "package.marker_missing"}, skipped=BUILT, score=50),
+    broken("marker_not_installed", Replace(SETUP, MARKER_LINES, ""),
+           failed={"package.marker": "package.marker_not_installed"}, score=95,
+           note="colcon warns and makes one itself"),
+    broken("setup_cfg_missing", Delete(CFG),
+           failed={"package.setup_cfg": "package.setup_cfg_missing"},
+           skipped=INSTALLED, score=60, note="the script lands in bin"),
+    broken("setup_cfg_empty", Write(CFG, ""), failed={"package.setup_cfg": None},
+           skipped=INSTALLED, score=60),
+    broken("setup_cfg_other_package",
+           Write(CFG, "[develop]\nscript_dir=$base/lib/my_robot\n"
+                      "[install]\ninstall_scripts=$base/lib/my_robot\n"),
+           failed={"package.setup_cfg": "package.setup_cfg_wrong"}, skipped=INSTALLED, score=60),
+    broken("setup_cfg_without_develop",
+           Write(CFG, f"[install]\ninstall_scripts=$base/lib/{PACKAGE}\n"),
+           failed={"package.setup_cfg": "package.setup_cfg_wrong"}, skipped=INSTALLED, score=60),
+    broken("setup_cfg_bin", Write(CFG, "[develop]\nscript_dir=$base/bin\n"
+                                       "[install]\ninstall_scripts=$base/bin\n"),
+           failed={"package.setup_cfg": "package.setup_cfg_wrong"}, skipped=INSTALLED, score=60),
+)  # fmt: skip

@@ -1,0 +1,90 @@
+"""The node does not come to life, or not for long."""
+
+from __future__ import annotations
+
+from .model import AFTER_START
+from .model import NODE
+from .model import Edit
+from .model import Package
+from .model import Replace
+from .model import Write
+from .model import broken
+from .right_node import CATCH
+from .right_node import COUNT
+from .right_node import TIMER
+
+SUPER = "        super().__init__('my_first_node')\n"
+MADE = "    node = MyFirstNode()\n"
+INIT = "    rclpy.init(args=args)\n"
+HELLO = """\
+#!/usr/bin/env python3
+def main():
+    for n in range(10):
+        print(f'Hello time: {n}')
+"""
+
+
+def _dies(name: str, *edits: Edit, note: str = "", mistake: str = "run.died_at_start") -> Package:
+    return broken(
+        name, *edits, failed={"run.starts": mistake}, skipped=AFTER_START, score=70, note=note
+    )
+
+
+def _node(old: str, new: str) -> Edit:
+    return Replace(NODE, old, new)
+
+
+START = (
+    _dies("import_misspelt", _node("import rclpy\nfrom", "import rclpi\nfrom")),
+    _dies("import_of_node", _node("from rclpy.node import Node", "from rclpy import Node")),
+    _dies("import_unknown", _node("import rclpy\nfrom", "import numpi as np\nimport rclpy\nfrom")),
+    _dies("import_node_missing", _node("from rclpy.node import Node\n", ""),
+          note="NameError while the class is defined"),
+    _dies("raises_at_import", _node("class MyFirstNode", "raise OSError('boom')\n\n\nclass "
+          "MyFirstNode")),
+    _dies("super_missing", _node(SUPER, "")),
+    _dies("super_after_timer", _node(SUPER, ""), _node(f"        {TIMER}\n",
+          f"        {TIMER}\n{SUPER}")),
+    _dies("super_without_name", _node("__init__('my_first_node')", "__init__()")),
+    _dies("init_single_underscores", _node("    def __init__(self)", "    def _init_(self)")),
+    _dies("not_a_node", _node("class MyFirstNode(Node)", "class MyFirstNode")),
+    _dies("dash_in_node_name", _node("'my_first_node'", "'my-first-node'")),
+    _dies("blank_in_node_name", _node("'my_first_node'", "'my first node'")),
+    _dies("rclpy_init_missing", _node(INIT, "")),
+    _dies("rclpy_init_after_node", _node(INIT + MADE, MADE + INIT)),
+    _dies("main_wants_args", _node("def main(args=None)", "def main(args)")),
+    _dies("callback_misspelt", _node(TIMER, TIMER.replace("timer_callback", "timer_calback"))),
+    _dies("callback_without_self_dot", _node("self.timer_callback", "timer_callback")),
+    _dies("callback_inside_init", _node("    def timer_callback(self)",
+          "        def timer_callback(self)"),
+          _node('        """Say hello once; the timer calls this for as long as the node '
+                'spins."""\n'
+                "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                "        self.counter_ += 1\n",
+                "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                "            self.counter_ += 1\n")),
+    _dies("timer_at_class_level", _node(f"        {TIMER}\n", f"\n    {TIMER}\n")),
+    _dies("timer_arguments_swapped", _node("1.0, self.timer_callback", "self.timer_callback, 1.0")),
+    _dies("period_as_text", _node("(1.0,", "('1.0s',")),
+    _dies("period_missing", _node("(1.0, self", "(self")),
+    _dies("create_timer_misspelt", _node("create_timer", "create_timmer")),
+    _dies("context_manager_of_kilted",
+          _node(INIT + MADE + CATCH, "    with rclpy.init(args=args):\n"
+                                     "        rclpy.spin(MyFirstNode())\n"),
+          note="the newer tutorial on jazzy; right from kilted on"),
+    _dies("spin_of_class", _node("rclpy.spin(node)", "rclpy.spin(MyFirstNode)")),
+    _dies("exception_in_init", _node(COUNT, "self.counter_ = int('zero')")),
+    _dies("spin_missing", _node("        rclpy.spin(node)\n", "        pass\n"),
+          mistake="run.exits_at_once"),
+    _dies("spin_not_called", _node("rclpy.spin(node)", "rclpy.spin"), mistake="run.exits_at_once"),
+    _dies("main_empty", _node(INIT + MADE + CATCH, "    pass\n"), mistake="run.exits_at_once"),
+    _dies("loop_without_node", Write(NODE, HELLO), mistake="run.exits_at_once",
+          note="ten lines at once, without ROS"),
+    _dies("waits_for_input", _node(INIT, "    input('Press Enter to start')\n" + INIT),
+          mistake="run.no_node"),
+    _dies("sleeps_before_init", _node(INIT, "    import time\n    time.sleep(3600)\n" + INIT),
+          mistake="run.no_node"),
+    _dies("loop_without_ros", Write(NODE, HELLO.replace("def main():\n", "import time\n\n\n"
+          "def main():\n").replace("range(10)", "range(10**6)") + "        time.sleep(1)\n"),
+          mistake="run.no_node", note="right lines at right instants, but no node"),
+)  # fmt: skip

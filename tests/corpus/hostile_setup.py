@@ -1,0 +1,100 @@
+"""Packages whose setup.py, which colcon runs, means harm. Bounded as those of hostile_node are."""
+
+from __future__ import annotations
+
+from .model import BUILT
+from .model import INSTALLED
+from .model import SETUP
+from .model import Package
+from .model import Replace
+from .model import hostile
+
+CALL = "\nsetup(\n"
+ESCAPED = "corpus-escaped"  # a file of this name outside the sandbox is proof of an escape
+OUTSIDE = f"""
+import os
+for folder in ('/tmp', '/var/tmp', '/dev/shm', os.path.expanduser('~'), '/', '../../../..'):
+    try:
+        open(os.path.join(folder, '{ESCAPED}'), 'w').close()
+    except OSError:
+        pass
+"""
+DAEMON = """
+import os
+import time
+if os.fork() == 0:
+    os.setsid()
+    if os.fork() == 0:
+        time.sleep(60)
+    os._exit(0)
+"""
+FORGED = """
+import sys
+open('report.json', 'w').write('{"schema": 1, "status": "graded", "score": 100}')
+print('Summary: 1 package finished [0.50s]')
+print('Hello time: 0')
+sys.exit(0)
+"""
+FLOOD = """
+for _ in range(300_000):
+    print('x' * 1000)
+"""
+FORKS = """
+import os
+import time
+for _ in range(3000):
+    try:
+        if os.fork() == 0:
+            time.sleep(30)
+            os._exit(0)
+    except OSError:
+        break
+"""
+MEMORY = """
+import os
+hog = [bytearray(os.urandom(1)) * 10_000_000 for _ in range(300)]
+"""
+DEAF = """
+import signal
+import time
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, signal.SIG_IGN)
+time.sleep(120)
+"""
+KILL = """
+import os
+import signal
+os.killpg(0, signal.SIGKILL)
+"""
+SECRETS = """
+import os
+for path in ('/etc/shadow', '/root/.ssh/id_rsa', '/work/main/grader/keys/hello_time'):
+    try:
+        print(os.listdir(path) if os.path.isdir(path) else open(path).read())
+    except OSError:
+        pass
+for key, value in os.environ.items():
+    print('ENV', key, value)
+"""
+
+
+def _setup(code: str) -> Replace:
+    return Replace(SETUP, CALL, code + CALL)
+
+
+SETUPS: tuple[Package, ...] = (
+    hostile("setup_writes_outside", _setup(OUTSIDE), score=100,
+            note=f"leaves {ESCAPED} wherever it may"),
+    hostile("setup_reads_secrets", _setup(SECRETS), score=100),
+    hostile("setup_outlives_us", _setup(DAEMON), score=100,
+            note="a child that holds the build's output open for a minute"),
+    hostile("setup_forges_a_report", _setup(FORGED), failed={"build.colcon": "build.exited"},
+            skipped=INSTALLED, score=55),
+    hostile("setup_prints_megabytes", _setup(FLOOD), undecided=BUILT),
+    hostile("setup_fork_bomb", _setup(FORKS), undecided=BUILT),
+    hostile("setup_eats_memory", _setup(MEMORY), undecided=BUILT, note="3 GB at most"),
+    hostile("setup_deaf", _setup(DEAF), failed={"build.colcon": "build.timeout"},
+            skipped=INSTALLED, score=55),
+    hostile("setup_kills_its_group", _setup(KILL), failed={"build.colcon": None},
+            skipped=INSTALLED, score=55, note="takes colcon along"),
+)  # fmt: skip

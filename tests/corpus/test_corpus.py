@@ -1,0 +1,108 @@
+"""The corpus itself: its edits apply, its numbers add up. What it deserves is tested elsewhere."""
+
+from __future__ import annotations
+
+import ast
+import stat
+from pathlib import Path
+
+import pytest
+import yaml
+
+from .broken import BROKEN
+from .build import ROOT
+from .build import SOLUTION
+from .build import EditError
+from .build import write
+from .hostile import HOSTILE
+from .model import NODE
+from .model import SETUP
+from .model import Chmod
+from .model import Crlf
+from .model import Link
+from .model import Nest
+from .model import Package
+from .model import Replace
+from .right import RIGHT
+
+CORPUS = (*RIGHT, *BROKEN, *HOSTILE)
+ASSIGNMENT = ROOT / "lab/course/hello_time/assignment.yaml"
+
+
+@pytest.fixture(scope="module")
+def points() -> dict[str, float]:
+    checks = yaml.safe_load(ASSIGNMENT.read_text(encoding="utf-8"))["checks"]
+    return {check["id"]: check["points"] for check in checks}
+
+
+def named(package: Package) -> str:
+    return package.name
+
+
+@pytest.mark.parametrize("package", CORPUS, ids=named)
+def test_its_edits_apply(package: Package, tmp_path: Path) -> None:
+    assert write(package, tmp_path).is_dir()
+
+
+@pytest.mark.parametrize("package", RIGHT, ids=named)
+def test_what_is_right_parses_and_is_executable(package: Package, tmp_path: Path) -> None:
+    root = write(package, tmp_path)
+    root = next((root / edit.folder for edit in package.edits if isinstance(edit, Nest)), root)
+    for path in (root / SETUP, root / NODE):
+        ast.parse(path.read_bytes())
+    assert (root / NODE).stat().st_mode & stat.S_IXUSR
+
+
+@pytest.mark.parametrize("package", CORPUS, ids=named)
+def test_its_expectations_add_up(package: Package, points: dict[str, float]) -> None:
+    groups = (set(package.expect_failed), package.expect_skipped, package.undecided)
+    named_checks = [check for group in groups for check in group]
+    assert len(named_checks) == len(set(named_checks)), "a check has one outcome"
+    assert set(named_checks) <= set(points)
+    lost = sum(points[check] for check in named_checks)
+    if package.undecided:
+        assert package.expect_score is None
+    else:
+        assert package.expect_score == sum(points.values()) - lost
+
+
+def test_names_are_unique_and_fit_for_a_folder() -> None:
+    names = [package.name for package in CORPUS]
+    assert len(names) == len(set(names))
+    assert all(name.isidentifier() and name.islower() for name in names)
+
+
+def test_there_are_enough_of_each() -> None:
+    assert len(RIGHT) >= 12
+    assert len(BROKEN) >= 30
+    assert len(HOSTILE) >= 10
+    assert all(package.expect_failed for package in BROKEN)
+    assert all(package.hostile for package in HOSTILE)
+
+
+def test_every_check_fails_somewhere(points: dict[str, float]) -> None:
+    failed = {check for package in CORPUS for check in package.expect_failed}
+    assert failed >= set(points) - {"entry_point.executable"}
+
+
+def test_an_edit_that_does_not_fit_is_an_error(tmp_path: Path) -> None:
+    for text in ("not there", "self"):
+        package = Package(name=f"edit_{text[:3]}", edits=(Replace(NODE, text, "x"),))
+        with pytest.raises(EditError, match="not once"):
+            write(package, tmp_path)
+
+
+def test_modes_line_ends_and_links_arrive(tmp_path: Path) -> None:
+    edits = (Chmod(NODE, 0o640), Crlf(SETUP), Link("out", "/nowhere"))
+    root = write(Package(name="edited", edits=edits), tmp_path)
+    assert (root / NODE).stat().st_mode & 0o777 == 0o640
+    assert (root / SETUP).read_bytes().count(b"\r\n") == len((SOLUTION / SETUP).open().readlines())
+    assert (root / "out").is_symlink()
+
+
+def test_the_solution_is_written_as_it_is(tmp_path: Path) -> None:
+    root = write(Package(name="solution", edits=()), tmp_path)
+    for path in root.rglob("*"):
+        if path.is_file():
+            assert path.read_bytes() == (SOLUTION / path.relative_to(root)).read_bytes()
+    assert (SOLUTION / NODE).stat().st_mode & stat.S_IXUSR

@@ -1,0 +1,205 @@
+"""Text that a submission decides is shown as text, whatever it holds."""
+
+from __future__ import annotations
+
+import re
+import time
+import unicodedata
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import settings
+from hypothesis import strategies
+from rich.cells import cell_len
+
+from grader.report.model import Report
+from grader.report.plain import first_lines
+from grader.report.plain import one_line
+from grader.report.plain import visible
+from grader.report.terminal import render_matrix
+from grader.report.terminal import render_report
+from tests.report.samples import check
+from tests.report.samples import report
+
+OUR_STYLES = re.compile(r"\x1b\[[0-9;]*m")
+SURVIVING = ("\n",)
+HOSTILE = {
+    "clear screen": "\x1b[2J\x1b[H",
+    "title": "\x1b]0;owned\x07",
+    "clipboard": "\x1b]52;c;cm0gLXJmIC8=\x1b\\",
+    "C1 CSI": "\x9b31m\x85\x90",
+    "bidi override": "abc\u202edef\u2066ghi\u2069\u200f\u061c",
+    "zero width": "He\u200bllo\ufeff \u2060time\u00ad",
+    "backspaces": "FAIL\b\b\b\bpass\x7f",
+    "carriage return": "Score 0 / 100\rScore 100 / 100",
+    "line separators": "a\x0bb\x0cc\u2028d\u2029e\x1c\x1d\x1e\x85",
+    "nul": "\x00\x01\x02",
+    "tags": "\U000e0041\U000e007f",
+    "no-break space": "a\u00a0b",
+}
+
+
+def everywhere(text: str) -> Report:
+    """A report with the text in every place that a submission, or anybody, can fill."""
+    fields: dict[str, Any] = {
+        "title": text,
+        "rationale": text,
+        "expected": text,
+        "actual": text,
+        "fix": text,
+        "patch": text,
+        "advice": [text],
+        "mistakes": [{"id": text}],
+        "where": {"file": text, "line": 1},
+    }
+    broken = [
+        check(check_id, status, **fields)
+        for check_id, status in (
+            ("build.colcon", "failed"),
+            ("run.starts", "failed"),
+            ("run.node_name", "inconclusive"),
+            ("run.output", "error"),
+            ("run.logger", "skipped"),
+            ("run.period", "passed"),
+        )
+    ]
+    odd = check(f"own.{text}", "skipped", depends=["build.colcon"], **fields)
+    clean = report()
+    return report(
+        *broken,
+        odd,
+        message=text,
+        assignment={**clean.assignment.model_dump(), "title": text},
+        submission={
+            **clean.submission.model_dump(),
+            "name": text,
+            "student_id": text,
+            "path": text,
+            "package": text,
+            "notes": [text],
+        },
+        environment={**clean.environment.model_dump(), "distro": text, "rclpy": text,
+                     "limits": {text: {"value": 1, "unit": text, "held_by": text}}},
+        observed={
+            "command": text,
+            "clock": "virtual",
+            "nodes": [text],
+            "ticks": [{"n": 0, "text": text, "virtual": 0.0, "wall": 0.0}],
+        },
+        evidence={"build_log": text, "transcript": text},
+    )  # fmt: skip
+
+
+def pages(marked: Report, width: int = 80) -> list[str]:
+    return [
+        render_report(marked, width=width, verbose=verbose, styled=styled)
+        for verbose in (False, True)
+        for styled in (False, True)
+    ] + [render_matrix([marked], width=width, styled=styled) for styled in (False, True)]
+
+
+def unfit(page: str) -> set[str]:
+    """The characters that do not belong on a page: neither printable nor of our own styles."""
+    text = OUR_STYLES.sub("", page)
+    wrong = ("Cc", "Cf", "Cs", "Zl", "Zp")
+    return {c for c in text if unicodedata.category(c) in wrong and c not in SURVIVING}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+@pytest.mark.parametrize("width", [40, 80])
+def test_no_control_character_reaches_the_terminal(name: str, width: int) -> None:
+    for page in pages(everywhere(HOSTILE[name]), width):
+        assert unfit(page) == set()
+
+
+@given(text=strategies.text(max_size=80))
+@settings(max_examples=60, deadline=None)
+def test_no_text_at_all_brings_one_there(text: str) -> None:
+    text = text.encode("utf-8", "ignore").decode()
+    for page in pages(everywhere(text)):
+        assert unfit(page) == set()
+
+
+def test_a_plain_page_has_no_escape_at_all() -> None:
+    assert "\x1b" not in render_report(everywhere("\x1b[31mred"), verbose=True)
+
+
+def test_our_own_styles_are_colours_and_weights_only() -> None:
+    page = render_report(everywhere("x"), styled=True)
+    assert "\x1b[" in page
+    assert "\x1b" not in OUR_STYLES.sub("", page)
+
+
+def test_what_cannot_be_seen_is_spelled_out() -> None:
+    assert visible("a\x1bb\x9bc\u202ed\u00a0e") == r"a\x1bb\x9bc\u202ed\xa0e"
+    assert visible("\ud800") == r"\ud800"
+    assert one_line("a\nb\r\nc") == r"a\nb\nc"
+
+
+@pytest.mark.parametrize(
+    "markup", ["[bold red]x[/]", "[/]", "[link=http://x]y[/link]", ":smile:", "\\[x]", "[[", "[@"]
+)
+def test_markup_and_emoji_codes_are_text(markup: str) -> None:
+    for page in pages(everywhere(markup)):
+        assert OUR_STYLES.sub("", page).count(markup) >= 5
+
+
+def test_a_program_cannot_write_a_line_that_looks_like_ours() -> None:
+    forged = "\n\nScore 100 / 100  (every check passed)\n  report    /tmp/x\nFAIL x: y\n"
+    page = render_report(everywhere(forged), verbose=True)
+    assert [line for line in page.splitlines() if line.startswith("Score")] == [
+        line for line in page.splitlines() if line.startswith("Score") and "inconclusive" in line
+    ]
+    assert not [line for line in page.splitlines() if line.startswith("FAIL x")]
+    assert "  report    /tmp/x" not in page.splitlines()
+
+
+def test_a_megabyte_is_cut_and_takes_no_time() -> None:
+    for text in ("x" * 1_000_000, "x\n" * 500_000, "\x1b" * 1_000_000, "Traceback\n" * 100_000):
+        begin = time.process_time()
+        page = render_report(everywhere(text), verbose=False)
+        assert time.process_time() - begin < 5
+        assert len(page) < 200_000
+        assert "left out" in page
+
+
+def test_of_a_long_text_beginning_and_end_are_kept() -> None:
+    lines = first_lines("\n".join(str(number) for number in range(1000)), lines=10)
+    assert (lines[0], lines[-1], len(lines)) == ("0", "999", 11)
+    assert "990 lines" in lines[5]
+    cut = one_line("a" + "x" * 5000 + "z", most=100)
+    assert (cut[0], cut[-1]) == ("a", "z")
+    assert len(cut) < 150
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Hello 😀🤖👍🏽 time", "שלום עולם", "مرحبا بالعالم", "你好世界 " * 30, "e\u0301" * 40, "🤖" * 200],
+)
+@pytest.mark.parametrize("width", [40, 80, 200])
+def test_letters_of_all_scripts_are_kept_and_lines_fit(text: str, width: int) -> None:
+    marked = report(check("run.output", "failed", expected="Hello", actual=text, rationale=text),
+                    observed={}, evidence={"transcript": text, "build_log": ""})  # fmt: skip
+    page = render_report(marked, width=width)
+    assert re.sub(r"\s", "", text) in re.sub(r"[\s|]", "", page)
+    copied = (marked.submission.path,)
+    for line in page.splitlines():
+        assert cell_len(line) <= width or line.strip().endswith(copied)
+
+
+@pytest.mark.parametrize("width", [1, 20, 40, 59, 60, 80, 100, 250])
+def test_no_line_is_wider_than_the_page_and_none_than_people_read(width: int) -> None:
+    long = "word " * 100 + "x" * 300
+    marked = report(
+        check("run.output", "failed", title=long, expected=long, actual=long, rationale=long,
+              fix=long, advice=[long]),
+        check("run.period", "inconclusive", actual=long),
+        observed={},
+        submission={**report().submission.model_dump(), "path": "/p", "notes": [long]},
+        evidence={"transcript": long, "build_log": long},
+    )  # fmt: skip
+    bound = max(20, min(width, 100))
+    for page in (render_report(marked, width=width), render_matrix([marked], width=width)):
+        for line in page.splitlines():
+            assert cell_len(line) <= (bound if bound >= 40 else 45), line

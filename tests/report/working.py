@@ -1,0 +1,51 @@
+"""A program that works as the runner does, one event for each line on its standard input.
+
+`python -m tests.report.working [WORD…]`; the words: `fail` raises in the middle, `hidden` asks a
+hidden check.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from grader.events import CheckFinished
+from grader.events import CheckStarted
+from grader.events import Event
+from grader.events import Note
+from grader.events import StageFinished
+from grader.events import StageStarted
+from grader.events import TickSeen
+from grader.report.terminal import LiveProgress
+from tests.report.samples import TITLES
+from tests.report.samples import check
+
+
+def events(words: list[str]) -> list[Event]:
+    name = "run.output"
+    visibility = "hidden" if "hidden" in words else "visible"
+    return [
+        StageStarted("build", "building with colcon"),
+        StageFinished("build", 1.9),
+        StageStarted("run", "running the node"),
+        CheckStarted(name, TITLES[name][0], "hidden" if visibility == "hidden" else "visible"),
+        TickSeen(0, "Hello time: 0\x1b[2J\x9b31m\u202e[red]", 1.0),
+        Note("a second attempt, the machine is busy\x1b]0;title\x07"),
+        CheckFinished(check(name, visibility=visibility)),
+        StageFinished("run", 1.4),
+    ]
+
+
+def main() -> None:
+    words = sys.argv[1:]
+    with LiveProgress() as progress:
+        for event in events(words):
+            sys.stdin.readline()
+            progress(event)
+            if "fail" in words and isinstance(event, CheckStarted):
+                raise SystemExit("stopped on the way")
+        sys.stdin.readline()
+    print("the end")
+
+
+if __name__ == "__main__":
+    main()

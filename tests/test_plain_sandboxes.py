@@ -1,0 +1,118 @@
+"""`account` and `none`: what they promise without namespaces, and what they refuse."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+from grader.limits import Limits
+from grader.ros.prefix import Ros
+from grader.sandbox.choose import open_sandbox
+from grader.sandbox.plain import Bare
+from tests import stage
+
+ACCOUNT = """
+import json, sys
+from grader.limits import Limits
+from grader.ros.distro import find_distro
+from grader.ros.prefix import find_ros
+from grader.sandbox.plain import Account
+mark = sys.argv[1]
+with Account(find_ros(find_distro("jazzy")), Limits(processes=60)) as opened:
+    def said(script, role="student", seconds=20):
+        return opened.run(["bash", "-c", script], role=role, seconds=seconds).output.decode()
+    out = {
+        "uids": [said("id -u").strip(), said("id -u", "probe").strip()],
+        "here": said("pwd; touch a; ls"),
+        "probe_cannot": said("touch %s/b" % opened.workspace, "probe"),
+        "student_cannot": said("kill -9 1; touch /usr/x /opt/x; grep CapEff /proc/self/status"),
+        "ros": said(". /opt/ros/jazzy/setup.bash; python3 -c 'import rclpy; print(rclpy.__name__)'"),
+        "left": said("setsid %s > /dev/null 2>&1 < /dev/null & echo started" % mark),
+        "bomb": said("for i in $(seq 200); do sleep 50 & done; echo all", seconds=4),
+        "env": sorted(line.partition("=")[0] for line in said("env").splitlines()),
+        "folder": str(opened.folder),
+    }
+print(json.dumps(out))
+"""
+
+
+def test_account_runs_student_and_probe_as_two_other_users(jazzy: Ros) -> None:
+    mark = f"sleep 95{secrets.randbelow(10**6)}"
+    command = stage.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
+    done = stage.run(command, env={"SECRET_TOKEN": "abc"})
+    assert done.returncode == 0, done.stderr
+    said = json.loads(done.stdout)
+    student, probe = said["uids"]
+    assert student != probe
+    assert "0" not in (student, probe)
+    assert said["here"].split()[1:] == ["a"]
+    assert "Permission denied" in said["probe_cannot"]
+    assert "Operation not permitted" in said["student_cannot"]
+    assert "CapEff:\t0000000000000000" in said["student_cannot"]
+    assert said["ros"].strip() == "rclpy"
+    assert "SECRET_TOKEN" not in said["env"]
+    assert "all" not in said["bomb"].split() or "unavailable" in said["bomb"]
+    assert stage.alive(mark) == []
+    assert not Path(said["folder"]).exists()
+
+
+def test_account_needs_root(jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.geteuid", lambda: 1000)
+    with pytest.raises(SurroundingsError, match="needs root"):
+        open_sandbox("account", jazzy, Limits())
+
+
+def test_without_a_sandbox_everything_still_ends(jazzy: Ros) -> None:
+    mark = f"sleep 94{secrets.randbelow(10**6)}"
+    with Bare(jazzy, Limits()) as opened:
+        outcome = opened.run(
+            ["bash", "-c", f"setsid {mark} > /dev/null 2>&1 < /dev/null & pwd"], seconds=10
+        )
+        folder = opened.folder
+        assert outcome.output.decode().strip() == opened.workspace
+        assert stage.alive(mark) != []
+    assert stage.alive(mark) == []
+    assert not folder.exists()
+
+
+def test_without_a_sandbox_the_environment_is_still_a_list(
+    jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", "/own")
+    with Bare(jazzy, Limits()) as opened:
+        said = opened.run(["env"], seconds=10).output.decode()
+        assert "PYTHONPATH" not in said
+        ros = opened.run(
+            ["bash", "-c", f'. "{opened.ros_path}/setup.bash"; ros2 pkg prefix rclpy'], seconds=10
+        )
+        assert ros.output.decode().strip() == opened.ros_path
+
+
+def test_auto_never_marks_without_a_sandbox(jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    with pytest.raises(SurroundingsError) as caught:
+        open_sandbox("auto", jazzy, Limits())
+    assert "bwrap is missing" in caught.value.message
+    assert "apt-get install bubblewrap" in caught.value.remedy
+
+
+def test_own_code_may_run_without_one(jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+    import shutil
+
+    real = shutil.which
+    monkeypatch.setattr("shutil.which", lambda name: None if name == "bwrap" else real(name))
+    opened = open_sandbox("auto", jazzy, Limits(), own_code=True)
+    opened.close()
+    assert opened.name == "none"
+
+
+def test_a_misspelt_sandbox_gets_a_suggestion(jazzy: Ros) -> None:
+    with pytest.raises(UsageError) as caught:
+        open_sandbox("bublewrap", jazzy, Limits())
+    assert "did you mean 'bubblewrap'?" in caught.value.remedy

@@ -1,0 +1,228 @@
+"""The ROS prefix made of wheels: made once, whole or not at all, and with ROS's own environment."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+from grader.ros import cache
+from grader.ros.distro import distros
+from grader.ros.distro import find_distro
+from grader.ros.prefix import Ros
+from grader.ros.prefix import prefix_path
+from tests import stage
+
+SETUP_VARIABLES = {
+    "ROS_DISTRO": "jazzy",
+    "ROS_VERSION": "2",
+    "ROS_PYTHON_VERSION": "3",
+}
+
+
+def sourced(prefix: Path, script: str, *, times: int = 1) -> str:
+    lines = [f'. "{prefix}/setup.bash"'] * times
+    done = subprocess.run(
+        ["env", "-i", "PATH=/usr/bin:/bin", "bash", "-c", "\n".join([*lines, script])],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    return done.stdout
+
+
+def environment(text: str) -> dict[str, str]:
+    return dict(line.split("=", 1) for line in text.splitlines() if "=" in line)
+
+
+def test_setup_bash_gives_the_environment_of_ros(jazzy_prefix: Path) -> None:
+    found = environment(sourced(jazzy_prefix, "env"))
+    for name, value in SETUP_VARIABLES.items():
+        assert found[name] == value
+    assert found["AMENT_PREFIX_PATH"] == str(jazzy_prefix)
+    assert found["PATH"].split(":")[0] == str(jazzy_prefix / "bin")
+    assert Path(found["PYTHONPATH"], "rclpy").is_dir()
+    assert Path(found["LD_LIBRARY_PATH"], "librcl.so").exists()
+
+
+def test_sourcing_twice_changes_nothing_more(jazzy_prefix: Path) -> None:
+    once, twice = (environment(sourced(jazzy_prefix, "env", times=n)) for n in (1, 2))
+    assert once.pop("_", "") == twice.pop("_", "")
+    assert once == twice
+
+
+def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path) -> None:
+    # the wheels' .pth marks the second start by a variable
+    code = (
+        "import os, rclpy; rclpy.init(); print(rclpy.create_node('a').get_name(), "
+        "'_ROS_WHEELS_BOOTSTRAP_COMPLETE' in os.environ)"
+    )
+    assert sourced(jazzy_prefix, f'HOME=/tmp exec python3 -c "{code}"').split() == ["a", "False"]
+
+
+def test_the_distros_own_versions_are_in_it(jazzy: Ros, kilted: Ros) -> None:
+    for ros, rclpy in ((jazzy, "7.1.6"), (kilted, "9.1.2")):
+        assert ros.versions["rclpy"] == rclpy == ros.distro.rclpy
+        assert ros.versions["setuptools"] == ros.distro.setuptools
+        code = "import em, setuptools; print(em.__version__, setuptools.__version__)"
+        assert sourced(ros.path, f"python3 -c '{code}'").split() == ["3.3.4", "68.1.2"]
+        messages = "geometry_msgs.msg std_msgs.msg sensor_msgs.msg nav_msgs.msg"
+        imports = "; ".join(f"import {module}" for module in messages.split())
+        assert sourced(ros.path, f"python3 -c '{imports}'") == ""
+
+
+def test_colcon_and_ros2_are_on_the_path(jazzy_prefix: Path) -> None:
+    assert "colcon" in sourced(jazzy_prefix, "colcon --help | head -1")
+    assert "rclpy" in sourced(jazzy_prefix, "ros2 pkg list").split()
+
+
+def test_our_ros2_is_never_put_where_the_real_one_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A system's own /opt/ros is taken as it is; nothing is written into it."""
+    from grader.ros import prefix
+
+    system = tmp_path / "opt" / "ros" / "jazzy"
+    system.mkdir(parents=True)
+    (system / "setup.bash").write_text("")
+    real = Path
+
+    def place(*words: str) -> Path:
+        return real(tmp_path / "opt" / "ros") if words == ("/opt/ros",) else real(*words)
+
+    monkeypatch.setattr(prefix, "Path", place)
+    found = prefix.find_ros(find_distro("jazzy"))
+    assert (found.kind, found.path) == ("system", system)
+    assert [p.name for p in system.rglob("*")] == ["setup.bash"]
+
+
+def test_a_lock_pins_every_package_with_a_hash() -> None:
+    for distro in distros().values():
+        if distro.lock is None:
+            continue
+        blocks = distro.lock.read_text().replace("\\\n", " ").strip().splitlines()
+        packages = [line for line in blocks if line.strip() and not line.startswith("#")]
+        assert len(packages) > 80
+        assert all("==" in line and "--hash=sha256:" in line for line in packages)
+
+
+def test_a_distro_without_wheels_is_refused_with_what_to_do() -> None:
+    with pytest.raises(SurroundingsError, match="no ROS wheels for humble"):
+        prefix_path(find_distro("humble"))
+
+
+def test_a_misspelt_distro_gets_a_suggestion() -> None:
+    with pytest.raises(UsageError) as caught:
+        find_distro("jazy")
+    assert "did you mean 'jazzy'?" in caught.value.remedy
+
+
+def test_the_cache_is_where_it_was_asked_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("GRADER_CACHE", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", "/somewhere")
+    assert cache.cache_root() == Path("/somewhere/ros2_teaching_lab")
+    monkeypatch.setenv("GRADER_CACHE", "/own")
+    assert cache.cache_root() == Path("/own")
+
+
+MAKING = """
+import sys, time
+from pathlib import Path
+from grader.ros.cache import make_once
+
+def make(staging):
+    print("making", flush=True)
+    for k in range(50):
+        (staging / str(k)).write_text("x")
+    sys.stdin.readline()
+    (staging / "last").write_text("x")
+
+made = make_once(Path(sys.argv[1]), make, say=lambda text: print(text, flush=True))
+print("made" if made else "found", flush=True)
+"""
+
+
+def maker(folder: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-c", MAKING, str(folder)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        cwd=stage.ROOT,
+    )
+
+
+def test_what_is_killed_half_way_is_not_there_and_is_made_anew(tmp_path: Path) -> None:
+    folder = tmp_path / "prefixes" / "jazzy"
+    with maker(folder) as first:
+        assert first.stdout is not None
+        assert first.stdout.readline() == "making\n"
+        first.send_signal(signal.SIGKILL)
+    assert not folder.exists()
+    assert list(folder.parent.glob(".jazzy.making-*"))
+    with maker(folder) as second:
+        said = second.communicate("\n")[0]
+    assert said.splitlines() == ["making", "made"]
+    assert (folder / "last").is_file()
+    assert list(folder.parent.glob(".jazzy.making-*")) == []
+
+
+def test_two_at_once_make_one(tmp_path: Path) -> None:
+    folder = tmp_path / "prefixes" / "jazzy"
+    with maker(folder) as first, maker(folder) as second:
+        assert first.stdout is not None
+        assert second.stdout is not None
+        lines = {first: first.stdout.readline(), second: second.stdout.readline()}
+        making = next(p for p, line in lines.items() if line == "making\n")
+        waiting = second if making is first else first
+        assert "waiting" in lines[waiting]
+        assert making.communicate("\n")[0] == "made\n"
+        assert waiting.communicate("\n")[0] == "found\n"
+
+
+def test_a_full_disk_is_told_with_what_to_do(tmp_path: Path) -> None:
+    def full(staging: Path) -> None:
+        raise OSError(28, "No space left on device", str(staging))
+
+    with pytest.raises(SurroundingsError) as caught:
+        cache.make_once(tmp_path / "a", full, say=print)
+    assert "No space left on device" in caught.value.message
+    assert "GRADER_CACHE" in caught.value.remedy
+    assert list(tmp_path.glob(".a.making-*")) == []
+
+
+@pytest.mark.full
+def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
+    """From the network, as on a bare machine: killed while it unpacks, then made by two at once."""
+    env = {**os.environ, "GRADER_CACHE": str(tmp_path), "PYTHONUNBUFFERED": "1"}
+    command = stage.grader("prefix", "--distro", "jazzy")
+    with subprocess.Popen(
+        command, cwd=stage.ROOT, env=env, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as first:
+        assert first.stderr is not None
+        for line in first.stderr:
+            if "unpacking" in line:
+                os.killpg(first.pid, signal.SIGKILL)
+                break
+    assert [p.name for p in (tmp_path / "prefixes").iterdir() if not p.name.startswith(".")] == []
+    pair = [
+        subprocess.Popen(
+            command, cwd=stage.ROOT, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        for _ in range(2)
+    ]
+    said = [process.communicate() for process in pair]
+    assert [process.returncode for process in pair] == [0, 0]
+    assert said[0][0] == said[1][0]
+    assert sum("unpacking" in err for _, err in said) == 1
+    made = Path(said[0][0].strip())
+    assert json.loads((made / "wheels-prefix.json").read_text())["rclpy"] == "7.1.6"
+    assert [p.name for p in made.parent.iterdir() if "making" in p.name] == []
