@@ -90,18 +90,35 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
     """Make `.venv` anew; its stamp is written last, so half a one is never taken for a whole."""
     shutil.rmtree(VENV, ignore_errors=True)
     say("setting up the grader's Python environment in %s (once)" % VENV)
-    made = subprocess.run([python, "-m", "venv", VENV], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, check=False)
+    made = subprocess.run(
+        [python, "-m", "venv", VENV], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
+    )
     if made.returncode:
         shutil.rmtree(VENV, ignore_errors=True)
-        fail(made.stdout.decode(errors="replace") + "\nThis Python cannot make a virtual "
-             "environment. On Debian and Ubuntu: apt-get install python3-venv")
+        fail(
+            made.stdout.decode(errors="replace") + "\nThis Python cannot make a virtual "
+            "environment. On Debian and Ubuntu: apt-get install python3-venv"
+        )
     inner = os.path.join(VENV, "bin", "python")
-    command = [inner, "-m", "pip", "install", "-q", "--require-hashes", "-r", lock,
-               "--disable-pip-version-check", "--no-input", "--only-binary", ":all:"]
+    command = [
+        inner,
+        "-m",
+        "pip",
+        "install",
+        "-q",
+        "--require-hashes",
+        "-r",
+        lock,
+        "--disable-pip-version-check",
+        "--no-input",
+        "--only-binary",
+        ":all:",
+    ]
     if subprocess.run(command, stdout=sys.stderr, check=False).returncode:
-        fail("pip could not install the locked packages. Check the network (HTTPS_PROXY, "
-             "PIP_CERT), then run the command again.")
+        fail(
+            "pip could not install the locked packages. Check the network (HTTPS_PROXY, "
+            "PIP_CERT), then run the command again."
+        )
     with open(os.path.join(VENV, "stamp"), "w") as stream:
         stream.write(stamp)
 
@@ -109,8 +126,9 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
 def run_quietly(command: "list[str]") -> "tuple[bool, str]":
     """Run a command; return whether it failed, and what it said on stderr."""
     environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
-    result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                            check=False, env=environment)
+    result = subprocess.run(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False, env=environment
+    )
     return result.returncode != 0, result.stderr.decode(errors="replace").strip()
 
 
@@ -140,8 +158,10 @@ def main() -> None:
     parser.add_argument("--python", default="python3")
     parser.add_argument("--tests", action="store_true", help="with what the tests need")
     options = parser.parse_args()
-    locks = [os.path.join(ROOT, "grader", "requirements.txt"),
-             os.path.join(ROOT, "tests", "requirements.txt")]
+    locks = [
+        os.path.join(ROOT, "grader", "requirements.txt"),
+        os.path.join(ROOT, "tests", "requirements.txt"),
+    ]
     with open(os.path.join(ROOT, ".venv.lock"), "a") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         python = find_python(options.python)

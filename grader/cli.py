@@ -268,6 +268,11 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
             click.echo("No sandbox was used: the package ran as you, with your files.", err=True)
     if len(orders) > 1:
         if out is not None:
-            files.write_matrix(reports, out, reports[0].submission.name)
-        terminal.print_matrix(reports, file=sys.stdout)
+            matrix = files.write_matrix(reports, out, reports[0].submission.name)
+        terminal.print_matrix(
+            reports,
+            file=sys.stdout,
+            show_hidden=show_hidden,
+            path=matrix if out is not None else None,
+        )
     return 0 if all(report.all_passed for report in reports) else 1

@@ -11,6 +11,7 @@ import re
 import statistics
 import time
 from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
 from dataclasses import replace
@@ -19,6 +20,7 @@ from typing import Literal
 from grader.assignment import Output
 from grader.probe_link import Answer
 from grader.probe_link import LogRecord
+from grader.probe_link import NodeSeen
 from grader.probe_link import ProbeLink
 from grader.terminal import Line
 from grader.terminal import Terminal
@@ -27,8 +29,10 @@ MILLISECOND = 1_000_000
 SECOND = 1_000_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier
 SETTLE_SECONDS = 2.5  # wall time in which a node that spins answers for the first time
+UNANSWERED = 2  # barriers in a row after which a node that did answer has stopped to
 TRIES, TRY_SECONDS = 12, 0.5  # a tick is missing after that many barriers and that much wall time
 GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
+LATE_GRACE = 1.0  # the same for what was logged before the probe had found the node
 GRID = 20  # steps a period when the period has to be found out
 WALL_TICKS = 5
 WALL_SPARE = 3.0  # seconds of wall time beyond the ticks' own
@@ -90,11 +94,19 @@ class Observer:
         self.records: list[LogRecord] = []
         self.shown: set[tuple[int, str, str]] = set()
         self.now = 0.0  # virtual seconds
+        self._linked: float | None = None
+
+    def linked(self, nodes: Sequence[NodeSeen]) -> None:
+        """Note when the probe could first hear a node's log records: older ones come late."""
+        if self._linked is None and any(node.rosout for node in nodes):
+            self._linked = time.time()
 
     def number(self, text: str) -> int | None:
         """Return the count in a line of the expected form, None for any other line."""
         match = self._pattern.fullmatch(text)
-        return int(match.group(1)) if match else None
+        if match is None or str(int(match.group(1))) != match.group(1):
+            return None  # 007 is no 7
+        return int(match.group(1))
 
     def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
         """Return the new events of an answer and of the terminal, in order."""
@@ -115,19 +127,29 @@ class Observer:
 
     def _match(self) -> list[Event]:
         """Return the lines that look like log records but are none of ROS's, after a grace time."""
-        known = {(r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]}
+        known = {
+            (r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]
+        }
         faked, waiting = [], []
         for line in self._unmatched:
             assert line.log is not None
             _, stamp, name, text = line.log
             if (stamp, name, text) in known:
                 self.shown.add((stamp, name, text))
-            elif time.time() - line.wall > GRACE:
+            elif self._is_overdue(line):
                 faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
             else:
                 waiting.append(line)
         self._unmatched = waiting
         return faked
+
+    def _is_overdue(self, line: Line) -> bool:
+        """Whether a line's log record would have come by now."""
+        if self._linked is None:
+            return time.time() - line.wall > LATE_GRACE
+        if line.wall < self._linked:
+            return time.time() - self._linked > LATE_GRACE
+        return time.time() - line.wall > GRACE
 
     def settle(self) -> list[Event]:
         """Give every line that is still waiting for its log record its grace time."""
@@ -148,6 +170,7 @@ class VirtualClock:
         self._output = output
         self._deadline = deadline  # of time.monotonic()
         self._at = 0
+        self._unanswered = 0
         self._period = round(output.period * SECOND)
 
     def drive(self, watch: Watch, tell: Callable[[Event], None]) -> None:
@@ -205,7 +228,8 @@ class VirtualClock:
         if self._fine:
             step = self._period // GRID
             for between in range(self._at - self._at % step + step, at, step):
-                events += self._step(between)[0]
+                if not self._over():
+                    events += self._step(between)[0]
         return events + self._step(at)[0]
 
     def _wait_for_tick(self, due: int, k: int) -> list[Event]:
@@ -289,17 +313,24 @@ class VirtualClock:
         observer = self._observer
         observer.now = self._at / SECOND
         answer = observer.probe.ask("clock", seconds=seconds, at=self._at, trips=2)
+        self._unanswered = self._unanswered + 1 if answer.barrier is False else 0
+        events = observer.take(answer, seconds=0.02 if wait else 0)
         if answer.clocks > 1:
-            raise ForeignClock
-        return observer.take(answer, seconds=0.02 if wait else 0), answer.barrier
+            raise ForeignClock(events)
+        return events, answer.barrier
 
     def _over(self) -> bool:
         terminal = self._observer.terminal
-        return terminal.ended or terminal.flooded or time.monotonic() > self._deadline
+        stuck = self._unanswered >= UNANSWERED and self._at > MILLISECOND
+        return stuck or terminal.ended or terminal.flooded or time.monotonic() > self._deadline
 
 
 class ForeignClock(Exception):  # noqa: N818
     """Somebody else publishes `/clock` too: it measures nothing then."""
+
+    def __init__(self, events: list[Event]) -> None:
+        super().__init__("foreign clock")
+        self.events = events
 
 
 def watch_wall(
@@ -322,6 +353,7 @@ def watch_wall(
         for event in events:
             tell(event)
     watch.events += observer.settle()
+    watch.events.sort(key=lambda event: event.wall)
     stamps = [event.wall for event in watch.counted]
     if len(stamps) > 2:
         watch.period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))

@@ -62,6 +62,11 @@ class Evidence:
         """Whether somebody has asked for the build."""
         return "build" in self.__dict__
 
+    def is_hidden(self, check_id: str) -> bool:
+        """Whether students do not see a check."""
+        uses = {use.id: use.visibility for use in self.assignment.checks}
+        return uses.get(check_id, "visible") != "visible"
+
     def has_failed(self, check_id: str) -> bool:
         """Whether a check was decided and failed."""
         result = self.results.get(check_id)

@@ -59,16 +59,19 @@ class Probe:
         if len(self.logs) >= MOST_LOGS:
             self.dropped += 1
             return
-        self.logs.append({
-            "level": int.from_bytes(log.level, "little") if isinstance(log.level, bytes)
-            else int(log.level),
-            "name": log.name[:256],
-            "text": log.msg[:LONGEST_TEXT],
-            "function": log.function[:256],
-            "file": log.file[:512],
-            "line": log.line,
-            "stamp": log.stamp.sec * 1_000_000_000 + log.stamp.nanosec,
-        })
+        self.logs.append(
+            {
+                "level": int.from_bytes(log.level, "little")
+                if isinstance(log.level, bytes)
+                else int(log.level),
+                "name": log.name[:256],
+                "text": log.msg[:LONGEST_TEXT],
+                "function": log.function[:256],
+                "file": log.file[:512],
+                "line": log.line,
+                "stamp": log.stamp.sec * 1_000_000_000 + log.stamp.nanosec,
+            }
+        )
 
     def graph(self) -> list[dict[str, Any]]:
         """Return the other nodes with what is known of them."""

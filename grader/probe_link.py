@@ -19,6 +19,7 @@ from grader.sandbox.base import Sandbox
 SOURCE = Path(__file__).with_name("probe.py")
 START_SECONDS = 30.0
 LONGEST_ANSWER = 8_000_000  # bytes
+END_SECONDS = 1.0
 PATIENCE = 20.0  # seconds beyond a command's own time in which an answer must come
 
 
@@ -66,7 +67,9 @@ class ProbeLink:
 
     def __init__(self, sandbox: Sandbox) -> None:
         setup = f'. "{sandbox.ros_path}/setup.bash"; exec python3 -c "$PROBE"'
-        script = f"PROBE=$(cat <<'PROBE_ENDS'\n{SOURCE.read_text(encoding='utf-8')}\nPROBE_ENDS\n)\n"
+        script = (
+            f"PROBE=$(cat <<'PROBE_ENDS'\n{SOURCE.read_text(encoding='utf-8')}\nPROBE_ENDS\n)\n"
+        )
         command = sandbox.command(["bash", "-c", script + setup], role="probe")
         self._sandbox = sandbox
         self._process = subprocess.Popen(
@@ -136,7 +139,12 @@ class ProbeLink:
         return ProbeError(f"the probe failed: {why}" + (f"\n{said}" if said else ""))
 
     def close(self) -> None:
-        """End the probe."""
+        """End the probe: it is asked to, and killed if it does not."""
+        with contextlib.suppress(OSError, ValueError, subprocess.TimeoutExpired):
+            assert self._process.stdin is not None  # noqa: S101
+            self._process.stdin.write(b'{"do": "end"}\n')
+            self._process.stdin.close()
+            self._process.wait(END_SECONDS)
         self._sandbox.end(self._process)
         for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
             if stream is not None:

@@ -118,14 +118,15 @@ def _decide(
     for check_id, check in CHECKS.items():
         if check_id not in uses:
             continue
+        use = uses[check_id]
         now, title = STAGES[check_id.partition(".")[0]]
         if now != stage:
             if stage:
                 listener(events.StageFinished(stage, time.monotonic() - begin))
             stage, begin = now, time.monotonic()
             listener(events.StageStarted(stage, title))
-        listener(events.CheckStarted(check.id, check.title))
-        result = _ask(check, uses[check_id], evidence, uses)
+        listener(events.CheckStarted(check.id, check.title, use.visibility))
+        result = _ask(check, use, evidence, uses)
         evidence.results[check_id] = result
         listener(events.CheckFinished(result))
     listener(events.StageFinished(stage, time.monotonic() - begin))
@@ -180,6 +181,8 @@ def _skipped(common: dict[str, object], by: str, evidence: Evidence) -> model.Ch
     cause = evidence.results.get(by)
     root = (cause.blocked_by if cause is not None else "") or by
     title = CHECKS[root].title if root in CHECKS else root
+    if evidence.is_hidden(root) and common["visibility"] == "visible":
+        title = "a hidden check"
     found = {"status": "skipped", "blocked_by": root, "actual": f"not asked, because of: {title}"}
     return model.CheckResult.model_validate({**common, **found})
 

@@ -107,6 +107,7 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
         run.watch.before_start += events
         run.watch.events += events
         now = time.monotonic()
+        observer.linked(answer.nodes)
         if answer.nodes:
             first_seen = first_seen or now
             run.nodes = answer.nodes
@@ -134,7 +135,8 @@ def _watch(
     if follows:
         try:
             clock.drive(run.watch, tell)
-        except ForeignClock:
+        except ForeignClock as foreign:
+            run.watch.events += foreign.events
             run.watch.foreign_clock = True
             run.watch.note = "the node publishes /clock itself"
             watch_wall(observer, output, run.watch, tell, deadline=deadline)
@@ -148,7 +150,9 @@ def _watch(
 def _stop(run: Run, terminal: Terminal, seconds: float) -> None:
     """Press Ctrl+C and see how it ends."""
     pressed = time.monotonic()
-    if not terminal.ended and not terminal.flooded:
+    if terminal.flooded:
+        return
+    if not terminal.ended:
         run.interrupted = True
         terminal.interrupt()
     _, ended = terminal.finish(seconds)

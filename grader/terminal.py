@@ -18,6 +18,8 @@ ANSI = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@
 LOG_LINE = re.compile(r"^\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)$")
 LONGEST_LINE = 4_000  # characters; what a line has beyond them is left out
 ROWS, COLUMNS = 40, 160
+KILL_SECONDS = 5.0
+POLL_SECONDS = 0.002  # between two looks at a process that is ending
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,7 @@ class Terminal:
         while time.monotonic() < deadline:
             if not self._spawn.isalive():
                 return lines, True
-            time.sleep(0.002)
+            time.sleep(POLL_SECONDS)  # the terminal is shut already: only the status is to come
         return lines, not self._spawn.isalive()
 
     @property
@@ -127,10 +129,12 @@ class Terminal:
 
     def close(self) -> None:
         """End what still runs on it."""
-        if self._spawn.isalive():
+        deadline = time.monotonic() + KILL_SECONDS
+        while self._spawn.isalive() and time.monotonic() < deadline:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self._spawn.pid, signal.SIGKILL)
-        self._spawn.close(force=True)
+            time.sleep(POLL_SECONDS)
+        self._spawn.close(force=False)
 
 
 def _clean(data: bytes) -> str:

@@ -21,6 +21,7 @@ from grader.submission import Submission
 BUILD = "colcon build --symlink-install"
 MOST_LISTED = 2_000_000  # bytes of the listing of what was built
 INSPECT_SECONDS = 20.0
+PREFIX = re.compile(r"^install/[^/]+/")
 INSPECT = r"""
 find install build -printf '%y %m %s %p\t%l\0' 2>/dev/null | head -c 1000000
 printf '\0\n'
@@ -55,8 +56,12 @@ class Build:
 
     def is_installed(self, package: str) -> bool:
         """Whether ROS finds the package: its marker is in the overlay's index."""
-        marker = f"install/{package}/share/ament_index/resource_index/packages/{package}"
-        return marker in self.files
+        return bool(self.installed(f"share/ament_index/resource_index/packages/{package}"))
+
+    def installed(self, place: str) -> list[str]:
+        """Return the paths of a file in the overlay: colcon makes a prefix for each package, named
+        by the manifest, and ROS looks in all of them."""
+        return [path for path in self.files if PREFIX.sub("", path) == place]
 
     @property
     def finished(self) -> int:

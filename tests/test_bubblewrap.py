@@ -259,7 +259,7 @@ def test_an_ordinary_user_gets_the_same(jazzy: Ros) -> None:
         "base_interpreter(), {})\n"
         "with Bubblewrap(ros, Limits(processes=60)) as opened:\n"
         "    said = opened.run(['bash', '-c', 'id -u; cat /proc/net/dev | grep -c :; "
-        "touch /usr/x; touch a; ls; python3 -c \"import sys; print(sys.version_info[0])\"'], "
+        'touch /usr/x; touch a; ls; python3 -c "import sys; print(sys.version_info[0])"\'], '
         "seconds=20)\n"
         "    probe = opened.run(['id', '-u'], role='probe', seconds=20)\n"
         "    bomb = opened.run(['bash', '-c', 'for i in $(seq 200); do sleep 50 & done; "

@@ -215,7 +215,12 @@ def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
     assert [p.name for p in (tmp_path / "prefixes").iterdir() if not p.name.startswith(".")] == []
     pair = [
         subprocess.Popen(
-            command, cwd=stage.ROOT, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            command,
+            cwd=stage.ROOT,
+            env=env,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
         )
         for _ in range(2)
     ]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from grader.checks import build
+from grader.checks import counting
 from grader.checks import installed
 from grader.checks import package
-from grader.checks import running
 from grader.checks import source
+from grader.checks import starting
+from grader.checks import timing
 from grader.checks.registry import Check
 
 CHECKS: dict[str, Check] = {
@@ -22,11 +24,11 @@ CHECKS: dict[str, Check] = {
         installed.mapping,
         build.colcon_builds,
         installed.executable,
-        running.starts,
-        running.node_name,
-        running.output,
-        running.logger,
-        running.period,
-        running.interrupt,
+        starting.starts,
+        starting.node_name,
+        counting.output,
+        counting.logger,
+        timing.period,
+        starting.interrupt,
     )
 }

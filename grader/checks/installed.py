@@ -61,9 +61,10 @@ def executable(evidence: Evidence) -> Passed:
     package, name = evidence.assignment.package, evidence.assignment.executable
     files = evidence.build.files
     place = f"install/{package}/lib/{package}/{name}"
-    found = files.get(place)
+    there = evidence.build.installed(f"lib/{package}/{name}")
+    found = files[there[0]] if there else None
     if found is not None and found.kind == "f" and found.mode & 0o111:
-        return Passed(actual=place)
+        return Passed(actual=there[0])
     if found is not None and found.kind == "f":
         raise Failed(
             expected=f"{place} with the exec bit",

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 MOST_FOLLOWED = 40
 """How many links one path may go through, as in Linux (path_resolution(7))."""
 
 
-def follow(path: str, links: Mapping[str, str]) -> str | None:
-    """Return the place that `path` means, relative to the same root as the links' paths.
+@dataclass(frozen=True)
+class Way:
+    """Where a path ends: a `place` below the root (it need not exist), or None: `loops`, or out."""
 
-    None if it leads above the root, to an absolute path, or round in a loop. The place need not
-    exist.
+    place: str | None
+    loops: bool = False
+
+
+def follow(path: str, links: Mapping[str, str]) -> Way:
+    """Return where `path` leads; the links' own paths are relative to the same root.
+
+    A way that passes above the root, or through an absolute path, leads out.
     """
     to_go = path.split("/")[::-1]
     at: list[str] = []
@@ -23,7 +31,7 @@ def follow(path: str, links: Mapping[str, str]) -> str | None:
             continue
         if part == "..":
             if not at:
-                return None
+                return Way(None)
             at.pop()
             continue
         at.append(part)
@@ -31,25 +39,10 @@ def follow(path: str, links: Mapping[str, str]) -> str | None:
         if target is None:
             continue
         followed += 1
-        if followed > MOST_FOLLOWED or target.startswith("/"):
-            return None
+        if target.startswith("/"):
+            return Way(None)
+        if followed > MOST_FOLLOWED:
+            return Way(None, loops=True)
         at.pop()
         to_go.extend(target.split("/")[::-1])
-    return "/".join(at)
-
-
-def is_loop(path: str, links: Mapping[str, str]) -> bool:
-    """Whether following `path` comes back to itself without ever leaving the root."""
-    seen: set[str] = set()
-    while path in links and path not in seen:
-        seen.add(path)
-        target = links[path]
-        if target.startswith("/"):
-            return False
-        without = {other: to for other, to in links.items() if other not in seen}
-        folder = path.rpartition("/")[0]
-        place = follow(f"{folder}/{target}", without)
-        if place is None:
-            return False
-        path = place
-    return path in seen
+    return Way("/".join(at))

@@ -74,5 +74,5 @@ class Submission:
 
     def file(self, path: str) -> SourceFile | None:
         """Return the package's file or folder (links inside the package resolved), or None."""
-        place = follow(path, self._links)
+        place = follow(path, self._links).place
         return None if place is None else self._by_path.get(place)

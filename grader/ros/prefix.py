@@ -208,7 +208,9 @@ def _install_command(distro: Distro, site: Path, script: Path, interpreter: Path
 
 
 def _versions(site: Path) -> dict[str, str]:
-    found = {d.metadata["Name"]: d.version for d in importlib.metadata.distributions(path=[str(site)])}
+    found = {
+        d.metadata["Name"]: d.version for d in importlib.metadata.distributions(path=[str(site)])
+    }
     wanted = {
         "rclpy": found.get("ros-rclpy", ""),
         "rmw": f"rmw_fastrtps_cpp {found.get('ros-rmw-fastrtps-cpp', '')}",
@@ -223,7 +225,9 @@ def _system_versions(system: Path) -> dict[str, str]:
     versions = dict.fromkeys(SUPPLY, "")
     manifest = system / "share" / "rclpy" / "package.xml"
     if manifest.is_file():
-        match = re.search(r"<version>\s*([\d.]+)\s*</version>", manifest.read_text(encoding="utf-8"))
+        match = re.search(
+            r"<version>\s*([\d.]+)\s*</version>", manifest.read_text(encoding="utf-8")
+        )
         versions["rclpy"] = match.group(1) if match else ""
     versions["rmw"] = "rmw_fastrtps_cpp"
     return versions

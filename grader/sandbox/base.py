@@ -236,7 +236,9 @@ def _converse(
                     return bytes(output), "output"
 
 
-def _wait(process: subprocess.Popen[bytes], deadline: float, output: bytearray) -> tuple[bytes, str]:
+def _wait(
+    process: subprocess.Popen[bytes], deadline: float, output: bytearray
+) -> tuple[bytes, str]:
     try:
         process.wait(max(0.0, deadline - time.monotonic()))
     except subprocess.TimeoutExpired:

@@ -111,7 +111,12 @@ PACKAGES = (
            failed={"package.setup_cfg": "package.setup_cfg_wrong"}, skipped=INSTALLED, score=60),
     broken("setup_cfg_without_develop",
            Write(CFG, f"[install]\ninstall_scripts=$base/lib/{PACKAGE}\n"),
-           failed={"package.setup_cfg": "package.setup_cfg_wrong"}, skipped=INSTALLED, score=60),
+           failed={"package.setup_cfg": "package.setup_cfg_wrong"}, score=95,
+           note="colcon 0.21 does without"),
+    broken("setup_cfg_without_install",
+           Write(CFG, f"[develop]\nscript_dir=$base/lib/{PACKAGE}\n"),
+           failed={"package.setup_cfg": "package.setup_cfg_wrong"}, score=95,
+           note="works with --symlink-install; without, the script lands in bin"),
     broken("setup_cfg_bin", Write(CFG, "[develop]\nscript_dir=$base/bin\n"
                                        "[install]\ninstall_scripts=$base/bin\n"),
            failed={"package.setup_cfg": "package.setup_cfg_wrong"}, skipped=INSTALLED, score=60),

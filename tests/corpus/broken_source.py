@@ -19,7 +19,7 @@ from .model import Replace
 from .model import broken
 
 SHEBANG = "#!/usr/bin/env python3\n"
-LATIN = b"#!/usr/bin/env python3\n# f\xfcr den Kurs\n\n\ndef main():\n    pass\n"
+LATIN = b"#!/usr/bin/env python3\n\n\ndef main():\n    print('f\xfcr den Kurs')\n"
 ENTRY = "            'test_node = my_robot_controller.my_first_node:main',\n"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from grader.report.model import CheckResult
@@ -131,6 +132,14 @@ def failing_report(**fields: Any) -> Report:
         advice=["The bit is not needed by ros2 run: it is for starting the file itself."],
     )
     evidence = {"transcript": TRACEBACK, "build_log": "Summary: 1 package finished [1.90s]\n"}
+    return report(misspelt_module(), starts, *skipped, advice, **{"evidence": evidence, **fields})
+
+
+def of(path: str | Path, *, distro: str = "jazzy", **fields: Any) -> Report:
+    """A report of the submission at `path`, in which everything passed."""
+    clean = report()
     return report(
-        misspelt_module(), starts, *skipped, advice, **{"evidence": evidence, **fields}
+        submission=clean.submission.model_copy(update={"path": str(path)}),
+        environment=clean.environment.model_copy(update={"distro": distro}),
+        **fields,
     )

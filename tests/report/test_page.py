@@ -130,6 +130,12 @@ def test_a_mistake_in_the_files_alone_shows_no_logs() -> None:
     assert "printed" not in page
 
 
+def test_logs_are_shown_for_what_failed_and_not_for_what_nobody_knows() -> None:
+    late = check("run.period", "inconclusive", actual="3 of 10 lines came late")
+    page = render_report(report(late, evidence={"build_log": "B", "transcript": "T"}))
+    assert "printed" not in page
+
+
 def test_skipped_checks_say_because_of_which() -> None:
     page = words(render_report(failing_report()))
     assert (

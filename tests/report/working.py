@@ -1,7 +1,7 @@
 """A program that works as the runner does, one event for each line on its standard input.
 
 `python -m tests.report.working [WORD…]`; the words: `fail` raises in the middle, `hidden` asks a
-hidden check.
+hidden check, `print` prints while the line lives.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def events(words: list[str]) -> list[Event]:
         StageStarted("run", "running the node"),
         CheckStarted(name, TITLES[name][0], "hidden" if visibility == "hidden" else "visible"),
         TickSeen(0, "Hello time: 0\x1b[2J\x9b31m\u202e[red]", 1.0),
-        Note("a second attempt, the machine is busy\x1b]0;title\x07"),
+        Note("a second attempt, the machine is busy [red]\x1b]0;title\x07"),
         CheckFinished(check(name, visibility=visibility)),
         StageFinished("run", 1.4),
     ]
@@ -41,6 +41,8 @@ def main() -> None:
         for event in events(words):
             sys.stdin.readline()
             progress(event)
+            if "print" in words and isinstance(event, Note):
+                print("in between")
             if "fail" in words and isinstance(event, CheckStarted):
                 raise SystemExit("stopped on the way")
         sys.stdin.readline()

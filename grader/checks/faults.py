@@ -1,0 +1,67 @@
+"""What the checks of a run have in common: places, tracebacks, and verdicts on limits."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.checks.build import python_error
+from grader.checks.registry import Failed
+from grader.report.model import Where
+
+if TYPE_CHECKING:
+    from grader.evidence import Evidence
+    from grader.running import Run
+
+FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
+SPIN = "rclpy.spin(node) is what keeps a node alive: it waits, and calls your callbacks when due."
+
+
+def node_file(evidence: Evidence) -> Where:
+    """Return the node's file as the place of a fault that has no line."""
+    return Where(file=f"{evidence.assignment.package}/{evidence.assignment.node_file}")
+
+
+def line_of(evidence: Evidence, record: object) -> Where:
+    line = getattr(record, "line", None)
+    file = str(getattr(record, "file", ""))
+    place = node_file(evidence)
+    if isinstance(line, int) and line > 0 and file.endswith(place.file):
+        return Where(file=place.file, line=line)
+    return place
+
+
+def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
+    """Return the last error that the run printed, and the student's own line it came from."""
+    error, _ = python_error(run.transcript, evidence.assignment.node_file)
+    package = evidence.assignment.package
+    mine = [m for m in FRAME.findall(run.transcript) if m[0].startswith(f"{package}/")]
+    if not mine:
+        return error, None
+    return error, Where(file=mine[-1][0], line=int(mine[-1][1]))
+
+
+def flood(evidence: Evidence, expected: str) -> Failed:
+    """Return the verdict on a node that printed more than the limit."""
+    return Failed(
+        expected=expected,
+        actual="so much output that the run was stopped after "
+        f"{len(evidence.run.transcript.encode()) / 1e6:.1f} MB",
+        where=node_file(evidence),
+        rationale="A loop that prints without waiting fills terminals, logs and disks.",
+        fix="Log in the timer's callback only, once each time.",
+        mistake="run.too_much_output",
+    )
+
+
+def resource(evidence: Evidence, expected: str) -> Failed:
+    """Return the verdict on a node that met a limit on memory or processes."""
+    return Failed(
+        expected=expected,
+        actual=f"it met the limit on {evidence.run.resource} and was stopped",
+        where=node_file(evidence),
+        rationale="A node that counts needs about 60 MB of memory and one process.",
+        fix="Look for a list that only grows, or for programs and threads started in a loop.",
+        mistake="run.resource",
+        params={"limit": evidence.run.resource},
+    )

@@ -1,0 +1,113 @@
+"""The files of one package, read with bounds; what is no plain file is never opened."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.intake.links import follow
+from grader.intake.model import SourceFile
+from grader.intake.tree import LEADS_OUT
+from grader.intake.tree import Entry
+from grader.intake.tree import Tree
+
+MEGABYTE = 1_000_000
+MOST_FILES = 5_000
+"""How many files and folders a package may have."""
+MOST_FILE_BYTES = 5 * MEGABYTE
+MOST_BYTES = 50 * MEGABYTE
+"""How much all files of a package may hold together."""
+MOST_LINKS = 200
+"""How many links of a package are looked at."""
+
+COPIED = "a link to a file outside the package: the file's content was taken in its place"
+TOO_MANY_LINKS = f"left out, as there are more than {MOST_LINKS} links"
+
+
+class TooLargeError(Exception):
+    """A package beyond the limits; the message says which and by how much."""
+
+
+@dataclass(frozen=True)
+class Unread:
+    """Why a file has no data."""
+
+    reason: str
+
+
+def read_bytes(path: Path, limit: int) -> bytes | Unread:
+    """Return a regular file's bytes, at most `limit`; never follows a link, never waits."""
+    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    too_large = Unread(f"it is larger than {limit / MEGABYTE:g} MB")
+    try:
+        handle = os.open(path, flags)
+        with os.fdopen(handle, "rb") as file:
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                return Unread("it is not a plain file")
+            if os.fstat(handle).st_size > limit:
+                return too_large
+            found = file.read(limit + 1)
+    except OSError as error:
+        return Unread(f"it cannot be read ({error.strerror or type(error).__name__})")
+    # (what grows while it is read, or tells no size, is cut off by the limit)
+    return too_large if len(found) > limit else found
+
+
+def read_package(tree: Tree, root: str) -> tuple[SourceFile, ...]:
+    """Return the files of the package in the folder `root`, sorted by path.
+
+    Raises TooLargeError where the package as a whole is beyond the limits.
+    """
+    entries = tree.below(root)
+    cut = root in tree.truncated or any(e.path in tree.truncated for e in entries.values())
+    if cut or len(entries) > MOST_FILES:
+        raise TooLargeError(f"it has more than {MOST_FILES:,} files and folders")
+    return tuple(_Reader(tree, entries).read())
+
+
+class _Reader:
+    def __init__(self, tree: Tree, entries: dict[str, Entry]) -> None:
+        self._tree = tree
+        self._entries = entries
+        self._links = {path: e.target for path, e in entries.items() if e.kind == "link"}
+        self._surplus = frozenset(list(self._links)[MOST_LINKS:])
+        self._everywhere = tree.links()
+        self._bytes = 0
+
+    def read(self) -> Iterator[SourceFile]:
+        for path, entry in self._entries.items():
+            if entry.kind == "folder":
+                yield SourceFile(path, "folder", entry.mode)
+            elif entry.kind == "file":
+                yield self._file(path, entry)
+            elif path in self._surplus:
+                self._tree.left_out.add(TOO_MANY_LINKS, entry.path)
+            else:
+                yield from self._link(path, entry)
+
+    def _file(self, path: str, entry: Entry) -> SourceFile:
+        found = read_bytes(self._tree.root / entry.path, MOST_FILE_BYTES)
+        if isinstance(found, Unread):
+            self._tree.left_out.add(f"without its content, as {found.reason}", entry.path)
+            return SourceFile(path, "file", entry.mode, unreadable=True, reason=found.reason)
+        self._bytes += len(found)
+        if self._bytes > MOST_BYTES:
+            raise TooLargeError(f"its files hold more than {MOST_BYTES // MEGABYTE} MB")
+        return SourceFile(path, "file", entry.mode, found)
+
+    def _link(self, path: str, entry: Entry) -> Iterator[SourceFile]:
+        """A link that stays inside is kept; one to another file handed in becomes that file."""
+        way = follow(path, self._links)
+        if way.loops or way.place is not None:
+            yield SourceFile(path, "link", 0o777, target=entry.target)
+            return
+        place = follow(entry.path, self._everywhere).place
+        goal = self._tree.entries.get(place) if place is not None else None
+        if goal is None or goal.kind != "file":
+            self._tree.left_out.add(LEADS_OUT, f"{entry.path} -> {entry.target}")
+            return
+        self._tree.left_out.add(COPIED, entry.path)
+        yield self._file(path, goal)

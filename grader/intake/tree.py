@@ -1,0 +1,201 @@
+"""What lies in a directory: looked at from outside, no link followed, nothing opened."""
+
+from __future__ import annotations
+
+import os
+import stat
+import unicodedata
+from collections import deque
+from dataclasses import dataclass
+from dataclasses import field
+from pathlib import Path
+from typing import Literal
+
+from grader.intake.artefacts import COLCON
+from grader.intake.artefacts import is_colcon_artefact
+from grader.intake.artefacts import is_tool_file
+from grader.intake.artefacts import is_tool_folder
+from grader.intake.links import follow
+from grader.intake.notes import LeftOut
+
+MOST_LEVELS = 32
+"""How many folders deep the submission is looked at."""
+MOST_IN_FOLDER = 5_000
+"""How many names of one folder are looked at."""
+MOST_ENTRIES = 50_000
+"""How many names are looked at in all; nearest to the top first."""
+LONGEST_TARGET = 1_000
+"""The longest text (characters) of a link that is kept."""
+
+MADE_BY_TOOLS = "left out, as tools make it anew"
+LEADS_OUT = "left out, as a link that leads out of the package"
+SPECIAL = "left out, as neither file nor folder (a device, named pipe or socket)"
+BAD_NAME = "left out, as its name is not plain UTF-8 text"
+UNREADABLE_FOLDER = "a folder that cannot be read"
+TOO_DEEP = f"not looked into, as it lies more than {MOST_LEVELS} folders deep"
+TOO_FULL = f"only the first {MOST_IN_FOLDER} names were looked at in"
+TOO_MANY = f"not looked into, as there are more than {MOST_ENTRIES} files and folders"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A name in the tree: `path` relative to the tree's root; `size` in bytes, `target` of links."""
+
+    path: str
+    kind: Literal["file", "folder", "link"]
+    mode: int
+    size: int = 0
+    target: str = ""
+
+
+@dataclass
+class Tree:
+    """All that was seen; `truncated` are the folders with more names than are looked at."""
+
+    root: Path
+    entries: dict[str, Entry] = field(default_factory=dict)
+    left_out: LeftOut = field(default_factory=LeftOut)
+    git: set[str] = field(default_factory=set)
+    truncated: set[str] = field(default_factory=set)
+
+    def below(self, folder: str) -> dict[str, Entry]:
+        """Return the entries below a folder, by their path relative to it, sorted by path."""
+        if folder == ".":
+            return dict(sorted(self.entries.items()))
+        start = f"{folder}/"
+        return {
+            path[len(start) :]: entry
+            for path, entry in sorted(self.entries.items())
+            if path.startswith(start)
+        }
+
+    def links(self) -> dict[str, str]:
+        """Return every link's path and target."""
+        return {path: e.target for path, e in self.entries.items() if e.kind == "link"}
+
+    def file(self, path: str) -> Entry | None:
+        """Return the file at a path, or the one of the tree that a link there leads to."""
+        entry = self.entries.get(path)
+        if entry is not None and entry.kind == "link":
+            place = follow(path, self.links()).place
+            entry = self.entries.get(place) if place is not None else None
+        return entry if entry is not None and entry.kind == "file" else None
+
+
+def join(folder: str, name: str) -> str:
+    """Return the path of a name in a folder of the tree, whose root is `.`."""
+    return name if folder == "." else f"{folder}/{name}"
+
+
+def parent(path: str) -> str:
+    """Return the folder of a path in the tree."""
+    return path.rpartition("/")[0] or "."
+
+
+def ancestors(path: str) -> list[str]:
+    """Return a folder of the tree and all above it, up to the tree's root."""
+    found = [path]
+    while found[-1] != ".":
+        found.append(parent(found[-1]))
+    return found
+
+
+def look(root: Path) -> Tree:
+    """Return what lies below `root`; OSError only where `root` itself cannot be read."""
+    tree = Tree(root)
+    waiting = deque([(".", 0)])
+    while waiting:
+        folder, depth = waiting.popleft()
+        if len(tree.entries) >= MOST_ENTRIES:
+            tree.left_out.add(TOO_MANY, folder)
+            tree.truncated.add(folder)
+            continue
+        try:
+            found = _names(tree, folder)
+        except OSError as error:
+            if folder == ".":
+                raise
+            tree.left_out.add(f"{UNREADABLE_FOLDER} ({error.strerror})", folder)
+            continue
+        for child in _sort(tree, folder, found):
+            if child.kind == "folder" and depth + 1 >= MOST_LEVELS:
+                tree.left_out.add(TOO_DEEP, child.path)
+            elif child.kind == "folder":
+                waiting.append((child.path, depth + 1))
+    return tree
+
+
+def _names(tree: Tree, folder: str) -> list[os.DirEntry[str]]:
+    found: list[os.DirEntry[str]] = []
+    with os.scandir(tree.root if folder == "." else tree.root / folder) as names:
+        for entry in names:
+            if len(found) >= MOST_IN_FOLDER:
+                tree.left_out.add(TOO_FULL, folder)
+                tree.truncated.add(folder)
+                break
+            found.append(entry)
+    return sorted(found, key=lambda entry: entry.name)
+
+
+def _sort(tree: Tree, folder: str, found: list[os.DirEntry[str]]) -> list[Entry]:
+    """Put what is kept into the tree and return it; note what is not."""
+    kept = []
+    beside = {e.name for e in found if e.is_dir(follow_symlinks=False)}
+    artefacts = {
+        name
+        for name in COLCON & beside
+        if is_colcon_artefact(tree.root / folder / name, COLCON & beside)
+    }
+    for item in found:
+        path = join(folder, item.name)
+        if not is_plain(item.name):
+            tree.left_out.add(BAD_NAME, path)
+            continue
+        try:
+            entry = _entry(item, path)
+        except OSError as error:
+            tree.left_out.add(f"left out, as it cannot be looked at ({error.strerror})", path)
+            continue
+        if item.name == ".git" and entry is not None and entry.kind != "link":
+            tree.git.add(folder)
+        if entry is None:
+            tree.left_out.add(SPECIAL, path)
+        elif entry.kind == "folder" and (
+            item.name in artefacts or is_tool_folder(item.name, Path(item.path))
+        ):
+            tree.left_out.add(MADE_BY_TOOLS, f"{path}/")
+        elif entry.kind != "folder" and is_tool_file(item.name):
+            tree.left_out.add(MADE_BY_TOOLS, path)
+        else:
+            tree.entries[path] = entry
+            kept.append(entry)
+    return kept
+
+
+def _entry(item: os.DirEntry[str], path: str) -> Entry | None:
+    """Return what a name is; None for what is neither file, folder nor link."""
+    status = item.stat(follow_symlinks=False)
+    mode = stat.S_IMODE(status.st_mode)
+    if stat.S_ISLNK(status.st_mode):
+        target = os.readlink(item.path)  # noqa: PTH115
+        # one that cannot be kept leads out: an absolute path is what that looks like
+        fits = len(target) <= LONGEST_TARGET and is_plain(target)
+        return Entry(path, "link", mode, target=target if fits else "/")
+    if stat.S_ISDIR(status.st_mode):
+        return Entry(path, "folder", mode)
+    if stat.S_ISREG(status.st_mode):
+        return Entry(path, "file", mode, size=status.st_size)
+    return None
+
+
+def is_plain(name: str) -> bool:
+    """Whether a name is UTF-8 text without control characters, line ends or direction overrides.
+
+    (Python shows bytes that are not UTF-8 as lone surrogates, category Cs.)
+    """
+    if name.isascii():
+        return name.isprintable()
+    return not any(
+        unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or c in "\u202a\u202b\u202d\u202e"
+        for c in name
+    )

@@ -1,0 +1,236 @@
+"""`make bench`: what a verdict costs, next to the bare commands' own cost, in one run.
+
+Seconds of wall time ("wall") and of processor time of a whole process tree ("cpu"); every figure
+is the median of its runs, and the ratios are what counts: they hold on another machine too.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.assignment import load_assignment
+from grader.limits import Limits
+from grader.probe_link import ProbeLink
+from grader.ros.distro import find_distro
+from grader.ros.prefix import Ros
+from grader.ros.prefix import find_ros
+from grader.running import observe
+from grader.running import ros2_run
+from grader.sandbox.bubblewrap import Bubblewrap
+from grader.submission import Submission
+from grader.submission import take_in
+from grader.terminal import Terminal
+from grader.workspace import build
+from tests import stage
+
+COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
+SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+ASSIGNMENT = load_assignment(COURSE)
+PLAIN_TICKS = 5
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What something took: seconds of wall time and of processor time."""
+
+    wall: float
+    cpu: float
+
+
+def main() -> int:
+    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--runs", type=int, default=7, help="verdicts to take the median of")
+    options.add_argument("--starts", type=int, default=100, help="starts of the node to time")
+    asked = options.parse_args()
+    ros = find_ros(find_distro("jazzy"))
+    submission = take_in(SOLUTION, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+    verdict_once()  # warms the caches
+    verdict = middle(verdict_once, asked.runs)
+    colcon = middle(lambda: bare_build(ros, submission), asked.runs)
+    node = middle(lambda: bare_run(ros, submission), asked.runs)
+    imported = middle(lambda: bare_import(ros), asked.runs)
+    plain = plain_grader(ros, submission)
+    firsts, virtual = starts(ros, submission, asked.starts)
+    help_ = middle(lambda: timed(stage.grader("--help")), asked.runs)
+    memory = peak_memory()
+    own = max(0.0, verdict.cpu - colcon.cpu - node.cpu - imported.cpu)
+    late = sum(1 for seconds in firsts if seconds > 1.0)
+    rows = [
+        ("one verdict, warm", f"{verdict.wall:.2f} s wall, {verdict.cpu:.2f} s cpu"),
+        ("  bare colcon build", f"{colcon.wall:.2f} s wall, {colcon.cpu:.2f} s cpu"),
+        ("  bare ros2 run, Ctrl+C at once", f"{node.wall:.2f} s wall, {node.cpu:.2f} s cpu"),
+        ("  bare import of rclpy (the probe's)", f"{imported.wall:.2f} s wall, {imported.cpu:.2f} s cpu"),
+        ("plain grader (build, run, 5 ticks)", f"{plain.wall:.2f} s wall, {plain.cpu:.2f} s cpu"),
+    ]
+    for name, text in rows:
+        print(f"{name:40} {text}")
+    print()
+    bounds = [
+        bound("verdict: seconds of wall time", verdict.wall, 4.0),
+        bound("10 ticks in virtual time: seconds", virtual, 1.0),
+        bound(f"first line over 1 s: of {len(firsts)} starts", late, len(firsts) / 100),
+        bound("grader's own share of the processor time", own / verdict.cpu, 0.25),
+        bound("grader --help: seconds", help_.wall, 0.25),
+        bound("grader's peak memory: MB", memory, 120),
+    ]
+    slowest = sorted(firsts)[-3:]
+    print(f"first line: median {statistics.median(firsts):.2f} s, slowest {slowest[-1]:.2f} s")
+    print(f"plain wall-clock grader / verdict: {plain.wall / verdict.wall:.1f} times the wall time")
+    print(f"verdict / bare build + bare run: {verdict.wall / (colcon.wall + node.wall):.2f}")
+    return 0 if all(bounds) else 1
+
+
+def bound(name: str, value: float, most: float) -> bool:
+    """Print a figure next to its bound and return whether it is kept."""
+    kept = value <= most
+    print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at most {most:g})")
+    return kept
+
+
+def middle(measure: Callable[[], Cost], runs: int) -> Cost:
+    """Return the medians of several runs."""
+    costs = [measure() for _ in range(runs)]
+    return Cost(
+        statistics.median(cost.wall for cost in costs), statistics.median(cost.cpu for cost in costs)
+    )
+
+
+def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
+    """Run a command and return what its whole process tree took."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    begin = time.monotonic()
+    done = subprocess.run(
+        command, input=stdin, cwd=stage.ROOT, capture_output=True, check=False
+    )
+    wall = time.monotonic() - begin
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode not in (0, 1):
+        sys.exit(f"{command} ended with {done.returncode}:\n{done.stderr.decode()[-2000:]}")
+    return Cost(wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
+def verdict_once() -> Cost:
+    """One verdict, as a user gets it: a process of its own, with report and terminal text."""
+    with tempfile.TemporaryDirectory() as out:
+        return timed(stage.grader("grade", SOLUTION, "--out", out))
+
+
+def _shell(ros: Ros, script: str, stdin: bytes = b"") -> Cost:
+    with Bubblewrap(ros, Limits()) as sandbox:
+        command = sandbox.command(["bash", "-c", script])
+        return timed(command, stdin=stdin)
+
+
+def _tar(submission: Submission) -> bytes:
+    from grader.workspace import as_tar  # noqa: PLC0415
+
+    return as_tar(submission, ASSIGNMENT.package)
+
+
+def bare_build(ros: Ros, submission: Submission) -> Cost:
+    """`colcon build` alone, in the same sandbox, for it cannot be run anywhere else."""
+    setup = f". {ros.inside}/setup.bash; tar -xf -; colcon build --symlink-install < /dev/null"
+    return _shell(ros, setup, _tar(submission))
+
+
+def bare_import(ros: Ros) -> Cost:
+    """A Python that imports rclpy and makes a node: what the probe cannot do without."""
+    code = "import rclpy; rclpy.init(); rclpy.create_node('probe')"
+    return _shell(ros, f'. {ros.inside}/setup.bash; python3 -c "{code}"')
+
+
+def bare_run(ros: Ros, submission: Submission) -> Cost:
+    """`ros2 run` on a terminal until its node is up, then Ctrl+C, and nothing else."""
+    with Bubblewrap(ros, Limits()) as sandbox:
+        build(sandbox, submission, package=ASSIGNMENT.package)
+        script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec "
+        script += ros2_run(ASSIGNMENT).replace("use_sim_time:=true", "use_sim_time:=false")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        begin = time.monotonic()
+        terminal = Terminal(
+            sandbox.command(["bash", "-c", script]),
+            env=sandbox.outer_environment("student"),
+            most=100_000,
+        )
+        while not terminal.ended and not any("Hello" in line.text for line in terminal.read(10)):
+            pass
+        up = time.monotonic() - begin - ASSIGNMENT.output.period
+        terminal.interrupt()
+        terminal.finish(10)
+        terminal.close()
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return Cost(up, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
+def plain_grader(ros: Ros, submission: Submission) -> Cost:
+    """The yardstick: build, run, wait for five ticks of the wall clock, Ctrl+C."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    begin = time.monotonic()
+    with Bubblewrap(ros, Limits()) as sandbox:
+        build(sandbox, submission, package=ASSIGNMENT.package)
+        script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
+        script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
+        terminal = Terminal(
+            sandbox.command(["bash", "-c", script]),
+            env=sandbox.outer_environment("student"),
+            most=100_000,
+        )
+        seen = 0
+        while seen < PLAIN_TICKS and not terminal.ended:
+            seen += sum("Hello time" in line.text for line in terminal.read(10))
+        terminal.interrupt()
+        terminal.finish(10)
+        terminal.close()
+    wall = time.monotonic() - begin
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return Cost(wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+
+
+def starts(ros: Ros, submission: Submission, count: int) -> tuple[list[float], float]:
+    """Start the node many times; return the seconds to each first line, and a run's ticks' time."""
+    firsts, ticking = [], []
+    with Bubblewrap(ros, Limits()) as sandbox:
+        build(sandbox, submission, package=ASSIGNMENT.package)
+        for _ in range(count):
+            probe = ProbeLink(sandbox)
+            try:
+                run = observe(sandbox, ASSIGNMENT, probe, lambda event: None)  # noqa: ARG005
+            finally:
+                probe.close()
+            if run.first_line_seconds is None:
+                firsts.append(float("inf"))
+                continue
+            firsts.append(run.first_line_seconds)
+            events = run.watch.counted
+            ticking.append(events[-1].wall - events[0].wall)
+    return firsts, statistics.median(ticking)
+
+
+def peak_memory() -> float:
+    """Return the peak resident memory of the grader's own process in MB."""
+    with tempfile.TemporaryDirectory() as out:
+        code = (
+            "import resource, sys; from grader.cli import main; main(sys.argv[1:]); "
+            "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+        )
+        command = [sys.executable, "-c", code, "grade", str(SOLUTION), "--out", str(Path(out))]
+        done = subprocess.run(
+            command, cwd=stage.ROOT, capture_output=True, text=True, check=True, env=dict(os.environ)
+        )
+    return int(done.stdout.split()[-1]) * 1024 / 1e6
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

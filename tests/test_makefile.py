@@ -1,0 +1,112 @@
+"""The front door: `make` gives help, and its variables are data, never shell or make code."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests import stage
+from tests.test_cli import solution
+
+HOSTILE = [
+    "a b",
+    "semi;touch HACKED",
+    "$(touch HACKED)",
+    "$(shell touch HACKED)",
+    "${HOME}",
+    "$HOME",
+    "`touch HACKED`",
+    "quote'd",
+    'double"d',
+    "amp&touch HACKED",
+    "pipe|touch HACKED",
+    "hash#tag",
+    "percent%d",
+    "star*",
+    "back\\slash",
+    "-n",
+    "--out=HACKED",
+    "한국어",
+    "new\nline",
+]
+
+
+def make(*words: str, cwd: Path = stage.ROOT) -> tuple[int, str, str]:
+    done = stage.run(["make", "--no-print-directory", *words], cwd=cwd)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_help_is_the_default_and_names_every_target() -> None:
+    status, said, _ = make()
+    assert status == 0
+    for target in ("setup", "grade", "check", "test", "test-all", "bench"):
+        assert f"make {target} " in said
+    assert make("help")[1] == said
+
+
+def test_grade_without_a_student_says_how() -> None:
+    status, _, said = make("grade")
+    assert status == 2
+    assert "make grade STUDENT=path/to/package" in said
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_name_is_data(name: str, tmp_path: Path) -> None:
+    """make, the shell and the grader all get it as it is: the path that is missed is this one."""
+    missing = tmp_path / name
+    status, out, err = make("grade", f"STUDENT={missing}", "OUT=HACKED")
+    assert status == 2
+    assert str(missing).split("\n")[0] in err.replace("\\n", "\n")
+    assert "Traceback" not in err
+    assert out == ""
+    assert not (stage.ROOT / "HACKED").exists()
+    assert not (tmp_path / "HACKED").exists()
+
+
+@pytest.mark.parametrize("variable", ["ASSIGNMENT", "DISTRO", "SANDBOX", "PACKAGE", "NAME"])
+def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None:
+    hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
+    target = "check" if variable == "PACKAGE" else "grade"
+    status, _, _ = make(target, f"STUDENT={tmp_path}/none", f"{variable}={hostile}")
+    assert status == 2
+    assert not (tmp_path / "HACKED").exists()
+
+
+def test_a_variable_of_the_environment_works_as_well(tmp_path: Path) -> None:
+    done = stage.run(["make", "grade"], env={"STUDENT": f"{tmp_path}/$(touch HACKED)"})
+    assert done.returncode == 2
+    assert "$(touch HACKED)" in done.stderr
+
+
+def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
+    folder = tmp_path / "it's; $(touch HACKED) \"100 %\""
+    package = solution(folder)
+    status, out, err = make("grade", f"STUDENT={package}", f"OUT={tmp_path}/out put")
+    assert status == 0, err
+    assert "100" in out
+    assert len(list((tmp_path / "out put").rglob("report.json"))) == 1
+    assert not (stage.ROOT / "HACKED").exists()
+
+
+def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path) -> None:
+    """A set-up that was killed half-way has no stamp, and is not taken for a whole one."""
+    checkout = tmp_path / "checkout"
+    checkout.mkdir()
+    for name in ("Makefile", "grader", "lab", "tests"):
+        source = stage.ROOT / name
+        if source.is_dir():
+            shutil.copytree(source, checkout / name, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy(source, checkout / name)
+    half = checkout / ".venv" / "bin"
+    half.mkdir(parents=True)
+    (half / "python").write_text("#!/bin/sh\nexit 1\n")
+    status, out, err = make("grade", f"STUDENT={solution(tmp_path)}", cwd=checkout)
+    assert status == 0, err
+    assert "setting up the grader's Python environment" in err
+    assert "100" in out
+    status, out, err = make("grade", f"STUDENT={tmp_path / 'solution'}", cwd=checkout)
+    assert status == 0
+    assert "setting up" not in err
