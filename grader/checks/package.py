@@ -146,7 +146,7 @@ def _installed_in(data_files: Value | None, folder: str) -> tuple[list[Text], bo
             told = False
         elif isinstance(place, Text) and place.value.strip("/") == folder:
             found += [item for item in files.items if isinstance(item, Text)]
-            told = told and len(files.items) == len(found)
+            told = told and all(isinstance(item, Text) for item in files.items)
     return found, told
 
 

@@ -85,6 +85,8 @@ class LiveProgress:
             case Note(text=text):
                 if self._live is not None:
                     self._live.console.print(one_line(text, most=500), soft_wrap=True)
+                else:
+                    self._print(f"{one_line(text, most=500)}\n")
 
     def _print(self, text: str) -> None:
         stream = _Sturdy(self._file)

@@ -74,10 +74,10 @@ CALLBACK = (
            _node(STEP, f"{STEP}\n        if self.counter_ == 3:\n            raise SystemExit"),
            failed={"run.output": "run.ended_early"}, skipped=frozenset({"run.interrupt"}),
            score=87),
-    broken("spins_three_times", _node("rclpy.spin(node)", "for _ in range(30):\n"
-           "            rclpy.spin_once(node, timeout_sec=0.1)"),
-           failed={"run.output": "run.ended_early"}, skipped=TICKS | {"run.interrupt"}, score=80,
-           note="three seconds by the wall clock, thirty messages of /clock at most"),
+    broken("spins_until_three", _node("rclpy.spin(node)", "while node.counter_ < 3:\n"
+           "            rclpy.spin_once(node)"),
+           failed={"run.output": "run.ended_early"}, skipped=frozenset({"run.interrupt"}),
+           score=87),
     broken("brackets_behind_callback", _node("self.timer_callback)", "self.timer_callback())"),
            failed={"run.output": "run.ended_early", "run.period": "run.by_hand"},
            skipped=frozenset({"run.interrupt"}), score=83,

@@ -38,7 +38,7 @@ def _unbuilt(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
     )
 
 
-def _dead(name: str, *edits: Edit, mistake: str | None, note: str = "") -> Package:
+def _dead(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
     """Return a package whose executable is there and dies of its entry."""
     return broken(
         name, *edits, failed={"entry_point.mapping": mistake}, skipped=RUN, score=55, note=note
@@ -77,6 +77,8 @@ ENTRY_POINT = (
              mistake="entry_point.bad_syntax"),
     _unbuilt("dash_in_module", _target("my-robot-controller.my_first_node:main"),
              mistake="entry_point.bad_syntax"),
+    _unbuilt("function_called", _target("my_robot_controller.my_first_node:main()"),
+             mistake="entry_point.bad_syntax", note="brackets behind main"),
     _dead("module_misspelt", _target("my_robot_controller.my_frist_node:main"),
           mistake="entry_point.wrong_module"),
     _dead("package_left_out", _target("my_first_node:main"), mistake="entry_point.wrong_module"),
@@ -90,8 +92,6 @@ ENTRY_POINT = (
           mistake="entry_point.no_function"),
     _dead("function_misspelt", _target("my_robot_controller.my_first_node:mian"),
           mistake="entry_point.wrong_function"),
-    _dead("function_called", _target("my_robot_controller.my_first_node:main()"),
-          mistake=None, note="brackets behind main"),
     _dead("main_missing", Replace(NODE, "def main(", "def run("),
           Replace(NODE, "\n    main()\n", "\n    run()\n"), mistake="entry_point.wrong_function"),
     _dead("main_misspelt", Replace(NODE, "def main(", "def mein("),

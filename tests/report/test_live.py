@@ -26,6 +26,7 @@ from tests.report.stage import piped
 
 CURSOR_HIDDEN, CURSOR_SHOWN = "\x1b[?25l", "\x1b[?25h"
 STAGES = "building with colcon ...\nrunning the node ...\n"
+NOTE = "a second attempt, the machine is busy [red]\\x1b]0;title\\x07\n"
 EVENTS = 8  # of tests.report.working
 
 
@@ -113,9 +114,9 @@ def test_however_it_ends_the_cursor_is_there(how: str) -> None:
     assert output.rfind(CURSOR_SHOWN) > output.rfind(CURSOR_HIDDEN)
 
 
-def test_in_a_pipe_each_stage_is_one_plain_line_and_there_is_nothing_else() -> None:
+def test_in_a_pipe_each_stage_and_note_is_one_plain_line_and_there_is_nothing_else() -> None:
     done = piped("working", lines=EVENTS + 1)
-    assert done.stderr == STAGES
+    assert done.stderr == STAGES + NOTE
     assert done.stdout == "the end\n"
 
 
@@ -124,7 +125,7 @@ def test_on_a_dumb_terminal_too() -> None:
     for _ in range(EVENTS + 1):
         terminal.sendline()
     terminal.expect(pexpect.EOF)
-    assert str(terminal.before).replace("\r\n", "\n") == f"{STAGES}the end\n"
+    assert str(terminal.before).replace("\r\n", "\n") == f"{STAGES}{NOTE}the end\n"
 
 
 def test_standard_output_in_a_file_stays_clean_while_the_line_lives(tmp_path: Path) -> None:
