@@ -231,7 +231,7 @@ def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
     if "/" in assignment or assignment.endswith((".yaml", ".yml")):
         return Path(assignment), None
     here = Path(__file__).resolve().parent
-    course = Path(os.environ.get(COURSE) or here.parent / "lab" / "course")
+    course = _course(here)
     file = course / assignment / "assignment.yaml"
     if not file.is_file():
         known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
@@ -242,6 +242,16 @@ def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
         )
     hidden = here / "keys" / assignment / "hidden.yaml"
     return file, hidden if hidden.is_file() else None
+
+
+def _course(here: Path) -> Path:
+    """Return the course folder: $GRADER_COURSE, this checkout's, or the installed package's."""
+    own = os.environ.get(COURSE)
+    if own:
+        return Path(own)
+    shares = [parent / "share" / "ros2_teaching_lab" / "course" for parent in here.parents]
+    places = [here.parent / "lab" / "course", *shares]
+    return next((place for place in places if place.is_dir()), places[0])
 
 
 def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:

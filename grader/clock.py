@@ -11,6 +11,7 @@ import re
 import statistics
 import time
 from collections.abc import Callable
+from collections.abc import Iterable
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
@@ -78,7 +79,12 @@ class Watch:
     def counted(self) -> list[Event]:
         """The events that are taken for the count: those of the pattern, else any."""
         own = [event for event in self.events if event.n is not None]
-        return own or [event for event in self.events if event not in self.before_start]
+        if own:
+            return own
+        others = [event for event in self.events if event not in self.before_start]
+        moments = {event.due if self.clock == "virtual" else event.wall for event in others}
+        # what comes once only is a message or a traceback, and no count
+        return others if len(moments - {None}) > 1 else []
 
 
 class Observer:
@@ -92,7 +98,7 @@ class Observer:
         self._pattern = re.compile(re.escape(head) + r"(-?\d{1,18})" + re.escape(tail))
         self._unmatched: list[Line] = []
         self.records: list[LogRecord] = []
-        self.shown: set[tuple[int, str, str]] = set()
+        self._shown: set[int] = set()  # the stamps of the records that the terminal showed
         self.now = 0.0  # virtual seconds
         self._linked: float | None = None
 
@@ -135,13 +141,17 @@ class Observer:
             assert line.log is not None
             _, stamp, name, text = line.log
             if (stamp, name, text) in known:
-                self.shown.add((stamp, name, text))
+                self._shown.add(stamp)
             elif self._is_overdue(line):
                 faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
             else:
                 waiting.append(line)
         self._unmatched = waiting
         return faked
+
+    def visible(self, events: Iterable[Event]) -> list[Event]:
+        """Return the events that a person at the terminal saw."""
+        return [e for e in events if e.record is None or e.record.stamp in self._shown]
 
     def _is_overdue(self, line: Line) -> bool:
         """Whether a line's log record would have come by now."""

@@ -141,7 +141,7 @@ class ProbeLink:
     def close(self) -> None:
         """End the probe: it is asked to, and killed if it does not."""
         with contextlib.suppress(OSError, ValueError, subprocess.TimeoutExpired):
-            assert self._process.stdin is not None  # noqa: S101
+            assert self._process.stdin is not None
             self._process.stdin.write(b'{"do": "end"}\n')
             self._process.stdin.close()
             self._process.wait(END_SECONDS)

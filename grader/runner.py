@@ -5,6 +5,7 @@ It prints nothing: it emits events, and returns the report.
 
 from __future__ import annotations
 
+import os
 import time
 import traceback
 from collections.abc import Sequence
@@ -200,7 +201,7 @@ def _report(
         ),
         submission=model.SubmissionInfo(
             name=submission.name,
-            path=str(submission.path),
+            path=_printable(submission.path),
             sha256=submission.sha256,
             package=_package_name(submission),
             origin=submission.origin,
@@ -228,6 +229,11 @@ def _report(
         ),
         started="",
     )
+
+
+def _printable(path: Path) -> str:
+    """Return a path as text that JSON can hold; bytes that are no UTF-8 are spelled out."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
 def _package_name(submission: Submission) -> str | None:

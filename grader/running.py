@@ -82,7 +82,10 @@ def observe(
             clock = VirtualClock(observer, assignment.output, deadline=deadline, fine=fine)
             _watch(run, observer, clock, tell, follows=follows, deadline=deadline)
         run.watch.events += observer.settle()
-        counted = run.watch.counted
+        watch = run.watch
+        for seen in (watch.events, watch.before_start, watch.early):
+            seen[:] = observer.visible(seen)
+        counted = watch.counted
         if counted:
             run.first_line_seconds = counted[0].wall - terminal.started
         run.ended_by_itself = terminal.ended

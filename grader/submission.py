@@ -73,6 +73,7 @@ def take_in(path: Path, *, package: str, node_file: str, name: str | None = None
         problem_fix=problem.fix if problem else "",
         hints=choice.hints,
         node_files=_named(tree, node_file),
+        links_out=tuple(tree.links_out),
     )
 
 

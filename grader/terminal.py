@@ -14,6 +14,8 @@ from dataclasses import dataclass
 
 import pexpect
 
+from grader.sandbox.base import kill_below
+
 ANSI = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])")
 LOG_LINE = re.compile(r"^\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)$")
 LONGEST_LINE = 4_000  # characters; what a line has beyond them is left out
@@ -129,10 +131,13 @@ class Terminal:
 
     def close(self) -> None:
         """End what still runs on it."""
-        deadline = time.monotonic() + KILL_SECONDS
-        while self._spawn.isalive() and time.monotonic() < deadline:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(self._spawn.pid, signal.SIGKILL)
+        begin = time.monotonic()
+        while self._spawn.isalive() and time.monotonic() < begin + KILL_SECONDS:
+            if time.monotonic() < begin + KILL_SECONDS / 2:
+                kill_below(self._spawn.pid)
+            else:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(self._spawn.pid, signal.SIGKILL)
             time.sleep(POLL_SECONDS)
         self._spawn.close(force=False)
 

@@ -21,6 +21,7 @@ from grader.submission import Submission
 BUILD = "colcon build --symlink-install"
 MOST_LISTED = 2_000_000  # bytes of the listing of what was built
 INSPECT_SECONDS = 20.0
+HOOK = re.compile(r"^install/([^/]+)/share/\1/hook/ament_prefix_path\.")
 PREFIX = re.compile(r"^install/[^/]+/")
 INSPECT = r"""
 find install build -printf '%y %m %s %p\t%l\0' 2>/dev/null | head -c 1000000
@@ -55,12 +56,19 @@ class Build:
     entry_points: str = ""
 
     def is_installed(self, package: str) -> bool:
-        """Whether ROS finds the package: its marker is in the overlay's index."""
-        return bool(self.installed(f"share/ament_index/resource_index/packages/{package}"))
+        """Whether ROS finds the package: its marker is in an index that the overlay names.
+
+        (Where colcon did not know it for a ROS package, nothing adds its prefix to
+        AMENT_PREFIX_PATH, and ros2 run does not find it, marker or no marker.)
+        """
+        markers = self.installed(f"share/ament_index/resource_index/packages/{package}")
+        hooks = [path for path in self.files if HOOK.search(path)]
+        return any(hook.split("/")[1] == path.split("/")[1] for path in markers for hook in hooks)
 
     def installed(self, place: str) -> list[str]:
         """Return the paths of a file in the overlay: colcon makes a prefix for each package, named
-        by the manifest, and ROS looks in all of them."""
+        by the manifest, and ROS looks in all of them.
+        """
         return [path for path in self.files if PREFIX.sub("", path) == place]
 
     @property

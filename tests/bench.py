@@ -71,7 +71,10 @@ def main() -> int:
         ("one verdict, warm", f"{verdict.wall:.2f} s wall, {verdict.cpu:.2f} s cpu"),
         ("  bare colcon build", f"{colcon.wall:.2f} s wall, {colcon.cpu:.2f} s cpu"),
         ("  bare ros2 run, Ctrl+C at once", f"{node.wall:.2f} s wall, {node.cpu:.2f} s cpu"),
-        ("  bare import of rclpy (the probe's)", f"{imported.wall:.2f} s wall, {imported.cpu:.2f} s cpu"),
+        (
+            "  bare import of rclpy (the probe's)",
+            f"{imported.wall:.2f} s wall, {imported.cpu:.2f} s cpu",
+        ),
         ("plain grader (build, run, 5 ticks)", f"{plain.wall:.2f} s wall, {plain.cpu:.2f} s cpu"),
     ]
     for name, text in rows:
@@ -103,7 +106,8 @@ def middle(measure: Callable[[], Cost], runs: int) -> Cost:
     """Return the medians of several runs."""
     costs = [measure() for _ in range(runs)]
     return Cost(
-        statistics.median(cost.wall for cost in costs), statistics.median(cost.cpu for cost in costs)
+        statistics.median(cost.wall for cost in costs),
+        statistics.median(cost.cpu for cost in costs),
     )
 
 
@@ -111,9 +115,7 @@ def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
     """Run a command and return what its whole process tree took."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     begin = time.monotonic()
-    done = subprocess.run(
-        command, input=stdin, cwd=stage.ROOT, capture_output=True, check=False
-    )
+    done = subprocess.run(command, input=stdin, cwd=stage.ROOT, capture_output=True, check=False)
     wall = time.monotonic() - begin
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode not in (0, 1):
@@ -134,7 +136,7 @@ def _shell(ros: Ros, script: str, stdin: bytes = b"") -> Cost:
 
 
 def _tar(submission: Submission) -> bytes:
-    from grader.workspace import as_tar  # noqa: PLC0415
+    from grader.workspace import as_tar
 
     return as_tar(submission, ASSIGNMENT.package)
 
@@ -206,7 +208,7 @@ def starts(ros: Ros, submission: Submission, count: int) -> tuple[list[float], f
         for _ in range(count):
             probe = ProbeLink(sandbox)
             try:
-                run = observe(sandbox, ASSIGNMENT, probe, lambda event: None)  # noqa: ARG005
+                run = observe(sandbox, ASSIGNMENT, probe, lambda event: None)
             finally:
                 probe.close()
             if run.first_line_seconds is None:
@@ -227,7 +229,12 @@ def peak_memory() -> float:
         )
         command = [sys.executable, "-c", code, "grade", str(SOLUTION), "--out", str(Path(out))]
         done = subprocess.run(
-            command, cwd=stage.ROOT, capture_output=True, text=True, check=True, env=dict(os.environ)
+            command,
+            cwd=stage.ROOT,
+            capture_output=True,
+            text=True,
+            check=True,
+            env=dict(os.environ),
         )
     return int(done.stdout.split()[-1]) * 1024 / 1e6
 

@@ -81,7 +81,7 @@ def test_a_variable_of_the_environment_works_as_well(tmp_path: Path) -> None:
 
 
 def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
-    folder = tmp_path / "it's; $(touch HACKED) \"100 %\""
+    folder = tmp_path / 'it\'s; $(touch HACKED) "100 %"'
     package = solution(folder)
     status, out, err = make("grade", f"STUDENT={package}", f"OUT={tmp_path}/out put")
     assert status == 0, err

@@ -138,7 +138,8 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
             name=shown(entry.name),
         )
     for group, others in points.groups.items():
-        if group != "console_scripts" and (others or nearest("console_scripts", [group])):
+        holds_it = any(entry.name == wanted for entry in others)
+        if holds_it or nearest("console_scripts", [group], cutoff=0.75):
             return _other_group(evidence, points, group)
     return _no_entry(evidence, points, setup)
 
@@ -150,8 +151,8 @@ def _other_group(evidence: Evidence, points: EntryPoints, group: str) -> Failed:
         expected=f"'{_wanted(evidence)}' in the group 'console_scripts'",
         actual=f"the group is called '{shown(group)}'",
         where=Where(file=others[0].file if others else "setup.py", line=line),
-        rationale="setuptools makes executables only from the group console_scripts; it takes any "
-        "other name without a word, and ros2 run says: No executable found.",
+        rationale="setuptools makes executables from the group console_scripts; a group that it "
+        "does not know it takes without a word, and ros2 run says: No executable found.",
         fix="Write 'console_scripts', with the s at its end.",
         mistake="setup.group_misspelt",
         params={"group": shown(group)},

@@ -17,6 +17,7 @@ from grader.checks.parsed import node_path
 from grader.checks.parsed import setup_py_of
 from grader.checks.registry import Failed
 from grader.checks.registry import Passed
+from grader.intake.notes import shown
 from grader.report.model import Where
 from grader.source.entry_points import EntryPoints
 from grader.source.entry_points import from_setup_cfg
@@ -63,8 +64,8 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     entry = named[0]
     if "".join(entry.target.split()) != assignment.target:
         raise entry_faults.other_target(evidence, entry)
-    where = f"{entry.file}, line {entry.line}: "
-    return Passed(actual=f"{where}{entry.name} = {entry.target}", advice=_advice(evidence))
+    text = shown(f"{entry.file}, line {entry.line}: {entry.name} = {entry.target}")
+    return Passed(actual=text, advice=_advice(evidence))
 
 
 def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:

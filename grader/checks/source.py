@@ -85,13 +85,24 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     submission, name = evidence.submission, evidence.assignment.node_file
     inner = evidence.assignment.package
     expected = f"a file {path} in the package"
-    elsewhere = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
-    elsewhere = [p for p in elsewhere if file_of(evidence, p)] or list(submission.node_files)
+    if path in submission.links_out:
+        return Failed(
+            expected=expected,
+            actual="it is a link that leads out of the package",
+            where=Where(file=path),
+            rationale="What a link leads to is not handed in with it.",
+            fix="Put the file itself in the link's place.",
+            mistake="source.node_file_is_link",
+        )
+    inside = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
+    inside = [p for p in inside if file_of(evidence, p)]
+    elsewhere = inside or list(submission.node_files)
     if elsewhere:
         return Failed(
             expected=expected,
-            actual=f"it lies in {shown(elsewhere[0])}",
-            where=Where(file=shown(elsewhere[0])),
+            actual=f"it lies in {shown(elsewhere[0])}"
+            + ("" if inside else ", outside of the package"),
+            where=Where(file=shown(inside[0])) if inside else None,
             rationale=WHY_PLACE,
             fix=f"Move it into the inner folder, so that it is {path} in the package.",
             mistake="source.misplaced_node_file",
@@ -113,8 +124,8 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             params={"name": shown(close)},
         )
     folder = submission.file(inner)
-    there = ", ".join(shown(n) for n in beside[:4]) or "no other Python file"
-    actual = f"{inner}/ has {there}" if folder else f"there is no folder {inner} in the package"
+    there = ", ".join(shown(n) for n in beside[:4]) or "no file of yours yet"
+    actual = f"{inner}/ holds {there}" if folder else f"there is no folder {inner} in the package"
     return Failed(
         expected=expected,
         actual=actual,

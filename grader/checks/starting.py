@@ -18,6 +18,8 @@ from grader.checks.registry import check
 if TYPE_CHECKING:
     from grader.evidence import Evidence
 
+SIGNALLED = 240  # ros2 run passes on minus the number of the signal that ended the node, mod 256
+
 
 @check("run.starts", depends=["entry_point.executable"])
 def starts(evidence: Evidence) -> Passed:
@@ -33,6 +35,10 @@ def starts(evidence: Evidence) -> Passed:
         for cause in ("source.node_file", "entry_point.mapping"):
             if evidence.has_failed(cause):
                 raise Blocked(by=cause)
+        if f"Package '{evidence.assignment.package}' not found" in run.transcript:
+            raise Blocked(
+                by="package.manifest" if evidence.has_failed("package.manifest") else "build.colcon"
+            )
         error, where = traceback_of(evidence, run)
         if error:
             raise Failed(
@@ -46,6 +52,8 @@ def starts(evidence: Evidence) -> Passed:
                 mistake="run.died_at_start",
                 params={"error": error.partition(":")[0], "text": error},
             )
+        if run.watch.counted and not run.nodes:
+            raise _no_node(evidence, "lines came, but no node was ever on the graph")
         raise Failed(
             expected="the node runs until Ctrl+C",
             actual=f"it ended by itself at once, with status {run.status}",
@@ -54,10 +62,14 @@ def starts(evidence: Evidence) -> Passed:
             fix="Call rclpy.spin(node) in main, after making the node (not spin_once).",
             mistake="run.exits_at_once",
         )
-    raise Failed(
+    seconds = run.seconds - (run.stop_seconds or 0)
+    raise _no_node(evidence, f"the program runs, but no node was seen within {seconds:.0f} s")
+
+
+def _no_node(evidence: Evidence, actual: str) -> Failed:
+    return Failed(
         expected=f"a node {evidence.assignment.node_name} on the ROS graph",
-        actual="the program runs, but no node of it was seen within "
-        f"{run.seconds - (run.stop_seconds or 0):.0f} s",
+        actual=actual,
         where=node_file(evidence),
         rationale="A node comes into being when its class (a Node) is made, after rclpy.init().",
         fix="See that main makes the node, and that nothing before it waits (input(), a loop).",
@@ -110,6 +122,14 @@ def interrupt(evidence: Evidence) -> Passed:
         if run.status == 254:
             advice = ["try: … except KeyboardInterrupt: around rclpy.spin spares the traceback."]
         return Passed(actual=actual, advice=advice)
+    if run.status is not None and run.status > SIGNALLED:
+        return Passed(
+            actual=actual,
+            advice=[
+                "The program crashed in ROS's own clean-up after Ctrl+C: do not leave a thread "
+                "spinning when main ends."
+            ],
+        )
     if "rcl_shutdown already called" in last:
         return Passed(
             actual=actual,

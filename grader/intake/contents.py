@@ -108,6 +108,7 @@ class _Reader:
         goal = self._tree.entries.get(place) if place is not None else None
         if goal is None or goal.kind != "file":
             self._tree.left_out.add(LEADS_OUT, f"{entry.path} -> {entry.target}")
+            self._tree.links_out.append(path)
             return
         self._tree.left_out.add(COPIED, entry.path)
         yield self._file(path, goal)

@@ -46,7 +46,8 @@ class Submission:
     nothing can be marked: then `problem` says why in a sentence, `problem_fix` what to do, and
     `problem_mistake` is the id of the catalogue. `notes` tell what was left out; `hints` what the
     student should change although it costs nothing; `node_files` where in all that was handed in
-    a file of the node's name lies, relative to `path`.
+    a file of the node's name lies, relative to `path`; `links_out` the package's links, relative
+    to it, that lead out of it and were left out.
     """
 
     path: Path
@@ -63,6 +64,7 @@ class Submission:
     problem_fix: str = ""
     hints: tuple[str, ...] = ()
     node_files: tuple[str, ...] = ()
+    links_out: tuple[str, ...] = ()
 
     @cached_property
     def _by_path(self) -> dict[str, SourceFile]:

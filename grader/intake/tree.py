@@ -50,13 +50,16 @@ class Entry:
 
 @dataclass
 class Tree:
-    """All that was seen; `truncated` are the folders with more names than are looked at."""
+    """All that was seen; `truncated` are the folders with more names than are looked at,
+    `links_out` the package's links (relative to it) that lead out of it.
+    """
 
     root: Path
     entries: dict[str, Entry] = field(default_factory=dict)
     left_out: LeftOut = field(default_factory=LeftOut)
     git: set[str] = field(default_factory=set)
     truncated: set[str] = field(default_factory=set)
+    links_out: list[str] = field(default_factory=list)
 
     def below(self, folder: str) -> dict[str, Entry]:
         """Return the entries below a folder, by their path relative to it, sorted by path."""

@@ -31,6 +31,8 @@ WORDS = {
     "error": "could not be asked",
 }
 UNSEEN = "a hidden check"
+# what a node says when it is stopped tells nothing of these
+BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
 
 
 def row(check: CheckResult) -> Row:
@@ -106,6 +108,8 @@ def evidence_of(check: CheckResult, evidence: Evidence) -> tuple[str, str]:
         return "", ""
     if stage == "build":
         return evidence.build_log, "colcon build printed"
+    if check.id in BEFORE_CTRL_C:
+        return evidence.transcript.partition("\n^C")[0], "ros2 run printed before Ctrl+C"
     return evidence.transcript, "ros2 run printed"
 
 

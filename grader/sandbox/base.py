@@ -13,6 +13,7 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from grader.errors import SurroundingsError
@@ -23,6 +24,7 @@ from grader.ros.prefix import Ros
 
 Role = Literal["student", "probe"]
 HOME = "/home/student"
+END_SECONDS = 2.0  # in which a command that was killed is gone
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 DISCOVERY_PROFILE = """<?xml version="1.0" encoding="UTF-8"?>
@@ -196,8 +198,25 @@ class Sandbox(ABC):
     def end(self, process: subprocess.Popen[bytes]) -> None:
         """End a process that `command` made, and what it started, at once."""
         if process.poll() is None:
+            kill_below(process.pid)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(END_SECONDS)
+        if process.poll() is None:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
+
+
+def kill_below(pid: int) -> None:
+    """Kill the children of a process that `command` made, so that it collects them and ends.
+
+    (Killed together with them it would leave an orphan behind, and a PID namespace does not end
+    before somebody has collected the last of its processes.)
+    """
+    with contextlib.suppress(OSError):
+        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        for child in children:
+            os.kill(int(child), signal.SIGKILL)
+        os.kill(pid, signal.SIGCONT if children else signal.SIGKILL)
 
 
 def _converse(

@@ -13,6 +13,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import select
 import shutil
 import signal
 import subprocess
@@ -38,6 +39,7 @@ SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-release")
 FIRST_UID = 61_000
 UIDS = 4_000
+END_SECONDS = 10.0
 CAUSES = (
     ("setting up uid map", "unprivileged user namespaces are not allowed here"),
     ("No permissions to create", "unprivileged user namespaces are not allowed here"),
@@ -58,6 +60,7 @@ class Bubblewrap(Sandbox):
         self._nsenter = need("nsenter", shutil.which("nsenter"))
         self._holder: subprocess.Popen[bytes] | None = None
         self._held_pid = 0
+        self._held = -1  # a descriptor of that process: readable when it has ended
         self._group = Group()
         uid = FIRST_UID + 2 * (os.getpid() % (UIDS // 2))
         self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
@@ -107,8 +110,9 @@ class Bubblewrap(Sandbox):
             info = stream.read()
         try:
             self._held_pid = int(json.loads(info)["child-pid"])
+            self._held = os.pidfd_open(self._held_pid)
             self._wait_for_mounts(self._holder)
-        except (ValueError, KeyError):
+        except (ValueError, KeyError, ProcessLookupError):
             raise self._refused() from None
         self._group = open_group(self.limits)
 
@@ -152,11 +156,19 @@ class Bubblewrap(Sandbox):
                 with contextlib.suppress(ProcessLookupError, PermissionError):
                     # the end of the first process of a PID namespace is the end of all in it
                     os.kill(self._held_pid, signal.SIGKILL)
-                self._held_pid = 0
             if holder.poll() is None:
                 holder.kill()
             holder.wait()
+            self._wait_for_the_end()
         self._group.close()
+
+    def _wait_for_the_end(self) -> None:
+        """Wait until the namespace's first process is gone: the kernel has ended all others then."""
+        if self._held < 0:
+            return
+        select.select([self._held], [], [], END_SECONDS)
+        os.close(self._held)
+        self._held, self._held_pid = -1, 0
 
     def _passwd(self) -> str:
         uid = self._uids["student"] if self._root else 1000

@@ -35,6 +35,12 @@ from grader.sandbox.cgroups import open_group
 
 PR_SET_CHILD_SUBREAPER = 36
 MARK = "GRADER_RUN"
+# there is no network namespace here: the profile itself keeps the nodes on this machine
+LOOPBACK_PROFILE = DISCOVERY_PROFILE.replace(
+    "<type>UDPv4</type>",
+    "<type>UDPv4</type>\n      "
+    "<interfaceWhiteList><address>127.0.0.1</address></interfaceWhiteList>",
+)
 DOMAINS = range(1, 101)  # safe on Linux by ROS's documentation on ROS_DOMAIN_ID
 FIRST_UID = 65_600
 END_SECONDS = 10.0
@@ -81,7 +87,7 @@ class Bare(Sandbox):
         self._folder.chmod(0o755)
         for place in ("home", "home/ros2_ws", "probe", "tmp"):
             (self._folder / place).mkdir()
-        (self._folder / "fastdds.xml").write_text(DISCOVERY_PROFILE, encoding="utf-8")
+        (self._folder / "fastdds.xml").write_text(LOOPBACK_PROFILE, encoding="utf-8")
         self._group = open_group(self.limits)
 
     def extra_environment(self) -> dict[str, str]:
@@ -89,7 +95,7 @@ class Bare(Sandbox):
             "HOME": str(self.folder / "home"),
             "TMPDIR": str(self.folder / "tmp"),
             "ROS_DOMAIN_ID": str(self._domain),
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",  # what the profile says
             MARK: self._mark,
         }
 

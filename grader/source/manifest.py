@@ -11,8 +11,10 @@ import re
 from dataclasses import dataclass
 from xml.parsers import expat
 
-MOST_BYTES = 200_000
+MOST_BYTES = 50_000
 MOST_LEVELS = 20
+MOST_ELEMENTS = 500
+"""catkin_pkg compares each dependency with every other."""
 REQUIRED = ("name", "version", "description", "maintainer", "license")
 DEPENDS = re.compile(r"(?:\w+_)?depend")
 
@@ -110,6 +112,8 @@ class _Reader:
         line = self.parser.CurrentLineNumber
         if len(self._open) >= MOST_LEVELS:
             raise ManifestError("rules", f"tags nested more than {MOST_LEVELS} deep", line)
+        if len(self.found) >= MOST_ELEMENTS:
+            raise ManifestError("rules", f"more than {MOST_ELEMENTS} tags", line)
         self._open.append((tag, line, attributes, []))
 
     def _text(self, text: str) -> None:
@@ -133,7 +137,8 @@ def _elements(found: bytes) -> tuple[Element, ...]:
         reader.parser.Parse(found, True)
     except expat.ExpatError as error:
         text = expat.ErrorString(error.code) or "not XML"
-        raise ManifestError("xml", text, error.lineno) from None
+        lines = max(1, len(found.splitlines()))  # (the end of the file is a line too many)
+        raise ManifestError("xml", text, min(error.lineno, lines)) from None
     except (ValueError, LookupError) as error:  # an encoding that expat or Python does not know
         raise ManifestError("xml", str(error), 1) from None
     return tuple(reader.found)

@@ -10,7 +10,8 @@ import tokenize
 import warnings
 from dataclasses import dataclass
 
-MOST_BYTES = 500_000
+MOST_BYTES = 100_000
+"""Beyond it a hostile file takes seconds and hundreds of megabytes to parse."""
 ENCODINGS = re.compile(
     r"utf-8(-sig)?|ascii|iso8859-\d+|cp\d+|koi8-[rut]|mac-\w+|gbk|gb2312|gb18030|big5(hkscs)?"
     r"|shift_jis\w*|euc[_-](jp|kr)\w*"

@@ -6,6 +6,7 @@ import ast
 from dataclasses import dataclass
 
 from grader.source.python import PythonFault
+from grader.source.python import PythonFile
 from grader.source.python import parse_python
 from grader.source.values import Computed
 from grader.source.values import Evaluator
@@ -47,6 +48,13 @@ class SetupPy:
 def read_setup_py(found: bytes) -> SetupPy:
     """Read a setup.py; PythonFault if Python cannot."""
     file = parse_python(found)
+    try:
+        return _arguments(file)
+    except RecursionError:
+        raise PythonFault("syntax", "too deeply nested to be read") from None
+
+
+def _arguments(file: PythonFile) -> SetupPy:
     calls = [node for node in ast.walk(file.tree) if _is_setup(node)]
     comments = tuple(
         (number, line.strip().lstrip("# "))

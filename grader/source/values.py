@@ -159,7 +159,8 @@ class Evaluator:
     def _pieces(self, node: ast.Constant) -> tuple[tuple[str, int], ...]:
         """Return the adjacent literals that a text was written as, if it is more than one."""
         width = (node.end_col_offset or 0) - node.col_offset
-        if node.end_lineno == node.lineno and width == len(str(node.value).encode()) + 2:
+        plain = len(str(node.value).encode("utf-8", "surrogatepass"))
+        if node.end_lineno == node.lineno and width == plain + 2:
             return ()  # one literal and its quotes, as most are
         segment = ast.get_source_segment(self._text, node)
         self._steps += 200

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .model import BUILT
 from .model import INSTALLED
 from .model import SETUP
 from .model import Delete
@@ -40,10 +41,14 @@ BUILD = (
            mistake="build.setup_error"),
     _stops("setup_exits", Replace(SETUP, CALL, "\nimport sys\nsys.exit(0)\nsetup(\n"),
            mistake="build.exited"),
-    _stops("setup_never_called", Replace(SETUP, CALL, "\ndict(\n"), mistake="build.exited"),
+    _stops("setup_never_called", Replace(SETUP, CALL, "\ndict(\n"), mistake="build.exited",
+           mapping=False),
+    _stops("setup_prints", Replace(SETUP, CALL, "\nprint('building')\nsetup(\n"),
+           mistake="build.setup_error", note="colcon reads what setup.py prints as its answer"),
     _stops("setup_loops", Replace(SETUP, CALL, "\nwhile True:\n    pass\n\nsetup(\n"),
            mistake="build.timeout"),
-    _stops("setup_missing", Delete(SETUP), mistake="build.failed", mapping=False),
+    broken("setup_missing", Delete(SETUP), failed={"entry_point.mapping": "setup.missing"},
+           skipped=BUILT, score=40),
     _stops("setup_data_file_missing",
            Replace(SETUP, "['package.xml']", "['package.xml', 'launch/hello.launch.py']"),
            mistake="build.failed", note="error: can't copy 'launch/hello.launch.py'"),

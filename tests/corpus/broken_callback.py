@@ -55,8 +55,6 @@ CALLBACK = (
           _node(STEP, "counter_ += 1")),
     _dies("counter_of_other_name", _node(COUNT, "self.counter = 0")),
     _dies("name_error_in_callback", _node(LINE, LINE.replace("str(", "string("))),
-    _dies("spin_once", _node("rclpy.spin(node)", "rclpy.spin_once(node)"),
-          note="in virtual time the message on /clock is the one callback it does"),
     _silent("timer_missing", _node(f"        {TIMER}\n", "")),
     _silent("timer_in_callback", _node(f"        {TIMER}\n", ""),
             _node(LINE, f"{TIMER}\n        {LINE}")),

@@ -25,7 +25,16 @@ import time
 if os.fork() == 0:
     os.setsid()
     if os.fork() == 0:
+        for number in range(3):
+            os.dup2(os.open('/dev/null', os.O_RDWR), number)
         time.sleep(60)
+    os._exit(0)
+"""
+HOLDER = """
+import os
+import time
+if os.fork() == 0:
+    time.sleep(60)
     os._exit(0)
 """
 FORGED = """
@@ -68,13 +77,14 @@ os.killpg(0, signal.SIGKILL)
 """
 SECRETS = """
 import os
+import sys
 for path in ('/etc/shadow', '/root/.ssh/id_rsa', '/work/main/grader/keys/hello_time'):
     try:
-        print(os.listdir(path) if os.path.isdir(path) else open(path).read())
+        print(os.listdir(path) if os.path.isdir(path) else open(path).read(), file=sys.stderr)
     except OSError:
         pass
 for key, value in os.environ.items():
-    print('ENV', key, value)
+    print('ENV', key, value, file=sys.stderr)
 """
 
 
@@ -86,8 +96,10 @@ SETUPS: tuple[Package, ...] = (
     hostile("setup_writes_outside", _setup(OUTSIDE), score=100,
             note=f"leaves {ESCAPED} wherever it may"),
     hostile("setup_reads_secrets", _setup(SECRETS), score=100),
-    hostile("setup_outlives_us", _setup(DAEMON), score=100,
-            note="a child that holds the build's output open for a minute"),
+    hostile("setup_outlives_us", _setup(DAEMON), score=100, note="a daemon that sleeps"),
+    hostile("setup_holds_the_build", _setup(HOLDER), failed={"build.colcon": "build.timeout"},
+            skipped=INSTALLED, score=55,
+            note="a child that holds setup.py's output open, for whose end colcon waits"),
     hostile("setup_forges_a_report", _setup(FORGED), failed={"build.colcon": "build.exited"},
             skipped=INSTALLED, score=55),
     hostile("setup_prints_megabytes", _setup(FLOOD), undecided=BUILT),

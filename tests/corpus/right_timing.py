@@ -74,7 +74,7 @@ THREAD = """\
     thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
     thread.start()
     try:
-        thread.join()
+        threading.Event().wait()
     except KeyboardInterrupt:
         pass
     rclpy.try_shutdown()

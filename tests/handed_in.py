@@ -1,0 +1,44 @@
+"""Small packages on disk, handed in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from grader.submission import Submission
+from grader.submission import take_in
+
+PACKAGE = "my_robot_controller"
+NODE = "my_first_node.py"
+NODE_PATH = f"{PACKAGE}/{NODE}"
+XML = "<package format='3'>\n  <name>{}</name>\n</package>\n"
+
+
+def make(root: Path, name: str = PACKAGE) -> Path:
+    """Make a small package in the folder `root`."""
+    (root / PACKAGE).mkdir(parents=True)
+    (root / "resource").mkdir()
+    (root / "resource" / name).touch()
+    (root / "package.xml").write_text(XML.format(name))
+    (root / "setup.py").write_text(f"from setuptools import setup\nsetup(name='{name}')\n")
+    (root / PACKAGE / "__init__.py").touch()
+    (root / NODE_PATH).write_text("#!/usr/bin/env python3\n")
+    (root / NODE_PATH).chmod(0o755)
+    return root
+
+
+def take(path: Path, name: str | None = None) -> Submission:
+    return take_in(path, package=PACKAGE, node_file=NODE, name=name)
+
+
+def paths(submission: Submission) -> set[str]:
+    return {file.path for file in submission.files}
+
+
+def notes(submission: Submission) -> str:
+    return "\n".join(submission.notes)
+
+
+def write(root: Path, files: list[str]) -> None:
+    for file in files:
+        (root / file).parent.mkdir(parents=True, exist_ok=True)
+        (root / file).write_text("x")

@@ -1,0 +1,147 @@
+"""A right package on disk, to be broken and put before the static checks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+from typing import cast
+
+import pytest
+
+from grader.assignment import Assignment
+from grader.assignment import load_assignment
+from grader.checks.entry_point import mapping_from_source
+from grader.checks.registry import Check
+from grader.checks.registry import Failed
+from grader.checks.registry import Passed
+from grader.submission import Submission
+from grader.submission import take_in
+
+if TYPE_CHECKING:
+    from grader.evidence import Evidence
+
+ROOT = Path(__file__).resolve().parent.parent
+ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
+NAME = "my_robot_controller"
+NODE = f"{NAME}/my_first_node.py"
+MARKER = f"resource/{NAME}"
+ENTRY = "'test_node = my_robot_controller.my_first_node:main',"
+FILES = {
+    "package.xml": """\
+<?xml version="1.0"?>
+<?xml-model href="http://download.ros.org/schema/package_format3.xsd"?>
+<package format="3">
+  <name>my_robot_controller</name>
+  <version>0.0.0</version>
+  <description>TODO: Package description</description>
+  <maintainer email="jane@todo.todo">jane</maintainer>
+  <license>TODO: License declaration</license>
+  <depend>rclpy</depend>
+  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+""",
+    "setup.py": """\
+from setuptools import find_packages, setup
+
+package_name = 'my_robot_controller'
+
+setup(
+    name=package_name,
+    version='0.0.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages',
+            ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    entry_points={
+        'console_scripts': [
+            'test_node = my_robot_controller.my_first_node:main',
+        ],
+    },
+)
+""",
+    "setup.cfg": """\
+[develop]
+script_dir=$base/lib/my_robot_controller
+[install]
+install_scripts=$base/lib/my_robot_controller
+""",
+    MARKER: "",
+    f"{NAME}/__init__.py": "",
+    NODE: "#!/usr/bin/env python3\n\n\ndef main(args=None):\n    pass\n",
+}
+
+
+@dataclass
+class StandIn:
+    """The part of the evidence that the static checks may look at."""
+
+    assignment: Assignment
+    submission: Submission
+
+
+class Bench:
+    """A right package on disk, to be broken and judged."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        self.assignment = ASSIGNMENT
+        for path, text in FILES.items():
+            self.write(path, text)
+        (root / NODE).chmod(0o755)
+
+    def write(self, path: str, content: str | bytes) -> None:
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(content if isinstance(content, bytes) else content.encode())
+
+    def change(self, path: str, old: str, new: str) -> None:
+        text = (self.root / path).read_text()
+        assert text.count(old) == 1, old
+        self.write(path, text.replace(old, new))
+
+    def evidence(self) -> Evidence:
+        submission = take_in(self.root, package=NAME, node_file=self.assignment.node_file)
+        return cast("Evidence", StandIn(self.assignment, submission))
+
+    def passes(self, check: Check) -> Passed:
+        return check.function(self.evidence()) or Passed()
+
+    def fails(self, check: Check) -> Failed:
+        with pytest.raises(Failed) as caught:
+            check.function(self.evidence())
+        return told(caught.value)
+
+    def maps(self) -> Passed | None:
+        return mapping_from_source(self.evidence())
+
+    def misses(self) -> Failed:
+        with pytest.raises(Failed) as caught:
+            mapping_from_source(self.evidence())
+        return told(caught.value)
+
+
+def told(failed: Failed) -> Failed:
+    """Return a failure after a look at what every one must have."""
+    for text in (failed.expected, failed.actual, failed.rationale, failed.fix):
+        assert text.strip()
+        assert text.isprintable()
+    (mistake,) = failed.mistakes
+    stage, _, slug = mistake.id.partition(".")
+    assert stage in ("package", "source", "setup")
+    assert slug == slug.lower()
+    assert slug.isidentifier()
+    return failed
+
+
+def mistake(failed: Failed) -> str:
+    return failed.mistakes[0].id
+
+
+def line(failed: Failed) -> int | None:
+    return failed.where.line if failed.where else None

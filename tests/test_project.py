@@ -1,0 +1,98 @@
+"""The project is itself an ament_python package: colcon builds it and its command works."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import grader
+from tests import stage
+
+
+@pytest.fixture(scope="module")
+def overlay(jazzy_prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A workspace with this project in src, built by colcon under the environment's Python."""
+    workspace = tmp_path_factory.mktemp("ros2_ws")
+    project = workspace / "src" / "ros2_teaching_lab"
+    tracked = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=stage.ROOT, capture_output=True, text=True, check=True
+    )
+    for name in filter(None, tracked.stdout.split("\0")):
+        if (stage.ROOT / name).is_file():
+            (project / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(stage.ROOT / name, project / name)
+    said = bash(jazzy_prefix, workspace, f"'{sys.executable}' -m colcon build 2>&1")
+    assert "Summary: 1 package finished" in said, said
+    return workspace
+
+
+def bash(prefix: Path, workspace: Path, script: str) -> str:
+    done = subprocess.run(
+        ["bash", "-c", f'. "{prefix}/setup.bash"; cd "{workspace}"; {script}'],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.stdout + done.stderr
+
+
+def test_its_command_runs_under_the_python_that_colcon_ran_with(
+    overlay: Path, jazzy_prefix: Path
+) -> None:
+    script = overlay / "install/ros2_teaching_lab/lib/ros2_teaching_lab/grader"
+    assert script.read_text().splitlines()[0] == f"#!{sys.executable}"
+    said = bash(
+        jazzy_prefix, overlay, ". install/local_setup.bash; ros2 run ros2_teaching_lab grader -V"
+    )
+    assert grader.__version__ in said
+
+
+def test_what_it_needs_at_run_time_is_installed_with_it(overlay: Path, jazzy_prefix: Path) -> None:
+    """The installed copy, not this checkout, marks the solution: data files and all."""
+    share = overlay / "install/ros2_teaching_lab/share/ros2_teaching_lab"
+    assert (share / "course/hello_time/assignment.yaml").is_file()
+    solution = stage.ROOT / "grader/keys/hello_time/solution/my_robot_controller"
+    said = bash(
+        jazzy_prefix,
+        overlay,
+        f". install/local_setup.bash; ros2 run ros2_teaching_lab grader grade '{solution}' "
+        "--out out; echo status $?",
+    )
+    assert "status 0" in said, said
+    assert "100 / 100" in said
+
+
+def test_the_keys_are_not_among_what_a_student_gets() -> None:
+    names = [p.relative_to(stage.ROOT / "lab") for p in (stage.ROOT / "lab").rglob("*")]
+    assert not [name for name in names if "solution" in name.parts or "hidden.yaml" in name.parts]
+
+
+def test_the_readme_names_only_targets_that_exist() -> None:
+    makefile = (stage.ROOT / "Makefile").read_text()
+    targets = set(re.findall(r"^([a-z-]+):", makefile, re.MULTILINE))
+    named = set(re.findall(r"`?make ([a-z-]+)", (stage.ROOT / "README.md").read_text()))
+    assert named - {"turns"} <= targets
+
+
+def test_the_readme_links_to_files_that_exist() -> None:
+    links = re.findall(r"\]\(([^)#]+)\)", (stage.ROOT / "README.md").read_text())
+    assert links
+    for link in links:
+        assert (stage.ROOT / link).exists(), link
+
+
+def test_the_versions_agree() -> None:
+    manifest = (stage.ROOT / "package.xml").read_text()
+    setup = (stage.ROOT / "setup.py").read_text()
+    assert f"<version>{grader.__version__}</version>" in manifest
+    assert f'version="{grader.__version__}"' in setup
+
+
+def test_grader_never_imports_lab() -> None:
+    for source in (stage.ROOT / "grader").rglob("*.py"):
+        assert not re.search(r"^\s*(from|import) lab\b", source.read_text(), re.MULTILINE), source

@@ -1,0 +1,244 @@
+"""The static checks of the package: each way to be wrong, and what it is told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.checks import package
+from grader.checks import source
+
+from .static_bench import ASSIGNMENT
+from .static_bench import FILES
+from .static_bench import MARKER
+from .static_bench import NAME
+from .static_bench import Bench
+from .static_bench import line
+from .static_bench import mistake
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "jane")
+
+
+STATIC = (
+    package.found,
+    package.manifest,
+    package.marker,
+    package.setup_cfg,
+    source.node_file,
+    source.exec_bit,
+    source.shebang,
+)
+
+
+def test_a_right_package_passes_without_advice(bench: Bench) -> None:
+    for check in STATIC:
+        assert not bench.passes(check).advice, check.id
+    passed = bench.maps()
+    assert passed is not None
+    assert not passed.advice
+
+
+def test_the_checks_have_the_ids_and_the_dependency_of_the_design() -> None:
+    assert [check.id for check in STATIC] == [use.id for use in ASSIGNMENT.checks][:7]
+    assert not package.found.depends
+    assert all(check.depends == ("package.found",) for check in STATIC[1:])
+    assert all(check.title and not check.title.endswith(".") for check in STATIC)
+
+
+# package.found
+
+
+def test_where_there_is_no_package_the_problem_is_told(tmp_path: Path) -> None:
+    bench = Bench(tmp_path / "jane")
+    for path in FILES:
+        (bench.root / path).unlink()
+    assert mistake(bench.fails(package.found)) == "package.empty"
+
+
+def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
+    bench.write("old/package.xml", "<package><name>old</name></package>")
+    assert "side by side" in bench.passes(package.found).advice[0]
+
+
+# package.manifest
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "wanted", "at", "words"),
+    [
+        ("</description>", "</decription>", "broken_xml", 6, "mismatched tag"),
+        ("</package>", "", "broken_xml", 13, "XML"),
+        ("jane</m", "Jane & co</m", "broken_xml", 7, "XML"),
+        (f"<name>{NAME}", "<name>my_robot", "name_mismatch", 4, "my_robot"),
+        ("  <version>0.0.0</version>\n", "", "manifest_tag", None, "<version> is missing"),
+        ("0.0.0", "", "manifest_tag", 5, "<version> is empty"),
+        ("0.0.0", "one", "manifest_rules", None, "version"),
+        ('email="jane@todo.todo"', "", "manifest_rules", 7, "email"),
+        ("<depend>rclpy</depend>", "<dependd>x</dependd>", "manifest_rules", 9, "dependd"),
+        ('format="3"', 'format="9"', "manifest_rules", None, "format"),
+        (">ament_python<", ">ament_cmake<", "build_type", 11, "ament_cmake"),
+        (">ament_python<", ">ament_pyton<", "build_type", 11, "ament_pyton"),
+        ("<build_type>ament_python</build_type>", "", "build_type", 10, "no <build_type>"),
+        ("  <export>", "  <build_type>x</build_type><export>", "build_type", 10, "outside"),
+        ("<package format", "<pakage format", "broken_xml", 13, "mismatched"),
+        ("<?xml-model", "<!DOCTYPE package>\n<?xml-model", "manifest_doctype", 2, "document type"),
+    ],
+)
+def test_a_wrong_manifest_is_told_with_its_line(
+    bench: Bench, old: str, new: str, wanted: str, at: int | None, words: str
+) -> None:
+    bench.change("package.xml", old, new)
+    failed = bench.fails(package.manifest)
+    assert mistake(failed) == f"package.{wanted}"
+    assert words in failed.actual
+    assert failed.where is not None
+    assert failed.where.file == "package.xml"
+    if at is not None:
+        assert line(failed) == at
+
+
+def test_a_manifest_that_is_missing_or_empty_or_no_text_is_told(bench: Bench) -> None:
+    for content, wanted in [
+        (b"", "package.broken_xml"),
+        (b"PK\x03\x04\0\0", "package.broken_xml"),
+        (b"<a/>", "package.manifest_rules"),
+        (b"<package>" + b"<a>" * 5_000, "package.manifest_rules"),
+        (b"<package>" + b" " * 300_000, "package.manifest_rules"),
+        (b"<?xml version='1.0' encoding='nonsense'?><package/>", "package.broken_xml"),
+    ]:
+        bench.write("package.xml", content)
+        assert mistake(bench.fails(package.manifest)) == wanted
+    (bench.root / "package.xml").rename(bench.root / "package.xlm")
+    failed = bench.fails(package.manifest)
+    assert mistake(failed) == "package.no_manifest"
+    assert "package.xlm" in failed.fix
+
+
+def test_entities_are_refused_before_they_are_expanded(bench: Bench) -> None:
+    bomb = '<!DOCTYPE package [<!ENTITY a "' + "x" * 1000 + '">'
+    bomb += "".join(f'<!ENTITY b{n} "{"&a;" * 100}">' for n in range(100)) + "]>"
+    outside = '<!DOCTYPE package [<!ENTITY a SYSTEM "file:///etc/passwd">]>'
+    for declaration in (bomb, outside):
+        bench.write("package.xml", declaration + f"<package><name>{NAME}&a;</name></package>")
+        failed = bench.fails(package.manifest)
+        assert mistake(failed) == "package.manifest_doctype"
+        assert "root:" not in failed.actual
+
+
+def test_setup_pys_name_must_be_the_manifests(bench: Bench) -> None:
+    bench.change("setup.py", "package_name = 'my_robot_controller'", "package_name = 'robot'")
+    failed = bench.fails(package.manifest)
+    assert (mistake(failed), line(failed)) == ("package.name_mismatch", 3)
+    assert failed.mistakes[0].params == {"name": "robot", "file": "setup.py"}
+
+
+def test_a_setup_py_that_cannot_be_parsed_leaves_the_manifest_alone(bench: Bench) -> None:
+    bench.change("setup.py", "setup(\n", "setup((\n")
+    bench.passes(package.manifest)
+    bench.passes(package.marker)
+    assert bench.maps() is None
+
+
+def test_dependencies_are_advice_only(bench: Bench) -> None:
+    bench.change("package.xml", "  <depend>rclpy</depend>\n", "  <depend>std_msg</depend>\n")
+    first, second = bench.passes(package.manifest).advice
+    assert "<depend>rclpy</depend>" in first
+    assert "did you mean 'std_msgs'?" in second
+    bench.change("package.xml", "std_msg<", "random<")
+    assert "part of Python" in bench.passes(package.manifest).advice[1]
+
+
+# package.marker
+
+
+def test_a_missing_marker_is_told(bench: Bench) -> None:
+    (bench.root / MARKER).rename(bench.root / "resource/my_robot_controler")
+    failed = bench.fails(package.marker)
+    assert mistake(failed) == "package.marker_missing"
+    assert "Rename resource/my_robot_controler" in failed.fix
+    (bench.root / "resource/my_robot_controler").unlink()
+    assert "touch" in bench.fails(package.marker).fix
+    (bench.root / MARKER).mkdir()
+    assert "is a folder" in bench.fails(package.marker).actual
+
+
+def test_a_marker_that_setup_py_does_not_install_is_told(bench: Bench) -> None:
+    bench.change("setup.py", "            ['resource/' + package_name]),", "            []),")
+    failed = bench.fails(package.marker)
+    assert (mistake(failed), line(failed)) == ("package.marker_not_installed", 9)
+
+
+def test_a_marker_of_another_name_is_told(bench: Bench) -> None:
+    bench.change("setup.py", "'resource/' + package_name", "'resource/robot'")
+    failed = bench.fails(package.marker)
+    assert (mistake(failed), line(failed)) == ("package.marker_missing", 11)
+    bench.write("resource/robot", "")
+    assert mistake(bench.fails(package.marker)) == "package.marker_not_installed"
+
+
+def test_what_setup_py_computes_is_not_held_against_the_marker(bench: Bench) -> None:
+    bench.change("setup.py", "        ('share/ament_index", "    ] + more() + [\n        ('share/x")
+    bench.passes(package.marker)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "f'resource/{package_name}'",
+        "'resource/%s' % package_name",
+        "'resource/{}'.format(package_name)",
+        "os.path.join('resource', package_name)",
+        "'resource/my_robot_' 'controller'",
+    ],
+)
+def test_the_marker_may_be_written_in_any_plain_way(bench: Bench, written: str) -> None:
+    bench.change("setup.py", "'resource/' + package_name", written)
+    assert "installed in" in bench.passes(package.marker).actual
+
+
+# package.setup_cfg
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "wanted", "at", "words"),
+    [
+        ("[develop]", "[devlop]", "wrong", None, "did you mean 'devlop'"),
+        ("[install]\ninstall_scripts=$base/lib/my_robot_controller\n", "", "wrong", None, "[ins"),
+        ("script_dir=", "script_dirs=", "wrong", 1, "did you mean 'script_dirs'"),
+        ("install_scripts=$base/lib/my", "install_scripts=$base/lib/your", "wrong", 4, "your"),
+        ("install_scripts=$base/lib", "install_scripts=base/lib", "wrong", 4, "base/lib"),
+        ("[develop]", "develop", "syntax", 1, "before the first"),
+        ("[develop]", "[develop", "syntax", 1, "before the first"),
+        ("[install]", "[develop]", "syntax", 3, "twice"),
+        ("[install]", "[install]\ninstall_scripts\n", "syntax", 4, "neither"),
+        ("[develop]", "\ufeff[develop]", "syntax", 1, "byte order mark"),
+    ],
+)
+def test_a_wrong_setup_cfg_is_told_with_its_line(
+    bench: Bench, old: str, new: str, wanted: str, at: int | None, words: str
+) -> None:
+    bench.change("setup.cfg", old, new)
+    failed = bench.fails(package.setup_cfg)
+    assert mistake(failed) == f"package.setup_cfg_{wanted}"
+    assert words in failed.actual
+    if at is not None:
+        assert line(failed) == at
+
+
+def test_a_missing_setup_cfg_is_told(bench: Bench) -> None:
+    (bench.root / "setup.cfg").unlink()
+    assert mistake(bench.fails(package.setup_cfg)) == "package.setup_cfg_missing"
+    bench.write("setup.cfg", b"\xff\xfe")
+    assert mistake(bench.fails(package.setup_cfg)) == "package.setup_cfg_syntax"
+
+
+def test_dashes_in_setup_cfg_pass_with_advice_and_spaces_and_crlf_without(bench: Bench) -> None:
+    text = FILES["setup.cfg"]
+    bench.write("setup.cfg", text.replace("t_d", "t-d").replace("l_s", "l-s"))
+    assert len(bench.passes(package.setup_cfg).advice) == 2
+    bench.write("setup.cfg", text.replace("=", " = ").replace("\n", "\r\n"))
+    assert not bench.passes(package.setup_cfg).advice

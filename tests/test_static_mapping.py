@@ -1,0 +1,205 @@
+"""The entry point as it is written: each way to be wrong, and what it is told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.checks import package
+
+from .static_bench import ENTRY
+from .static_bench import FILES
+from .static_bench import NAME
+from .static_bench import NODE
+from .static_bench import Bench
+from .static_bench import line
+from .static_bench import mistake
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "jane")
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "'test_node=my_robot_controller.my_first_node:main',",
+        "'test_node  =  my_robot_controller.my_first_node : main'",
+        '"test_node = my_robot_controller.my_first_node:main",',
+        "'test_node = ' 'my_robot_controller.my_first_node:main',",
+        "'test_node = ' + package_name + '.my_first_node:main',",
+        "f'test_node = {package_name}.my_first_node:main',",
+        "'other = my_robot_controller.gone:main',\n" + ENTRY,
+    ],
+)
+def test_the_entry_may_be_written_in_any_plain_way(bench: Bench, entry: str) -> None:
+    bench.change("setup.py", ENTRY, entry)
+    passed = bench.maps()
+    assert passed is not None
+    assert "my_first_node" in passed.actual
+
+
+def test_the_entry_may_be_in_a_text_or_in_setup_cfg(bench: Bench) -> None:
+    start = FILES["setup.py"].index("    entry_points={")
+    head = FILES["setup.py"][:start]
+    bench.write(
+        "setup.py", head + '    entry_points="""\n[console_scripts]\n' + ENTRY[1:-2] + '\n""",\n)\n'
+    )
+    passed = bench.maps()
+    assert passed is not None
+    assert "line 17" in passed.actual
+    bench.write("setup.py", head + ")\n")
+    assert mistake(bench.misses()) == "setup.no_entry"
+    bench.write(
+        "setup.cfg",
+        FILES["setup.cfg"] + "[options.entry_points]\nconsole_scripts =\n  # mine\n"
+        "  test_node = my_robot_controller.my_first_node:main\n",
+    )
+    passed = bench.maps()
+    assert passed is not None
+    assert "setup.cfg, line 8" in passed.actual
+
+
+@pytest.mark.parametrize(
+    ("entry", "wanted", "words"),
+    [
+        ("", "no_entry", "has no entry"),
+        ("'other = my_robot_controller.other:main',", "no_entry", "only: other"),
+        ("# " + ENTRY, "no_entry", "commented out"),
+        (ENTRY[:-1] + "\n'b = my_robot_controller.b:main',", "missing_comma", "no comma"),
+        ("'test_node : my_robot_controller.my_first_node:main',", "colon_for_equals", "':'"),
+        ("'test_node my_robot_controller.my_first_node:main',", "no_equals", "'='"),
+        ("'my_robot_controller.my_first_node:main',", "no_equals", "'='"),
+        ("'= my_robot_controller.my_first_node:main',", "no_name", "no name"),
+        ("'test_node = ',", "no_target", "nothing after"),
+        ("'test_node == my_robot_controller.my_first_node:main',", "two_equals", "more than one"),
+        ("'test_node = my_robot_controller/my_first_node:main',", "slash_in_target", "dots"),
+        ("'test_node = my-robot-controller.my_first_node:main',", "dash_in_target", "dash"),
+        ("'test_node = my_robot_controller.my_first_node:main()',", "brackets", "()"),
+        ("'test_node = my_robot_controller:my_first_node:main',", "two_colons", "':'"),
+        ("'test_node = my robot.my_first_node:main',", "space_in_target", "space"),
+        ("'test_node = my_robot_controller.my_first_node;main',", "bad_entry", "form"),
+        ("'test_node = my_robot_controller.my_first_node.py:main',", "py_in_target", ".py"),
+        ("'test_node = my_robot_controller.my_first_node',", "no_function", ":main"),
+        ("'test_node = my_robot_controller.my_first_node.main',", "dot_for_colon", "':'"),
+        ("'test_node = my_robot_controller.my_first_node:mian',", "other_function", "mean 'main'"),
+        ("'test_node = my_robot_controller.my_first_node:MyNode',", "other_function", "MyNode"),
+        ("'test_node = my_robot_controller.my_frist_node:main',", "misspelt_module", "did you"),
+        ("'test_node = my_robot_controller.my_first_Node:main',", "misspelt_module", "did you"),
+        ("'test_node = my_robot_controller.second:main',", "other_module", "second"),
+        ("'test_node = my_first_node:main',", "no_package_prefix", "my_robot_controller"),
+        ("'test_node = my_robot.my_first_node:main',", "other_package", "my_robot"),
+        ("'my_first_node = my_robot_controller.my_first_node:main',", "other_executable", "called"),
+        ("'test_nod = my_robot_controller.other:main',", "other_executable", "test_nod"),
+        ("'test-node = my_robot_controller.my_first_node:main',", "other_executable", "test-node"),
+        ("'Test_node = my_robot_controller.my_first_node:main',", "other_executable", "Test_node"),
+        ("'test node = my_robot_controller.my_first_node:main',", "space_in_name", "space"),
+        (ENTRY + ENTRY, "duplicate_entry", "2 times"),
+    ],
+)
+def test_each_way_to_miss_the_entry_is_told_apart(
+    bench: Bench, entry: str, wanted: str, words: str
+) -> None:
+    bench.write(f"{NAME}/second.py", "def main(): pass\n")
+    bench.change("setup.py", ENTRY, entry)
+    failed = bench.misses()
+    assert mistake(failed) == f"setup.{wanted}"
+    assert words in failed.actual
+    assert failed.where is not None
+    assert failed.where.file == "setup.py"
+    assert line(failed) in ((16, 17) if wanted == "no_entry" else (17,))
+
+
+def test_a_missing_comma_is_told_at_its_line_wherever_it_is(bench: Bench) -> None:
+    entries = [f"'n{n} = my_robot_controller.n{n}:main'" for n in range(4)]
+    bench.change("setup.py", ENTRY, ENTRY + "\n" + ",\n".join(entries[:2]) + "\n" + entries[2])
+    failed = bench.misses()
+    assert (mistake(failed), line(failed)) == ("setup.missing_comma", 19)
+    assert entries[1] in failed.fix
+
+
+@pytest.mark.parametrize("group", ["console_script", "consol_scripts", "consolescripts", "scripts"])
+def test_a_misspelt_group_is_told(bench: Bench, group: str) -> None:
+    bench.change("setup.py", "'console_scripts'", f"'{group}'")
+    failed = bench.misses()
+    assert (mistake(failed), line(failed)) == ("setup.group_misspelt", 16)
+    assert group in failed.actual
+
+
+def test_a_missing_setup_py_is_told(bench: Bench) -> None:
+    (bench.root / "setup.py").unlink()
+    assert mistake(bench.misses()) == "setup.missing"
+    bench.passes(package.manifest)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (f"[\n            {ENTRY}\n        ]", "entries()"),
+        (ENTRY, "*entries(),"),
+        (ENTRY, "NAME + ' = my_robot_controller.my_first_node:main',"),
+        ("setup(\n    name", "if True:\n  setup(\n    name"),
+        ("setup(\n    name", "def setup(**k): pass\nsetup(\n    name"),
+        ("setup(\n    name", "setup(name='a')\nsetup(\n    name"),
+        ("setup(\n    name", "setup(\n    **settings,\n    nam"),
+        ("package_name = 'my_robot_controller'\n", "a = a = b = [b]\nsetup()\n"),
+    ],
+)
+def test_what_only_running_setup_py_would_tell_is_not_judged(
+    bench: Bench, old: str, new: str
+) -> None:
+    bench.change("setup.py", old, new)
+    if "settings" in new:  # the entry points come from there then
+        bench.change("setup.py", "entry_points=", "nothing=")
+    assert bench.maps() is None
+
+
+def test_a_changed_variable_is_not_trusted(bench: Bench) -> None:
+    bench.change("setup.py", f"[\n            {ENTRY}\n        ]", "scripts")
+    bench.change("setup.py", "\nsetup(", f"\nscripts = [{ENTRY}]\nsetup(")
+    assert bench.maps() is not None
+    bench.change("setup.py", "\nsetup(", "\nscripts.append('x = y:z')\nsetup(")
+    assert bench.maps() is None
+
+
+def test_hostile_expressions_take_bounded_time(bench: Bench) -> None:
+    doubling = "a0 = 'x' * 100\n" + "".join(f"a{n} = a{n - 1} + a{n - 1}\n" for n in range(1, 60))
+    lists = "b0 = ['x']\n" + "".join(f"b{n} = b{n - 1} + b{n - 1}\n" for n in range(1, 60))
+    bench.change("setup.py", "\nsetup(", f"\n{doubling}{lists}\nsetup(")
+    bench.change("setup.py", f"[\n            {ENTRY}\n        ]", "b59")
+    assert bench.maps() is None
+    bench.change("setup.py", "name=package_name", "name=a59")
+    bench.passes(package.manifest)
+
+
+@pytest.mark.parametrize(
+    "deep",
+    [
+        "name='a'" + " + 'a'" * 20_000,
+        "name=a" + ".a" * 20_000,
+        "name=a" + ".a" * 20_000 + ".format('a')",
+        "name=" + "[" * 90 + "]" * 90,
+    ],
+)
+def test_deep_expressions_are_not_judged(bench: Bench, deep: str) -> None:
+    bench.change("setup.py", "name=package_name", deep)
+    bench.passes(package.manifest)
+    bench.maps()
+
+
+def test_a_node_without_the_function_is_advice(bench: Bench) -> None:
+    bench.change(NODE, "def main(", "def mein(")
+    passed = bench.maps()
+    assert passed is not None
+    assert "did you mean 'mein'?" in passed.advice[0]
+
+
+def test_what_the_student_wrote_is_shown_harmlessly(bench: Bench) -> None:
+    bench.change("setup.py", ENTRY, "'test_node = \\ud800\\x1b[2J\\u202e.a:b',")
+    assert "\\ud800" in bench.misses().actual
+    bench.change(
+        "setup.py", "package_name = 'my_robot_controller'", "package_name = '\\x07\\udcff'"
+    )
+    assert "\\x07" in bench.fails(package.manifest).actual

@@ -1,0 +1,218 @@
+"""The static checks of the node's file: each way to be wrong, and what it is told."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from grader.checks import source
+from grader.checks.registry import Blocked
+
+from .static_bench import ASSIGNMENT
+from .static_bench import NAME
+from .static_bench import NODE
+from .static_bench import Bench
+from .static_bench import line
+from .static_bench import mistake
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "jane")
+
+
+@pytest.mark.parametrize(
+    ("code", "at", "kind"),
+    [
+        (b"def main()\n    pass\n", 1, "syntax"),
+        (b"print('a'\n", 1, "syntax"),
+        (b"if 1:\nprint()\n", 2, "indentation"),
+        (b"if 1:\n        a = 1\n\tb = 1\n", 3, "tabs"),
+        (b"print 'a'\n", 1, "syntax"),
+        (b"return 1\n", 1, "syntax"),
+        (b"a = 1\nb = '\xfc'\n", 2, "encoding"),
+        (b"# coding: latin-2000\n", 1, "encoding"),
+        (b"# coding: punycode\n", 1, "encoding"),
+        ("a = 1\n".encode("utf-16"), 1, "encoding"),
+        (b"a = 1\nb\0\n", 2, "null"),
+        (b"a = 1\r\nb = (\r\n", 2, "syntax"),
+        (b"(" * 90_000, None, "syntax"),
+        (b"-" * 90_000 + b"1", None, "syntax"),
+        (b"a" + b".a" * 45_000, None, "syntax"),
+        (b"a = 1\n" * 20_000, None, "size"),
+    ],
+)
+def test_a_node_that_python_cannot_read_is_told_with_its_line(
+    bench: Bench, code: bytes, at: int | None, kind: str
+) -> None:
+    bench.write(NODE, code)
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source." + ("not_utf8" if kind == "encoding" else "syntax_error")
+    assert failed.mistakes[0].params["kind"] == kind
+    if at is not None:
+        assert line(failed) == at
+    bench.passes(source.exec_bit)
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        b"\xef\xbb\xbfa = 1\n",
+        b"# -*- coding: latin-1 -*-\na = '\xfc'\n",
+        b"a = 1\r\nif a:\r\n    b = 2\r\n",
+        b"a = '\\d'\n",
+        b"\x0ca = 1",
+    ],
+)
+def test_what_python_reads_is_right_however_it_is_encoded(bench: Bench, code: bytes) -> None:
+    bench.write(NODE, code)
+    bench.passes(source.node_file)
+
+
+def test_an_empty_node_is_told_to_be_saved(bench: Bench) -> None:
+    bench.write(NODE, " \n")
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.empty_node_file"
+    assert "Ctrl+S" in failed.fix
+
+
+@pytest.mark.parametrize(
+    ("to", "wanted"),
+    [
+        ("my_first_node.py", "misplaced_node_file"),
+        ("scripts/my_first_node.py", "misplaced_node_file"),
+        ("my_robot_controler/my_first_node.py", "misplaced_node_file"),
+        (f"{NAME}/my_frist_node.py", "misnamed_node_file"),
+        (f"{NAME}/My_First_Node.py", "misnamed_node_file"),
+        (f"{NAME}/my_first_node", "misnamed_node_file"),
+        (f"{NAME}/my_first_node.py.txt", "misnamed_node_file"),
+        (f"{NAME}/talker.py", "no_node_file"),
+    ],
+)
+def test_a_node_in_the_wrong_place_is_named(bench: Bench, to: str, wanted: str) -> None:
+    (bench.root / to).parent.mkdir(exist_ok=True)
+    (bench.root / NODE).rename(bench.root / to)
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == f"source.{wanted}"
+    assert to.rpartition("/")[2] in failed.actual
+    for check in (source.exec_bit, source.shebang):
+        with pytest.raises(Blocked) as caught:
+            check.function(bench.evidence())
+        assert caught.value.by == "source.node_file"
+
+
+def test_a_node_outside_the_package_is_found(tmp_path: Path) -> None:
+    bench = Bench(tmp_path / "ws/src" / NAME)
+    (bench.root / NODE).rename(tmp_path / "ws/src/my_first_node.py")
+    bench.root = tmp_path / "ws"
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.misplaced_node_file"
+    assert "src/my_first_node.py, outside" in failed.actual
+
+
+def test_a_node_that_is_a_link_is_followed_inside_and_told_outside(bench: Bench) -> None:
+    (bench.root / NODE).rename(bench.root / "my_first_node.py")
+    (bench.root / NODE).symlink_to("../my_first_node.py")
+    for check in (source.node_file, source.exec_bit, source.shebang):
+        bench.passes(check)
+    (bench.root / NODE).unlink()
+    (bench.root / NODE).symlink_to("/etc/hostname")
+    assert mistake(bench.fails(source.node_file)) == "source.node_file_is_link"
+
+
+def test_a_folder_or_a_fifo_of_the_nodes_name_is_no_node(bench: Bench) -> None:
+    (bench.root / NODE).unlink()
+    os.mkfifo(bench.root / NODE)
+    assert mistake(bench.fails(source.node_file)) == "source.no_node_file"
+    (bench.root / NODE).unlink()
+    (bench.root / NODE).mkdir()
+    assert mistake(bench.fails(source.node_file)) == "source.no_node_file"
+
+
+def test_a_node_that_is_too_large_to_be_taken_in_is_told_so(bench: Bench) -> None:
+    bench.write(NODE, b"#" * 6_000_000)
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.unreadable_node_file"
+    assert "larger than 5 MB" in failed.actual
+    with pytest.raises(Blocked):
+        source.shebang.function(bench.evidence())
+
+
+def test_a_lost_init_file_is_advice(bench: Bench) -> None:
+    (bench.root / NAME / "__init__.py").unlink()
+    assert "__init__.py" in bench.passes(source.node_file).advice[0]
+
+
+# source.exec_bit
+
+
+def test_a_node_without_exec_bit_is_told_the_truth_about_it(bench: Bench) -> None:
+    (bench.root / NODE).chmod(0o644)
+    failed = bench.fails(source.exec_bit)
+    assert mistake(failed) == "source.not_executable"
+    assert "0644" in failed.actual
+    assert "ros2 run does not need it" in failed.rationale
+    assert failed.fix == f"chmod +x {NODE}"
+    (bench.root / NODE).chmod(0o655)
+    bench.fails(source.exec_bit)
+    (bench.root / NODE).chmod(0o700)
+    bench.passes(source.exec_bit)
+
+
+def test_exec_bits_that_nobody_recorded_cost_what_the_assignment_says(bench: Bench) -> None:
+    (bench.root / NODE).chmod(0o644)
+    (bench.root / ".git").mkdir()
+    (bench.root / ".git/config").write_text("[core]\n\tfilemode = false\n")
+    assert bench.passes(source.exec_bit).advice
+    bench.assignment = ASSIGNMENT.model_copy(update={"modes": "require"})
+    assert mistake(bench.fails(source.exec_bit)) == "source.exec_bit_unknown"
+
+
+# source.shebang
+
+
+@pytest.mark.parametrize(
+    ("start", "wanted"),
+    [
+        ("", "no_shebang"),
+        ("# my node\n#!/usr/bin/env python3\n", "shebang_not_first"),
+        ("\n#!/usr/bin/env python3\n", "shebang_not_first"),
+        ("#!/usr/bin/env python3\r\n", "crlf"),
+        ("\ufeff#!/usr/bin/env python3\n", "byte_order_mark"),
+        ("#!/usr/bin/env python\n", "wrong_shebang"),
+        ("#!/usr/bin/python2\n", "wrong_shebang"),
+        ("#!/bin/bash\n", "wrong_shebang"),
+        ("#!usr/bin/env python3\n", "wrong_shebang"),
+        ("#/usr/bin/env python3\n", "wrong_shebang"),
+        ("# !/usr/bin/env python3\n", "wrong_shebang"),
+        (" #!/usr/bin/env python3\n", "wrong_shebang"),
+        ("#!/usr/bin/env python3 -u\n", "wrong_shebang"),
+        ("#!/home/jane/miniconda3/bin/python3\n", "wrong_shebang"),
+    ],
+)
+def test_a_first_line_that_does_not_name_python_is_told(
+    bench: Bench, start: str, wanted: str
+) -> None:
+    bench.write(NODE, start + "def main():\n    pass\n")
+    failed = bench.fails(source.shebang)
+    assert mistake(failed) == f"source.{wanted}"
+    assert failed.where is not None
+    assert failed.where.file == NODE
+
+
+@pytest.mark.parametrize(
+    "start",
+    [
+        "#!/usr/bin/python3",
+        "#!/usr/bin/env -S python3 -u",
+        "#! /usr/bin/env python3",
+        "#!/usr/bin/env python3.12",
+        "#!/usr/bin/python3 -u",
+        "#!/bin/python3",
+    ],
+)
+def test_any_shebang_of_python_3_will_do(bench: Bench, start: str) -> None:
+    bench.write(NODE, start + "\nx = (\n")
+    bench.passes(source.shebang)
