@@ -244,6 +244,14 @@ def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
     return file, hidden if hidden.is_file() else None
 
 
+def _hidden(count: int) -> str:
+    if count == 0:
+        return "There are no hidden checks: your instructor's side asks the same."
+    return (
+        f"{count} hidden check{'s' if count > 1 else ''} will be asked on your instructor's side."
+    )
+
+
 def _course(here: Path) -> Path:
     """Return the course folder: $GRADER_COURSE, this checkout's, or the installed package's."""
     own = os.environ.get(COURSE)
@@ -276,6 +284,8 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
             )
         if report.environment.sandbox == "none":
             click.echo("No sandbox was used: the package ran as you, with your files.", err=True)
+    if not show_hidden:
+        click.echo(_hidden(orders[0].assignment.hidden_checks))
     if len(orders) > 1:
         if out is not None:
             matrix = files.write_matrix(reports, out, reports[0].submission.name)

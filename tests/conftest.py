@@ -18,22 +18,22 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 @pytest.fixture(scope="session")
-def jazzy() -> Ros:
+def ros_jazzy() -> Ros:
     """ROS jazzy from PyPI's wheels (made once; several test processes at once make one)."""
     return find_ros(find_distro("jazzy"))
 
 
 @pytest.fixture(scope="session")
-def kilted() -> Ros:
+def ros_kilted() -> Ros:
     return find_ros(find_distro("kilted"))
 
 
 @pytest.fixture(scope="session")
-def jazzy_prefix(jazzy: Ros) -> Path:
-    return jazzy.path
+def jazzy_prefix(ros_jazzy: Ros) -> Path:
+    return ros_jazzy.path
 
 
 @pytest.fixture
-def sandbox(jazzy: Ros) -> Iterator[Sandbox]:
-    with Bubblewrap(jazzy, Limits()) as opened:
+def sandbox(ros_jazzy: Ros) -> Iterator[Sandbox]:
+    with Bubblewrap(ros_jazzy, Limits()) as opened:
         yield opened

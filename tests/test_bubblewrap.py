@@ -122,8 +122,7 @@ def terminal(sandbox: Sandbox, script: str, *, most: int = 100_000) -> Terminal:
 def test_ctrl_c_reaches_the_command_and_its_last_words_are_seen(sandbox: Sandbox) -> None:
     code = (
         "import sys, time\n"
-        "print('up', flush=True)\n"
-        "try:\n    time.sleep(60)\n"
+        "try:\n    print('up', flush=True); time.sleep(60)\n"
         "except KeyboardInterrupt:\n    print('last words'); sys.exit(7)\n"
     )
     opened = terminal(sandbox, f'exec python3 -c "{code}"')
@@ -161,8 +160,8 @@ def test_wall_time_ends_a_command(sandbox: Sandbox) -> None:
     assert outcome.seconds < 5
 
 
-def test_the_workspace_has_a_size(jazzy: Ros) -> None:
-    with Bubblewrap(jazzy, Limits(workspace=20 * MEGABYTE)) as small:
+def test_the_workspace_has_a_size(ros_jazzy: Ros) -> None:
+    with Bubblewrap(ros_jazzy, Limits(workspace=20 * MEGABYTE)) as small:
         status, said = shell(small, "head -c 30000000 /dev/zero > big; ls -l big | cut -d' ' -f5")
         assert status == 0
         assert "No space left" in said
@@ -170,26 +169,26 @@ def test_the_workspace_has_a_size(jazzy: Ros) -> None:
         assert status != 0
 
 
-def test_a_file_has_a_largest_size(jazzy: Ros) -> None:
-    with Bubblewrap(jazzy, Limits(file_size=1 * MEGABYTE)) as small:
+def test_a_file_has_a_largest_size(ros_jazzy: Ros) -> None:
+    with Bubblewrap(ros_jazzy, Limits(file_size=1 * MEGABYTE)) as small:
         status, _ = shell(small, "head -c 2000000 /dev/zero > big; stat -c %s big; exit 3")
         assert status == 3
         _, said = shell(small, "stat -c %s big")
         assert int(said) == 1 * MEGABYTE
 
 
-def test_memory_is_limited_over_all_processes(jazzy: Ros) -> None:
+def test_memory_is_limited_over_all_processes(ros_jazzy: Ros) -> None:
     hog = "x = bytearray(120_000_000); x[::4096] = b'1' * len(x[::4096]); print('had', 'it')"
-    with Bubblewrap(jazzy, Limits(memory=80 * MEGABYTE)) as small:
+    with Bubblewrap(ros_jazzy, Limits(memory=80 * MEGABYTE)) as small:
         _, said = shell(small, f'/usr/bin/env python3 -S -c "{hog}"; /usr/bin/python3 -c "{hog}"')
         assert "had it" not in said
         if small.held()["memory"] == "cgroup":
             assert small.resource_met() == "memory"
 
 
-def test_processes_are_limited_over_the_whole_submission(jazzy: Ros) -> None:
+def test_processes_are_limited_over_the_whole_submission(ros_jazzy: Ros) -> None:
     bomb = "for i in $(seq 400); do sleep 50 & done; echo started all"
-    with Bubblewrap(jazzy, Limits(processes=60)) as small:
+    with Bubblewrap(ros_jazzy, Limits(processes=60)) as small:
         _, said = shell(small, bomb, seconds=4)
         assert "started all" not in said or "Resource temporarily unavailable" in said
         if small.held()["processes"] == "cgroup":
@@ -203,9 +202,9 @@ def test_the_report_says_what_held(sandbox: Sandbox) -> None:
     assert report["memory"].value == Limits().memory
 
 
-def test_closing_ends_everything_and_leaves_no_control_group(jazzy: Ros) -> None:
+def test_closing_ends_everything_and_leaves_no_control_group(ros_jazzy: Ros) -> None:
     mark = f"sleep 97{secrets.randbelow(10**6)}"
-    with Bubblewrap(jazzy, Limits()) as opened:
+    with Bubblewrap(ros_jazzy, Limits()) as opened:
         script = f"echo up; setsid {mark} & {mark}"
         command = opened.command(["bash", "-c", script])
         process = subprocess.Popen(command, stdout=subprocess.PIPE)
@@ -247,7 +246,7 @@ def test_kill_9_of_the_grader_leaves_nothing() -> None:
     assert [line for line in stage.alive(mark) if "bash -c" not in line] == []
 
 
-def test_an_ordinary_user_gets_the_same(jazzy: Ros) -> None:
+def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
     code = (
         "import json\n"
         "from grader.limits import Limits\n"
@@ -255,7 +254,7 @@ def test_an_ordinary_user_gets_the_same(jazzy: Ros) -> None:
         "from grader.ros.prefix import Ros, base_interpreter\n"
         "from grader.sandbox.bubblewrap import Bubblewrap\n"
         "from pathlib import Path\n"
-        f"ros = Ros(find_distro('jazzy'), 'wheels', Path({str(jazzy.path)!r}), "
+        f"ros = Ros(find_distro('jazzy'), 'wheels', Path({str(ros_jazzy.path)!r}), "
         "base_interpreter(), {})\n"
         "with Bubblewrap(ros, Limits(processes=60)) as opened:\n"
         "    said = opened.run(['bash', '-c', 'id -u; cat /proc/net/dev | grep -c :; "
@@ -279,7 +278,7 @@ def test_an_ordinary_user_gets_the_same(jazzy: Ros) -> None:
 
 
 def test_a_machine_that_forbids_namespaces_is_told_why(
-    jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from grader.errors import SurroundingsError
 
@@ -287,7 +286,7 @@ def test_a_machine_that_forbids_namespaces_is_told_why(
     fake.write_text("#!/bin/sh\necho 'bwrap: setting up uid map: Permission denied' >&2\nexit 1\n")
     fake.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
-    with pytest.raises(SurroundingsError) as caught, Bubblewrap(jazzy, Limits()):
+    with pytest.raises(SurroundingsError) as caught, Bubblewrap(ros_jazzy, Limits()):
         pass
     assert "unprivileged user namespaces are not allowed" in str(caught.value)
     assert "root" in caught.value.remedy

@@ -42,7 +42,7 @@ print(json.dumps(out))
 """
 
 
-def test_account_runs_student_and_probe_as_two_other_users(jazzy: Ros) -> None:
+def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> None:
     mark = f"sleep 95{secrets.randbelow(10**6)}"
     command = stage.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
     done = stage.run(command, env={"SECRET_TOKEN": "abc"})
@@ -62,19 +62,19 @@ def test_account_runs_student_and_probe_as_two_other_users(jazzy: Ros) -> None:
     assert not Path(said["folder"]).exists()
 
 
-def test_account_needs_root(jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     with pytest.raises(SurroundingsError, match="needs root"):
-        open_sandbox("account", jazzy, Limits())
+        open_sandbox("account", ros_jazzy, Limits())
 
 
-def test_without_a_sandbox_everything_still_ends(jazzy: Ros) -> None:
+def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
     mark = f"sleep 94{secrets.randbelow(10**6)}"
-    with Bare(jazzy, Limits()) as opened:
+    with Bare(ros_jazzy, Limits()) as opened:
         outcome = opened.run(
             ["bash", "-c", f"setsid {mark} > /dev/null 2>&1 < /dev/null & pwd"], seconds=10
         )
-        folder = opened.folder
+        folder = Path(opened.workspace).parent.parent
         assert outcome.output.decode().strip() == opened.workspace
         assert stage.alive(mark) != []
     assert stage.alive(mark) == []
@@ -82,10 +82,10 @@ def test_without_a_sandbox_everything_still_ends(jazzy: Ros) -> None:
 
 
 def test_without_a_sandbox_the_environment_is_still_a_list(
-    jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+    ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", "/own")
-    with Bare(jazzy, Limits()) as opened:
+    with Bare(ros_jazzy, Limits()) as opened:
         said = opened.run(["env"], seconds=10).output.decode()
         assert "PYTHONPATH" not in said
         ros = opened.run(
@@ -94,25 +94,27 @@ def test_without_a_sandbox_the_environment_is_still_a_list(
         assert ros.output.decode().strip() == opened.ros_path
 
 
-def test_auto_never_marks_without_a_sandbox(jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_auto_never_marks_without_a_sandbox(
+    ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("shutil.which", lambda name: None)
     with pytest.raises(SurroundingsError) as caught:
-        open_sandbox("auto", jazzy, Limits())
+        open_sandbox("auto", ros_jazzy, Limits())
     assert "bwrap is missing" in caught.value.message
     assert "apt-get install bubblewrap" in caught.value.remedy
 
 
-def test_own_code_may_run_without_one(jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_own_code_may_run_without_one(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
     import shutil
 
     real = shutil.which
     monkeypatch.setattr("shutil.which", lambda name: None if name == "bwrap" else real(name))
-    opened = open_sandbox("auto", jazzy, Limits(), own_code=True)
+    opened = open_sandbox("auto", ros_jazzy, Limits(), own_code=True)
     opened.close()
     assert opened.name == "none"
 
 
-def test_a_misspelt_sandbox_gets_a_suggestion(jazzy: Ros) -> None:
+def test_a_misspelt_sandbox_gets_a_suggestion(ros_jazzy: Ros) -> None:
     with pytest.raises(UsageError) as caught:
-        open_sandbox("bublewrap", jazzy, Limits())
+        open_sandbox("bublewrap", ros_jazzy, Limits())
     assert "did you mean 'bubblewrap'?" in caught.value.remedy

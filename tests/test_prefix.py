@@ -68,8 +68,8 @@ def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path) -> No
     assert sourced(jazzy_prefix, f'HOME=/tmp exec python3 -c "{code}"').split() == ["a", "False"]
 
 
-def test_the_distros_own_versions_are_in_it(jazzy: Ros, kilted: Ros) -> None:
-    for ros, rclpy in ((jazzy, "7.1.6"), (kilted, "9.1.2")):
+def test_the_distros_own_versions_are_in_it(ros_jazzy: Ros, ros_kilted: Ros) -> None:
+    for ros, rclpy in ((ros_jazzy, "7.1.6"), (ros_kilted, "9.1.2")):
         assert ros.versions["rclpy"] == rclpy == ros.distro.rclpy
         assert ros.versions["setuptools"] == ros.distro.setuptools
         code = "import em, setuptools; print(em.__version__, setuptools.__version__)"

@@ -11,6 +11,7 @@ from grader.report.model import Where
 
 if TYPE_CHECKING:
     from grader.evidence import Evidence
+    from grader.probe_link import LogRecord
     from grader.running import Run
 
 FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
@@ -22,12 +23,11 @@ def node_file(evidence: Evidence) -> Where:
     return Where(file=f"{evidence.assignment.package}/{evidence.assignment.node_file}")
 
 
-def line_of(evidence: Evidence, record: object) -> Where:
-    line = getattr(record, "line", None)
-    file = str(getattr(record, "file", ""))
+def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
+    """Return the line of the node's file that logged a record, the file alone if that is unknown."""
     place = node_file(evidence)
-    if isinstance(line, int) and line > 0 and file.endswith(place.file):
-        return Where(file=place.file, line=line)
+    if record is not None and record.line > 0 and record.file.endswith(place.file):
+        return Where(file=place.file, line=record.line)
     return place
 
 

@@ -108,8 +108,9 @@ def evidence_of(check: CheckResult, evidence: Evidence) -> tuple[str, str]:
         return "", ""
     if stage == "build":
         return evidence.build_log, "colcon build printed"
-    if check.id in BEFORE_CTRL_C:
-        return evidence.transcript.partition("\n^C")[0], "ros2 run printed before Ctrl+C"
+    before, pressed, _ = evidence.transcript.partition("\n^C")
+    if pressed and check.id in BEFORE_CTRL_C:
+        return before, "ros2 run printed before Ctrl+C"
     return evidence.transcript, "ros2 run printed"
 
 
