@@ -30,7 +30,8 @@ MILLISECOND = 1_000_000
 SECOND = 1_000_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier
 SETTLE_SECONDS = 2.5  # wall time in which a node that spins answers for the first time
-UNANSWERED = 2  # barriers in a row after which a node that did answer has stopped to
+SLOW_BARRIER = 0.2  # seconds of wall time after which the next tick itself is answer enough
+UNANSWERED = 5  # barriers in a row after which a node that did answer has stopped to
 TRIES, TRY_SECONDS = 12, 0.5  # a tick is missing after that many barriers and that much wall time
 GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
 LATE_GRACE = 1.0  # the same for what was logged before the probe had found the node
@@ -164,7 +165,8 @@ class Observer:
     def settle(self) -> list[Event]:
         """Give every line that is still waiting for its log record its grace time."""
         events: list[Event] = []
-        while self._unmatched and not self.terminal.flooded:
+        deadline = time.monotonic() + 2 * LATE_GRACE
+        while self._unmatched and not self.terminal.flooded and time.monotonic() < deadline:
             events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
         return events
 
@@ -180,7 +182,11 @@ class VirtualClock:
         self._output = output
         self._deadline = deadline  # of time.monotonic()
         self._at = 0
+        self._before = 0
         self._unanswered = 0
+        self._slow = False
+        self._due: int | None = None
+        self._due_at = -1
         self._period = round(output.period * SECOND)
 
     def drive(self, watch: Watch, tell: Callable[[Event], None]) -> None:
@@ -218,8 +224,9 @@ class VirtualClock:
             due = phase + (k - already) * self._period
             early = self._go_to(due - MILLISECOND)
             watch.events += early
-            watch.early += [event for event in early if event.n is not None]
+            watch.early += [e for e in early if e.n is not None and e.due is None]
             found = self._wait_for_tick(due, k)
+            self._due, self._due_at = k, due
             watch.dues.append(due / SECOND)
             watch.events += found
             for event in found:
@@ -247,8 +254,8 @@ class VirtualClock:
         began = time.monotonic()
         found: list[Event] = []
         for attempt in range(10 * TRIES):
-            events, _ = self._step(due, wait=attempt > 0)
-            found += [replace(event, due=k) for event in events]
+            events, _ = self._step(due, wait=attempt > 0, until_log=True)
+            found += [event if event.due is not None else replace(event, due=k) for event in events]
             if any(event.n is not None for event in found):
                 break
             enough = TRIES / 4 if found else TRIES  # another line has come: is it the tick?
@@ -316,18 +323,39 @@ class VirtualClock:
         watch_wall(self._observer, self._output, watch, tell, deadline=self._deadline)
 
     def _step(
-        self, at: int, *, wait: bool = False, seconds: float = BARRIER_SECONDS
+        self,
+        at: int,
+        *,
+        wait: bool = False,
+        until_log: bool = False,
+        seconds: float = BARRIER_SECONDS,
     ) -> tuple[list[Event], bool | None]:
         """Set the clock, make the barrier, and return what has come."""
         self._at = max(at, self._at)
         observer = self._observer
         observer.now = self._at / SECOND
-        answer = observer.probe.ask("clock", seconds=seconds, at=self._at, trips=2)
-        self._unanswered = self._unanswered + 1 if answer.barrier is False else 0
+        published = time.time()
+        enough = int(until_log and self._slow)
+        answer = observer.probe.ask("clock", seconds=seconds, at=self._at, until_log=enough)
+        self._slow = self._slow or time.time() - published > SLOW_BARRIER
         events = observer.take(answer, seconds=0.02 if wait else 0)
+        events = self._where_they_belong(events, published)
+        silent = answer.barrier is False and not events
+        self._unanswered = self._unanswered + 1 if silent else 0
+        self._before = self._at
         if answer.clocks > 1:
             raise ForeignClock(events)
         return events, answer.barrier
+
+    def _where_they_belong(self, events: list[Event], published: float) -> list[Event]:
+        """Give what was logged before this step's clock message to the instant before."""
+        due = self._due if self._before == self._due_at else None
+        return [
+            replace(event, virtual=self._before / SECOND, due=due)
+            if event.record is not None and event.wall < published and self._before
+            else event
+            for event in events
+        ]
 
     def _over(self) -> bool:
         terminal = self._observer.terminal

@@ -20,6 +20,7 @@ from grader.probe_link import ProbeLink
 from grader.sandbox.base import Sandbox
 from grader.terminal import Terminal
 
+UNSEEN_SECONDS = 5.0  # wall time after its first line in which a node is on the graph, if it is one
 COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen
 
 
@@ -104,6 +105,7 @@ def observe(
 def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> bool:
     """Wait for a node on the graph; return whether it follows `/clock`."""
     first_seen: float | None = None
+    first_line = begin
     while not observer.terminal.ended and not observer.terminal.flooded:
         answer = observer.probe.ask("wait", seconds=0.02)
         events = observer.take(answer)
@@ -120,8 +122,10 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
                 return True
             if now - first_seen > COMPLETE_SECONDS:
                 return any(node.clock for node in answer.nodes)
-        elif now - begin > most:
+        elif now - begin > most or run.watch.counted and now - first_line > UNSEEN_SECONDS:
             return False
+        if not run.watch.counted:
+            first_line = now
     return False
 
 

@@ -33,6 +33,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
     for cause in ("package.manifest", "package.marker"):
         if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, build.log)):
             raise Blocked(by=cause)
+    if evidence.has_mistake("entry_point.mapping", "setup.missing"):
+        raise Blocked(by="entry_point.mapping")
     if evidence.has_mistake("package.setup_cfg", "package.setup_cfg_syntax"):
         raise Blocked(by="package.setup_cfg")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:

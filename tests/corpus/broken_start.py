@@ -85,7 +85,7 @@ START = (
           note="one line by the wall clock; under use_sim_time none, for the first message on "
           "/clock is the one callback that it does"),
     _dies("main_empty", _node(INIT + MADE + CATCH, "    pass\n"), mistake="run.exits_at_once"),
-    _dies("loop_without_node", Write(NODE, HELLO), mistake="run.exits_at_once",
+    _dies("loop_without_node", Write(NODE, HELLO), mistake="run.no_node",
           note="ten lines at once, without ROS"),
     _dies("waits_for_input", _node(INIT, "    input('Press Enter to start')\n" + INIT),
           mistake="run.no_node"),
