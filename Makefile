@@ -10,6 +10,8 @@ VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT PYTHON PYTEST_AR
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py --python "$${PYTHON:-python3}"
+# one process more than cores: a node that is being watched leaves them idle
+PYTEST := .venv/bin/python -m pytest -q -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 GRADER := .venv/bin/python -m grader
 OPTIONS := $${ASSIGNMENT:+--assignment "$$ASSIGNMENT"} $${DISTRO:+--distro "$$DISTRO"} \
   $${SANDBOX:+--sandbox "$$SANDBOX"}
@@ -39,12 +41,12 @@ check:  ## Check your own package before handing it in: make check [PACKAGE=path
 test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests
 	@$(MAKE) --no-print-directory lint
-	@.venv/bin/python -m pytest -q -m "not full" $${PYTEST_ARGS}
+	@$(PYTEST) -m "not full" $${PYTEST_ARGS}
 
 test-all:  ## Run every test
 	@$(BOOTSTRAP) --tests
 	@$(MAKE) --no-print-directory lint
-	@.venv/bin/python -m pytest -q $${PYTEST_ARGS}
+	@$(PYTEST) $${PYTEST_ARGS}
 
 lint:
 	@.venv/bin/python -m ruff check .

@@ -122,7 +122,7 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
                 return True
             if now - first_seen > COMPLETE_SECONDS:
                 return any(node.clock for node in answer.nodes)
-        elif now - begin > most or run.watch.counted and now - first_line > UNSEEN_SECONDS:
+        elif now - begin > most or (run.watch.counted and now - first_line > UNSEEN_SECONDS):
             return False
         if not run.watch.counted:
             first_line = now

@@ -9,6 +9,7 @@ users may read. `none` protects from nothing: it is for one's own code.
 from __future__ import annotations
 
 import ctypes
+import fcntl
 import os
 import random
 import secrets
@@ -55,7 +56,7 @@ class Bare(Sandbox):
         super().__init__(ros, limits)
         self._folder: Path | None = None
         self._mark = secrets.token_hex(8)
-        self._domain = random.choice(DOMAINS)  # noqa: S311 - only to keep two runs apart
+        self._domain, self._claim = 0, -1
         self._prlimit = need("prlimit", shutil.which("prlimit"))
         self._group = Group()
 
@@ -83,6 +84,7 @@ class Bare(Sandbox):
     def open(self) -> None:
         # the orphans of what we start become our children: so they can be found and ended
         ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+        self._domain, self._claim = _claim_domain()
         self._folder = Path(tempfile.mkdtemp(prefix="grader-"))
         self._folder.chmod(0o755)
         for place in ("home", "home/ros2_ws", "probe", "tmp"):
@@ -124,6 +126,9 @@ class Bare(Sandbox):
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
             self._folder = None
+        if self._claim >= 0:
+            os.close(self._claim)
+            self._claim = -1
         self._group.close()
 
     def _become(self, role: Role) -> list[str]:
@@ -244,6 +249,23 @@ class Account(Bare):
             return
         subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
         _reap(_descendants(os.getpid()))
+
+
+def _claim_domain() -> tuple[int, int]:
+    """Return a ROS domain that no other grader of this machine uses, and the lock that says so."""
+    for domain in random.sample(DOMAINS, len(DOMAINS)):
+        place = Path(tempfile.gettempdir()) / f"ros2-grader-domain-{domain}.lock"
+        try:
+            lock = os.open(place, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+        except OSError:
+            continue  # another user's
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(lock)
+        else:
+            return domain, lock
+    raise SurroundingsError("every ROS domain of this machine is taken by another grader")
 
 
 def _must_be_readable(path: Path) -> None:

