@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from grader.evidence import Evidence
 
 NEVER_CALLED = "was never called"
+ANSWER = 'File "<unknown>", line '  # colcon evaluates the answer: it has no file name
 WHY = (
     "colcon runs your setup.py to install the package into the workspace's install folder; "
     "ros2 run only ever looks there."
@@ -74,6 +75,16 @@ def _broken(evidence: Evidence) -> Failed:
     error, line = python_error(build.log, "setup.py")
     where = Where(file="setup.py", line=line)
     expected = "colcon build ends with: Summary: 1 package finished"
+    if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
+        return Failed(
+            expected=expected,
+            actual="setup.py prints something: colcon could not read its answer",
+            where=Where(file="setup.py", line=_first_print(evidence)),
+            rationale=WHY + " colcon asks setup.py for its data and reads what it prints as the "
+            "answer, so a print() of yours ends up in the middle of it.",
+            fix="Take the print() out of setup.py, then build again.",
+            mistake="build.setup_prints",
+        )
     if error.startswith(("SyntaxError", "IndentationError", "TabError")):
         return Failed(
             expected=expected,
@@ -125,6 +136,15 @@ def python_error(text: str, file: str) -> tuple[str, int | None]:
     )
     lines = re.findall(rf'File "[^"\n]*{re.escape(file)}", line (\d+)', text)
     return (errors[-1][:400] if errors else ""), (int(lines[-1]) if lines else None)
+
+
+def _first_print(evidence: Evidence) -> int | None:
+    file = evidence.submission.file("setup.py")
+    text = file.data.decode("utf-8", errors="replace") if file is not None else ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if re.match(r"\s*print\s*\(", line):
+            return number
+    return None
 
 
 def _summary(log: str) -> str:

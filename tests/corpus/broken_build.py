@@ -44,7 +44,7 @@ BUILD = (
     _stops("setup_never_called", Replace(SETUP, CALL, "\ndict(\n"), mistake="build.exited",
            mapping=False),
     _stops("setup_prints", Replace(SETUP, CALL, "\nprint('building')\nsetup(\n"),
-           mistake="build.setup_error", note="colcon reads what setup.py prints as its answer"),
+           mistake="build.setup_prints", note="colcon reads what setup.py prints as its answer"),
     _stops("setup_loops", Replace(SETUP, CALL, "\nwhile True:\n    pass\n\nsetup(\n"),
            mistake="build.timeout"),
     broken("setup_missing", Delete(SETUP), failed={"entry_point.mapping": "setup.missing"},
