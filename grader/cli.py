@@ -15,14 +15,12 @@ import click
 
 import grader
 from grader.errors import GraderError
-from grader.errors import UsageError
 
 if TYPE_CHECKING:
     from grader.report.model import Report
     from grader.runner import Order
 
 ISSUES = "the project's issue tracker"
-COURSE = "GRADER_COURSE"
 
 
 class Terminated(BaseException):
@@ -126,7 +124,9 @@ def grade(
     verbose: bool,
 ) -> int:
     """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
-    orders = _orders(path, assignment, distro, sandbox, limits, name=name)
+    from grader.ordering import make_orders  # noqa: PLC0415 - --help must not pay for it
+
+    orders = make_orders(path, assignment, distro, sandbox, limits, name=name)
     return _mark(orders, out, verbose=verbose, show_hidden=True)
 
 
@@ -150,11 +150,13 @@ def check(
     PATH is your package or workspace (default: the package in ~/ros2_ws, else the current
     folder). It is your own code: where no sandbox is to be had it runs without one, and says so.
     """
+    from grader.ordering import make_orders  # noqa: PLC0415
+
     if path is None:
         workspace = Path.home() / "ros2_ws"
         path = workspace if workspace.is_dir() else Path.cwd()
         click.echo(f"checking {path}", err=True)
-    orders = _orders(path, assignment, distro, sandbox, limits, own_code=True)
+    orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True)
     return _mark(orders, None, verbose=verbose, show_hidden=False)
 
 
@@ -170,96 +172,12 @@ def prefix(distro: str) -> int:
     return 0
 
 
-def _orders(
-    path: Path,
-    assignment: str,
-    distro: str,
-    sandbox: str,
-    limits: tuple[str, ...],
-    *,
-    name: str | None = None,
-    own_code: bool = False,
-) -> list[Order]:
-    """Check every word of the command line before anything is run."""
-    # what takes long to import is imported only once a command needs it: --help does not
-    from grader.assignment import load_assignment  # noqa: PLC0415
-    from grader.limits import UNITS  # noqa: PLC0415
-    from grader.limits import Limits  # noqa: PLC0415
-    from grader.ros.distro import find_distro  # noqa: PLC0415
-    from grader.runner import Order  # noqa: PLC0415
-    from grader.sandbox.choose import check_name  # noqa: PLC0415
-
-    check_name(sandbox)
-    distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
-    if not distros:
-        raise UsageError("no distro was named", remedy="For example: --distro jazzy")
-    given = _limit_values(limits)
-    file, hidden = _assignment_files(assignment)
-    if own_code:
-        hidden = None
-    wanted = load_assignment(file, hidden=hidden, known_limits=tuple(UNITS))
-    bounds = Limits().override(wanted.limits).override(given)
-    return [
-        Order(
-            path=path,
-            assignment=wanted,
-            distro=found,
-            sandbox=sandbox,
-            name=name,
-            limits=bounds,
-            own_code=own_code,
-        )
-        for found in dict.fromkeys(distros)
-    ]
-
-
-def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
-    values = {}
-    for word in words:
-        name, equals, value = word.partition("=")
-        try:
-            values[name.strip()] = float(value)
-        except ValueError:
-            equals = ""
-        if not equals:
-            raise UsageError(f"--limit takes NAME=NUMBER, not '{word}'")
-    return values
-
-
-def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
-    """Return the assignment's file and its hidden checks, if this side has any."""
-    if "/" in assignment or assignment.endswith((".yaml", ".yml")):
-        return Path(assignment), None
-    here = Path(__file__).resolve().parent
-    course = _course(here)
-    file = course / assignment / "assignment.yaml"
-    if not file.is_file():
-        known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
-        raise UsageError(
-            f"there is no assignment '{assignment}' in {course}",
-            remedy=f"Assignments: {', '.join(known) or 'none'}; or give a file's path. "
-            f"${COURSE} names another course folder.",
-        )
-    hidden = here / "keys" / assignment / "hidden.yaml"
-    return file, hidden if hidden.is_file() else None
-
-
 def _hidden(count: int) -> str:
     if count == 0:
         return "There are no hidden checks: your instructor's side asks the same."
     return (
         f"{count} hidden check{'s' if count > 1 else ''} will be asked on your instructor's side."
     )
-
-
-def _course(here: Path) -> Path:
-    """Return the course folder: $GRADER_COURSE, this checkout's, or the installed package's."""
-    own = os.environ.get(COURSE)
-    if own:
-        return Path(own)
-    shares = [parent / "share" / "ros2_teaching_lab" / "course" for parent in here.parents]
-    places = [here.parent / "lab" / "course", *shares]
-    return next((place for place in places if place.is_dir()), places[0])
 
 
 def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:

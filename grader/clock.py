@@ -7,168 +7,27 @@ however busy the machine is. Nodes that do not follow `/clock` are watched on th
 
 from __future__ import annotations
 
-import re
 import statistics
 import time
 from collections.abc import Callable
-from collections.abc import Iterable
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
 from dataclasses import replace
-from typing import Literal
 
 from grader.assignment import Output
-from grader.probe_link import Answer
-from grader.probe_link import LogRecord
-from grader.probe_link import NodeSeen
-from grader.probe_link import ProbeLink
-from grader.terminal import Line
-from grader.terminal import Terminal
+from grader.observer import SECOND
+from grader.observer import Event
+from grader.observer import Observer
+from grader.observer import Watch
 
 MILLISECOND = 1_000_000
-SECOND = 1_000_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier
 SETTLE_SECONDS = 2.5  # wall time in which a node that spins answers for the first time
 SLOW_BARRIER = 0.2  # seconds of wall time after which the next tick itself is answer enough
 UNANSWERED = 5  # barriers in a row after which a node that did answer has stopped to
 TRIES, TRY_SECONDS = 12, 0.5  # a tick is missing after that many barriers and that much wall time
-GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
-LATE_GRACE = 1.0  # the same for what was logged before the probe had found the node
 GRID = 20  # steps a period when the period has to be found out
 WALL_TICKS = 5
 WALL_SPARE = 3.0  # seconds of wall time beyond the ticks' own
 STILL = 1.3  # periods of wall time for which the clock stands still to unmask a wall clock
-
-Source = Literal["logger", "print", "faked"]
-
-
-@dataclass(frozen=True)
-class Event:
-    """One line that the node put out: when, and what ROS saw of it.
-
-    `virtual` and `wall` in seconds (None: the clock had not been started); `due` is the number of
-    the due instant at which it came, counted from 0, None if it came at another time.
-    """
-
-    text: str
-    wall: float
-    virtual: float
-    source: Source
-    n: int | None
-    due: int | None = None
-    record: LogRecord | None = None
-    logger: str = ""
-
-
-@dataclass
-class Watch:
-    """What a run showed: every event in order, and how the count was timed."""
-
-    clock: Literal["virtual", "wall"] | None = None
-    events: list[Event] = field(default_factory=list)
-    dues: list[float] = field(default_factory=list)
-    early: list[Event] = field(default_factory=list)
-    before_start: list[Event] = field(default_factory=list)
-    missing: list[int] = field(default_factory=list)
-    period: float | None = None
-    settled: bool = False
-    foreign_clock: bool = False
-    note: str = ""
-
-    @property
-    def counted(self) -> list[Event]:
-        """The events that are taken for the count: those of the pattern, else any."""
-        own = [event for event in self.events if event.n is not None]
-        if own:
-            return own
-        others = [event for event in self.events if event not in self.before_start]
-        moments = {event.due if self.clock == "virtual" else event.wall for event in others}
-        # what comes once only is a message or a traceback, and no count
-        return others if len(moments - {None}) > 1 else []
-
-
-class Observer:
-    """Brings together what the terminal showed and what ROS saw."""
-
-    def __init__(self, terminal: Terminal, probe: ProbeLink, output: Output) -> None:
-        self.terminal = terminal
-        self.probe = probe
-        self.output = output
-        head, tail = output.text.split("{n}")
-        self._pattern = re.compile(re.escape(head) + r"(-?\d{1,18})" + re.escape(tail))
-        self._unmatched: list[Line] = []
-        self.records: list[LogRecord] = []
-        self._shown: set[int] = set()  # the stamps of the records that the terminal showed
-        self.now = 0.0  # virtual seconds
-        self._linked: float | None = None
-
-    def linked(self, nodes: Sequence[NodeSeen]) -> None:
-        """Note when the probe could first hear a node's log records: older ones come late."""
-        if self._linked is None and any(node.rosout for node in nodes):
-            self._linked = time.time()
-
-    def number(self, text: str) -> int | None:
-        """Return the count in a line of the expected form, None for any other line."""
-        match = self._pattern.fullmatch(text)
-        if match is None or str(int(match.group(1))) != match.group(1):
-            return None  # 007 is no 7
-        return int(match.group(1))
-
-    def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
-        """Return the new events of an answer and of the terminal, in order."""
-        events = [self._of_record(record) for record in (answer.logs if answer else ())]
-        for line in self.terminal.read(seconds):
-            if line.log is not None:
-                self._unmatched.append(line)
-            elif line.text.strip():
-                events.append(self._event(line.text, line.wall, "print", None))
-        return events + self._match()
-
-    def _of_record(self, record: LogRecord) -> Event:
-        self.records.append(record)
-        return self._event(record.text, record.stamp / SECOND, "logger", record)
-
-    def _event(self, text: str, wall: float, source: Source, record: LogRecord | None) -> Event:
-        return Event(text, wall, self.now, source, self.number(text), record=record)
-
-    def _match(self) -> list[Event]:
-        """Return the lines that look like log records but are none of ROS's, after a grace time."""
-        known = {
-            (r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]
-        }
-        faked, waiting = [], []
-        for line in self._unmatched:
-            assert line.log is not None
-            _, stamp, name, text = line.log
-            if (stamp, name, text) in known:
-                self._shown.add(stamp)
-            elif self._is_overdue(line):
-                faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
-            else:
-                waiting.append(line)
-        self._unmatched = waiting
-        return faked
-
-    def visible(self, events: Iterable[Event]) -> list[Event]:
-        """Return the events that a person at the terminal saw."""
-        return [e for e in events if e.record is None or e.record.stamp in self._shown]
-
-    def _is_overdue(self, line: Line) -> bool:
-        """Whether a line's log record would have come by now."""
-        if self._linked is None:
-            return time.time() - line.wall > LATE_GRACE
-        if line.wall < self._linked:
-            return time.time() - self._linked > LATE_GRACE
-        return time.time() - line.wall > GRACE
-
-    def settle(self) -> list[Event]:
-        """Give every line that is still waiting for its log record its grace time."""
-        events: list[Event] = []
-        deadline = time.monotonic() + 2 * LATE_GRACE
-        while self._unmatched and not self.terminal.flooded and time.monotonic() < deadline:
-            events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
-        return events
 
 
 class VirtualClock:

@@ -25,10 +25,10 @@ from grader.checks.registry import Check
 from grader.checks.registry import Failed
 from grader.checks.registry import Inconclusive
 from grader.checks.registry import Passed
-from grader.clock import Event
 from grader.errors import SurroundingsError
 from grader.evidence import Evidence
 from grader.limits import Limits
+from grader.observer import Event
 from grader.report import model
 from grader.ros.distro import Distro
 from grader.ros.prefix import Ros

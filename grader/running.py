@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from dataclasses import field
 
 from grader.assignment import Assignment
-from grader.clock import Event
 from grader.clock import ForeignClock
-from grader.clock import Observer
 from grader.clock import VirtualClock
-from grader.clock import Watch
 from grader.clock import watch_wall
+from grader.observer import Event
+from grader.observer import Observer
+from grader.observer import Watch
 from grader.probe_link import NodeSeen
 from grader.probe_link import ProbeLink
 from grader.sandbox.base import Sandbox

@@ -9,7 +9,7 @@ from types import TracebackType
 
 from grader.assignment import Assignment
 from grader.checks.registry import Inconclusive
-from grader.clock import Event
+from grader.observer import Event
 from grader.probe_link import ProbeError
 from grader.probe_link import ProbeLink
 from grader.running import Run

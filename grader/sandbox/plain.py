@@ -8,7 +8,6 @@ users may read. `none` protects from nothing: it is for one's own code.
 
 from __future__ import annotations
 
-import ctypes
 import fcntl
 import os
 import random
@@ -33,8 +32,11 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.base import need
 from grader.sandbox.cgroups import Group
 from grader.sandbox.cgroups import open_group
+from grader.sandbox.processes import adopt_orphans
+from grader.sandbox.processes import descendants
+from grader.sandbox.processes import processes
+from grader.sandbox.processes import reap
 
-PR_SET_CHILD_SUBREAPER = 36
 MARK = "GRADER_RUN"
 # there is no network namespace here: the profile itself keeps the nodes on this machine
 LOOPBACK_PROFILE = DISCOVERY_PROFILE.replace(
@@ -82,8 +84,7 @@ class Bare(Sandbox):
         return str(self.folder / "fastdds.xml")
 
     def open(self) -> None:
-        # the orphans of what we start become our children: so they can be found and ended
-        ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+        adopt_orphans()
         self._domain, self._claim = _claim_domain()
         self._folder = Path(tempfile.mkdtemp(prefix="grader-"))
         self._folder.chmod(0o755)
@@ -154,15 +155,15 @@ class Bare(Sandbox):
                     os.kill(pid, signal.SIGKILL)
                 except ProcessLookupError:
                     continue
-            _reap(alive)
+            reap(alive)
             if not alive:
                 return
 
     def _ours(self) -> Iterator[int]:
         mark = f"{MARK}={self._mark}".encode()
         own = os.getpid()
-        children = _descendants(own)
-        for pid in _processes():
+        children = descendants(own)
+        for pid in processes():
             if pid == own:
                 continue
             try:
@@ -248,7 +249,7 @@ class Account(Bare):
         if shutil.which("setpriv") is None:
             return
         subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
-        _reap(_descendants(os.getpid()))
+        reap(descendants(os.getpid()))
 
 
 def _claim_domain() -> tuple[int, int]:
@@ -276,35 +277,3 @@ def _must_be_readable(path: Path) -> None:
                 remedy="Set GRADER_CACHE to a folder that everybody may read (e.g. "
                 "/var/cache/grader), and run the grader with a Python under /usr.",
             )
-
-
-def _processes() -> Iterator[int]:
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit():
-            yield int(entry.name)
-
-
-def _descendants(root: int) -> set[int]:
-    parents: dict[int, int] = {}
-    for pid in _processes():
-        try:
-            stat_line = Path(f"/proc/{pid}/stat").read_text()
-        except OSError:
-            continue
-        parents[pid] = int(stat_line.rpartition(")")[2].split()[1])
-    found: set[int] = set()
-    todo = {root}
-    while todo:
-        todo = {pid for pid, parent in parents.items() if parent in todo and pid not in found}
-        found |= todo
-    return found
-
-
-def _reap(pids: object) -> None:
-    """Collect orphans that became our children; those of `subprocess` are left to it."""
-    for pid in pids if isinstance(pids, (list, set)) else ():
-        try:
-            if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
-                os.waitpid(pid, os.WNOHANG)
-        except OSError:
-            continue

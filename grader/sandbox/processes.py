@@ -1,0 +1,54 @@
+"""Processes of this machine by `/proc`: who descends from whom, and collecting what has ended.
+
+Source: proc(5).
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterable
+from collections.abc import Iterator
+from pathlib import Path
+
+PR_SET_CHILD_SUBREAPER = 36
+
+
+def adopt_orphans() -> None:
+    """Have this process inherit the orphans of what it starts, so that they can be found."""
+    ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+
+def processes() -> Iterator[int]:
+    """Yield the id of every process."""
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            yield int(entry.name)
+
+
+def descendants(root: int) -> set[int]:
+    """Return the ids of the processes below one."""
+    parents: dict[int, int] = {}
+    for pid in processes():
+        try:
+            stat_line = Path(f"/proc/{pid}/stat").read_text()
+        except OSError:
+            continue
+        parents[pid] = int(stat_line.rpartition(")")[2].split()[1])
+    found: set[int] = set()
+    todo = {root}
+    while todo:
+        todo = {pid for pid, parent in parents.items() if parent in todo and pid not in found}
+        found |= todo
+    return found
+
+
+def reap(pids: Iterable[int]) -> None:
+    """Collect those of these processes that have ended and are ours to collect."""
+    for pid in pids:
+        try:
+            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+            if state == "Z":
+                os.waitpid(pid, os.WNOHANG)
+        except OSError:
+            continue
