@@ -9,7 +9,7 @@ SHELL := /bin/sh
 VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT PYTHON PYTEST_ARGS
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
-BOOTSTRAP := python3 grader/bootstrap.py --python "$${PYTHON:-python3}"
+BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # one process more than cores: a node that is being watched leaves them idle
 PYTEST := .venv/bin/python -m pytest -q -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 GRADER := .venv/bin/python -m grader

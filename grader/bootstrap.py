@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 VENV = os.path.join(ROOT, ".venv")
+CHOSEN = os.path.join(VENV, "interpreter")
 OLDEST, NEWEST = (3, 10), (3, 13)
 INSTALLERS = [
     ["apt-get", "install", "-y", "-qq", "--no-install-recommends", "bubblewrap"],
@@ -119,6 +120,8 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
             "pip could not install the locked packages. Check the network (HTTPS_PROXY, "
             "PIP_CERT), then run the command again."
         )
+    with open(CHOSEN, "w") as stream:
+        stream.write(os.path.realpath(shutil.which(python) or python))
     with open(os.path.join(VENV, "stamp"), "w") as stream:
         stream.write(stamp)
 
@@ -155,7 +158,9 @@ def need_bubblewrap() -> None:
 def main() -> None:
     """Make what is missing; a second call with nothing to do takes a few milliseconds."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--python", default="python3")
+    parser.add_argument(
+        "--python", help="the interpreter (default: the one chosen before, python3)"
+    )
     parser.add_argument("--tests", action="store_true", help="with what the tests need")
     options = parser.parse_args()
     locks = [
@@ -164,7 +169,7 @@ def main() -> None:
     ]
     with open(os.path.join(ROOT, ".venv.lock"), "a") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        python = find_python(options.python)
+        python = find_python(options.python or read(CHOSEN) or "python3")
         there = read(os.path.join(VENV, "stamp"))
         small, full = (stamp_of(python, locks[:1]), stamp_of(python, locks))
         if there != full and (options.tests or there != small):

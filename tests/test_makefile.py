@@ -107,6 +107,8 @@ def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path
     assert status == 0, err
     assert "setting up the grader's Python environment" in err
     assert "100" in out
-    status, out, err = make("grade", f"STUDENT={tmp_path / 'solution'}", cwd=checkout)
-    assert status == 0
-    assert "setting up" not in err
+    chosen = (checkout / ".venv" / "interpreter").read_text()
+    for words in ([], [f"PYTHON={chosen}"]):
+        status, out, err = make("grade", f"STUDENT={tmp_path / 'solution'}", *words, cwd=checkout)
+        assert status == 0
+        assert "setting up" not in err

@@ -1,0 +1,101 @@
+"""An assignment is data: another course asks for another text, package, node, period, start, step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests import stage
+from tests.corpus.build import write
+from tests.corpus.right import RIGHT
+from tests.test_verdicts import ASSIGNMENT
+from tests.test_verdicts import COURSE
+
+OTHER = {
+    "my_robot_controller": "turtle_counter",
+    "my_first_node": "ticker",
+    "test_node": "go",
+    "hello_time": "ticking",
+    'text: "Hello time: {n}"': 'text: "[{n}] ticks, said the turtle"',
+    "start: 0": "start: 5",
+    "step: 1": "step: 5",
+    "period: 1.0": "period: 0.5",
+}
+NODE = {
+    "'Hello time: ' + str(self.counter_)": "f'[{self.counter_}] ticks, said the turtle'",
+    "self.counter_ = 0": "self.counter_ = 5",
+    "self.counter_ += 1": "self.counter_ += 5",
+    "create_timer(1.0,": "create_timer(0.5,",
+}
+
+
+def replaced(text: str, pairs: dict[str, str]) -> str:
+    for old, new in pairs.items():
+        assert old in text, old
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.fixture
+def course(tmp_path: Path) -> Path:
+    text = (COURSE / "assignment.yaml").read_text()
+    file = tmp_path / "course" / "ticking" / "assignment.yaml"
+    file.parent.mkdir(parents=True)
+    file.write_text(replaced(text, OTHER))
+    return file
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    root = write(RIGHT[0], tmp_path)
+    node = root / "my_robot_controller" / "my_first_node.py"
+    node.write_text(replaced(node.read_text(), NODE))
+    names = {k: v for k, v in OTHER.items() if k in ("my_robot_controller", "my_first_node")}
+    for file in [path for path in root.rglob("*") if path.is_file()]:
+        text = file.read_text()
+        for old, new in {**names, "test_node": "go"}.items():
+            text = text.replace(old, new)
+        file.write_text(text)
+    node.rename(node.with_name("ticker.py"))
+    (root / "my_robot_controller").rename(root / "turtle_counter")
+    (root / "resource" / "my_robot_controller").rename(root / "resource" / "turtle_counter")
+    return root
+
+
+def test_its_own_package_gets_full_marks(course: Path, package: Path, tmp_path: Path) -> None:
+    done = stage.run(
+        stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 / 100" in done.stdout
+
+
+def test_the_other_courses_package_does_not(course: Path, tmp_path: Path) -> None:
+    solution = write(RIGHT[0], tmp_path)
+    done = stage.run(
+        stage.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
+    )
+    assert done.returncode == 1
+    assert "turtle_counter" in done.stdout
+
+
+def test_a_course_folder_is_named_by_the_environment(
+    course: Path, package: Path, tmp_path: Path
+) -> None:
+    done = stage.run(
+        stage.grader("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
+        env={"GRADER_COURSE": str(course.parent.parent)},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_self_check_says_how_many_checks_are_hidden(course: Path, package: Path) -> None:
+    course.write_text(course.read_text().replace("hidden_checks: 0", "hidden_checks: 2"))
+    done = stage.run(stage.grader("check", package, "--assignment", course))
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "2 hidden checks" in done.stdout
+
+
+def test_hello_time_is_worth_a_hundred() -> None:
+    assert ASSIGNMENT.max_score == 100
