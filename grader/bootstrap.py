@@ -120,6 +120,10 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
             "pip could not install the locked packages. Check the network (HTTPS_PROXY, "
             "PIP_CERT), then run the command again."
         )
+    # once, also where PYTHONDONTWRITEBYTECODE would have every start compile everything again
+    subprocess.run(
+        [inner, "-m", "compileall", "-q", "-x", "/keys/", os.path.join(ROOT, "grader")], check=False
+    )
     with open(CHOSEN, "w") as stream:
         stream.write(os.path.realpath(shutil.which(python) or python))
     with open(os.path.join(VENV, "stamp"), "w") as stream:
