@@ -42,6 +42,7 @@ print(json.dumps(out))
 """
 
 
+@pytest.mark.full  # needs root, which `make test` does not
 def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> None:
     mark = f"sleep 95{secrets.randbelow(10**6)}"
     command = stage.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])

@@ -173,6 +173,7 @@ def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -
     assert report.environment.sandbox == "none"
 
 
+@pytest.mark.full  # needs root, which `make test` does not
 @pytest.mark.parametrize("name", ["solution", "period_half"])
 def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -> None:
     package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
