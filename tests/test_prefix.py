@@ -59,13 +59,14 @@ def test_sourcing_twice_changes_nothing_more(jazzy_prefix: Path) -> None:
     assert once == twice
 
 
-def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path) -> None:
+def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_path: Path) -> None:
     # the wheels' .pth marks the second start by a variable
     code = (
         "import os, rclpy; rclpy.init(); print(rclpy.create_node('a').get_name(), "
         "'_ROS_WHEELS_BOOTSTRAP_COMPLETE' in os.environ)"
     )
-    assert sourced(jazzy_prefix, f'HOME=/tmp exec python3 -c "{code}"').split() == ["a", "False"]
+    said = sourced(jazzy_prefix, f'HOME="{tmp_path}" exec python3 -c "{code}"')
+    assert said.split() == ["a", "False"]
 
 
 def test_the_distros_own_versions_are_in_it(ros_jazzy: Ros, ros_kilted: Ros) -> None:

@@ -17,6 +17,7 @@ import select
 import shutil
 import signal
 import subprocess
+import time
 from collections.abc import Iterator
 from collections.abc import Sequence
 from pathlib import Path
@@ -32,6 +33,8 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.base import need
 from grader.sandbox.cgroups import Group
 from grader.sandbox.cgroups import open_group
+from grader.sandbox.processes import adopt_orphans
+from grader.sandbox.processes import collect_orphans
 
 WORKSPACE = f"{HOME}/ros2_ws"
 PROFILE = "/etc/grader/fastdds.xml"
@@ -40,6 +43,7 @@ FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-rel
 FIRST_UID = 61_000
 UIDS = 4_000
 END_SECONDS = 10.0
+POLL_SECONDS = 0.02
 CAUSES = (
     ("setting up uid map", "unprivileged user namespaces are not allowed here"),
     ("No permissions to create", "unprivileged user namespaces are not allowed here"),
@@ -75,6 +79,7 @@ class Bubblewrap(Sandbox):
 
     def open(self) -> None:
         """Start the holder; SurroundingsError says why namespaces are refused, and the remedy."""
+        adopt_orphans()
         texts = {
             "/etc/passwd": self._passwd(),
             "/etc/group": "root:x:0:\nstudent:x:1000:\n",
@@ -166,8 +171,13 @@ class Bubblewrap(Sandbox):
         """Wait until the namespace's first process is gone: the kernel has ended all others then."""
         if self._held < 0:
             return
-        select.select([self._held], [], [], END_SECONDS)
+        deadline = time.monotonic() + END_SECONDS
+        while not select.select([self._held], [], [], POLL_SECONDS)[0]:
+            collect_orphans()  # a submission can kill what would have collected its processes
+            if time.monotonic() > deadline:
+                break
         os.close(self._held)
+        collect_orphans()
         self._held, self._held_pid = -1, 0
 
     def _passwd(self) -> str:

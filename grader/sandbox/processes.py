@@ -52,3 +52,20 @@ def reap(pids: Iterable[int]) -> None:
                 os.waitpid(pid, os.WNOHANG)
         except OSError:
             continue
+
+
+def collect_orphans() -> None:
+    """Collect the ended orphans of a PID namespace below ours that have become our children.
+
+    (What this process has started itself is in its own namespace, and is left to `subprocess`.)
+    """
+    own = os.getpid()
+    for pid in descendants(own):
+        try:
+            text = Path(f"/proc/{pid}/status").read_text()
+            status = dict(line.split(":", 1) for line in text.splitlines() if ":" in line)
+            ended = status["State"].strip().startswith("Z")
+            if ended and int(status["PPid"]) == own and len(status["NSpid"].split()) > 1:
+                os.waitpid(pid, os.WNOHANG)
+        except (OSError, KeyError, ValueError):
+            continue
