@@ -246,6 +246,21 @@ def test_kill_9_of_the_grader_leaves_nothing() -> None:
     assert [line for line in stage.alive(mark) if "bash -c" not in line] == []
 
 
+def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) -> None:
+    from grader.sandbox.cgroups import open_group
+
+    dead = subprocess.Popen(["true"])
+    dead.wait()
+    for controller in ("memory", "pids"):
+        (tmp_path / controller).mkdir()
+        (tmp_path / controller / "cgroup.procs").touch()
+        (tmp_path / controller / "ros2_grader" / f"{dead.pid}-1").mkdir(parents=True)
+        (tmp_path / controller / "ros2_grader" / f"{os.getpid()}-1").mkdir()
+    open_group(Limits(), root=tmp_path)
+    left = {path.name for path in tmp_path.glob("*/ros2_grader/*")}
+    assert left == {f"{os.getpid()}-1"}
+
+
 def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
     code = (
         "import json\n"

@@ -98,11 +98,20 @@ def _open_v1(group: Group, limits: Limits, root: Path, name: str) -> None:
             folder.mkdir(parents=True)
         except OSError:
             continue
+        _clear_away(folder.parent)
         if _set(folder, values):
             group.folders.append(folder)
             group.holds.append(limit)
         else:
             folder.rmdir()
+
+
+def _clear_away(parent: Path) -> None:
+    """Remove the empty groups of graders that were killed: their names begin with a dead process."""
+    for folder in parent.glob("[0-9]*-[0-9]*"):
+        if not Path("/proc", folder.name.partition("-")[0]).exists():
+            with contextlib.suppress(OSError):
+                folder.rmdir()
 
 
 def _open_v2(group: Group, limits: Limits, root: Path, name: str) -> None:
