@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from grader.report.model import Report
     from grader.runner import Order
 
-ISSUES = "the project's issue tracker"
-
 
 class Terminated(BaseException):
     """SIGTERM came: everything is closed on the way out."""

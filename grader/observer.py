@@ -56,7 +56,6 @@ class Watch:
     missing: list[int] = field(default_factory=list)
     period: float | None = None
     settled: bool = False
-    foreign_clock: bool = False
     note: str = ""
 
     @property

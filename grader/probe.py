@@ -45,7 +45,6 @@ class Probe:
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
         self.logs: list[dict[str, Any]] = []
-        self.dropped = 0
         self.clients: dict[str, Any] = {}
         self.clock = self.node.create_publisher(Clock, "/clock", 10)
         rosout = QoSProfile(
@@ -58,7 +57,6 @@ class Probe:
     def on_log(self, log: Log) -> None:
         """Keep a record until the next answer."""
         if len(self.logs) >= MOST_LOGS:
-            self.dropped += 1
             return
         self.logs.append(
             {
@@ -144,7 +142,7 @@ class Probe:
                 self.executor.spin_once(timeout_sec=0.01)
         self.executor.spin_once(timeout_sec=0)
         logs, self.logs = self.logs, []
-        answer = {"barrier": barrier, "logs": logs, "dropped": self.dropped}
+        answer = {"barrier": barrier, "logs": logs}
         if command["do"] != "clock":
             answer["nodes"] = self.graph()
             answer["matched"] = self.matched()

@@ -9,7 +9,6 @@ import select
 import subprocess
 import time
 from dataclasses import dataclass
-from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +54,6 @@ class Answer:
     nodes: tuple[NodeSeen, ...] = ()
     clocks: int = 0
     matched: bool = False
-    raw: dict[str, Any] = field(default_factory=dict, repr=False)
 
 
 class ProbeError(SurroundingsError):

@@ -39,7 +39,6 @@ class Run:
     signal: int | None = None
     transcript: str = ""
     flooded: bool = False
-    timed_out: bool = False
     resource: str = ""
     inconsistent: bool = False
     seconds: float = 0
@@ -91,7 +90,6 @@ def observe(
             run.first_line_seconds = counted[0].wall - terminal.started
         run.ended_by_itself = terminal.ended
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
-        run.timed_out = time.monotonic() - begin > limits.run_seconds
         _stop(run, terminal, limits.stop_seconds)
         run.watch.events += observer.take()
     finally:
@@ -144,7 +142,6 @@ def _watch(
             clock.drive(run.watch, tell)
         except ForeignClock as foreign:
             run.watch.events += foreign.events
-            run.watch.foreign_clock = True
             run.watch.note = "the node publishes /clock itself"
             watch_wall(observer, output, run.watch, tell, deadline=deadline)
     else:

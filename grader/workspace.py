@@ -71,12 +71,6 @@ class Build:
         """
         return [path for path in self.files if PREFIX.sub("", path) == place]
 
-    @property
-    def finished(self) -> int:
-        """How many packages colcon says it has finished."""
-        match = re.search(r"^Summary: (\d+) packages? finished", self.log, re.MULTILINE)
-        return int(match.group(1)) if match else 0
-
 
 def as_tar(submission: Submission, folder: str) -> bytes:
     """Return the package as a tar stream with `folder` as its root."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import subprocess
 import sys
@@ -88,11 +87,6 @@ def alive(mark: str) -> list[str]:
             if mark in line:
                 found.append(line)
     return found
-
-
-def adopt_orphans() -> None:
-    """Have this process inherit the orphans of what it starts: none of them escapes a test."""
-    ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
 
 
 def descendants() -> dict[int, str]:

@@ -19,6 +19,7 @@ from grader.ros.cache import cache_root
 from grader.ros.distro import find_distro
 from grader.runner import Order
 from grader.runner import grade
+from grader.sandbox.processes import adopt_orphans
 from tests import stage
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -82,7 +83,7 @@ def test_a_broken_package_fails_where_and_why_it_must(package: Package, tmp_path
 
 @pytest.mark.parametrize("package", packages(HOSTILE, 2))
 def test_a_hostile_package_harms_nothing(package: Package, tmp_path: Path) -> None:
-    stage.adopt_orphans()
+    adopt_orphans()
     before = set(stage.descendants())
     begin = time.monotonic()
     report = mark(write(package, tmp_path))
