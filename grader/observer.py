@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Iterable
+from collections.abc import Iterator
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
@@ -64,10 +65,22 @@ class Watch:
         own = [event for event in self.events if event.n is not None]
         if own:
             return own
-        others = [event for event in self.events if event not in self.before_start]
+        others = [e for e in without_tracebacks(self.events) if e not in self.before_start]
         moments = {event.due if self.clock == "virtual" else event.wall for event in others}
         # what comes once only is a message or a traceback, and no count
         return others if len(moments - {None}) > 1 else []
+
+
+def without_tracebacks(events: Iterable[Event]) -> Iterator[Event]:
+    """Yield the events before the first traceback, and of those after it what ROS itself saw.
+
+    (A traceback reaches the terminal in pieces, at several moments: it is no count for that.)
+    """
+    broke = False
+    for event in events:
+        broke = broke or (event.source == "print" and event.text.startswith("Traceback (most"))
+        if not broke or event.source != "print":
+            yield event
 
 
 class Observer:

@@ -1,0 +1,63 @@
+"""What is taken for the count, and which lines are judged, however the pieces of a run arrive."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.assignment import load_assignment
+from grader.checks.counting import logger
+from grader.checks.registry import Failed
+from grader.evidence import Evidence
+from grader.observer import Event
+from grader.observer import Source
+from grader.observer import Watch
+from grader.running import Run
+from grader.submission import take_in
+from tests.conftest import ROOT
+
+SOLUTION = ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+COURSE = ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
+
+
+def event(text: str, *, due: int, source: Source = "print", n: int | None = None) -> Event:
+    return Event(text, wall=100.0 + due, virtual=due, source=source, n=n, due=due, logger="my_node")
+
+
+def run_of(*events: Event, ended: bool) -> Evidence:
+    run = Run(command="", watch=Watch(clock="virtual", events=list(events)), ended_by_itself=ended)
+    assignment = load_assignment(COURSE)
+    submission = take_in(
+        Path(SOLUTION), package=assignment.package, node_file=assignment.node_file, name=None
+    )
+    return Evidence(assignment, submission, build=lambda: pytest.fail("built"), run=lambda: run)
+
+
+def test_a_traceback_that_arrives_in_pieces_is_no_count() -> None:
+    pieces = ["Traceback (most recent call last):", '  File "a.py", line 1', "ValueError: no"]
+    watch = Watch(clock="virtual", events=[event(text, due=at) for at, text in enumerate(pieces)])
+    assert watch.counted == []
+
+
+def test_wrong_lines_before_a_traceback_are_still_the_count() -> None:
+    wrong = [event("Hello Time: 0", due=0), event("Hello Time: 1", due=1)]
+    crash = [event("Traceback (most recent call last):", due=2), event("ValueError: no", due=3)]
+    assert Watch(clock="virtual", events=wrong + crash).counted == wrong
+
+
+def test_a_record_lost_with_its_node_is_not_called_a_forgery() -> None:
+    last = event("Hello time: 2", due=2, source="faked", n=2)
+    assert logger.function(run_of(last, ended=True)) is not None
+
+
+def test_a_forged_record_of_a_node_that_runs_on_is_one() -> None:
+    with pytest.raises(Failed) as failed:
+        logger.function(run_of(event("Hello time: 2", due=2, source="faked", n=2), ended=False))
+    assert failed.value.mistakes
+
+
+def test_a_forgery_long_before_the_end_is_one_all_the_same() -> None:
+    lines = [event(f"Hello time: {n}", due=n, source="faked", n=n) for n in (0, 5)]
+    with pytest.raises(Failed):
+        logger.function(run_of(*lines, ended=True))
