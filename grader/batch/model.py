@@ -1,0 +1,122 @@
+"""What the rooms of a class run hand to each other: students, what they handed in, their results.
+
+Instants are aware datetimes (UTC). A `key` names one student within one class and never changes:
+the number that the course's system uses (Moodle's participant id, Canvas' user id), else the name
+of the folder or archive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from dataclasses import field
+from datetime import datetime
+from pathlib import Path
+from typing import Literal
+
+from grader.report.model import Report
+
+System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
+EntryStatus = Literal["graded", "ungradable", "missing", "pending"]
+
+
+@dataclass(frozen=True)
+class Student:
+    """One person (or team) of the class; what the course's system does not say is ""."""
+
+    key: str
+    name: str
+    email: str = ""
+    username: str = ""
+    id_number: str = ""
+    section: str = ""
+
+
+@dataclass(frozen=True)
+class HandedIn:
+    """One attempt: `path` is a folder or an archive on this machine.
+
+    `problem` says why there is nothing that could be marked (a corrupt archive, say); `notes` what
+    the instructor should know. `submitted` is the course system's own time stamp, None if it does
+    not tell; `late` is its own word on it.
+    """
+
+    student: Student
+    path: Path
+    attempt: int = 1
+    submitted: datetime | None = None
+    late: bool | None = None
+    notes: tuple[str, ...] = ()
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class ClassFolder:
+    """A class as it was downloaded: every attempt, and the roster's students without any."""
+
+    system: System
+    path: Path
+    handed_in: tuple[HandedIn, ...]
+    missing: tuple[Student, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Override:
+    """An instructor's correction: `check` "" corrects the total. It outlives reruns and regrades."""
+
+    student: str
+    check: str
+    points: float
+    because: str
+    by: str = ""
+    at: datetime | None = None
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What one student gets: the report that counts, and what was made of its score.
+
+    `score` is the report's with overrides (None where there is none); `penalty` the points taken
+    for lateness; `final` what goes into the gradebook, None if nothing does (an ungradable
+    submission waits for the instructor; a missing one follows the assignment's policy).
+    """
+
+    student: Student
+    status: EntryStatus
+    report: Report | None = None
+    score: float | None = None
+    penalty: float = 0
+    final: float | None = None
+    max_score: float = 100
+    attempt: int = 1
+    attempts: int = 1
+    submitted: datetime | None = None
+    late_seconds: float = 0
+    problem: str = ""
+    notes: tuple[str, ...] = ()
+    overrides: tuple[Override, ...] = ()
+    same_as: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ClassResult:
+    """The whole class, in the order of the roster: what every output is a pure function of."""
+
+    title: str
+    assignment: str
+    system: System
+    entries: tuple[Entry, ...]
+    max_score: float
+    distros: tuple[str, ...] = ()
+    started: datetime | None = None
+    seconds: float = 0
+    notes: tuple[str, ...] = ()
+    identical: tuple[tuple[str, ...], ...] = field(default=())
+    """Groups of keys whose submissions are the same once white space and comments are gone."""
+
+    def entry(self, key: str) -> Entry:
+        """Return one student's entry; KeyError if there is no such student."""
+        for entry in self.entries:
+            if entry.student.key == key:
+                return entry
+        raise KeyError(key)
