@@ -73,7 +73,7 @@ def _student_folder(out: Path, student: str, submission: str) -> Iterator[tuple[
             with top.private(name) as folder:
                 yield folder, locked
     except OSError as error:
-        raise _explained(error, out) from error
+        raise could_not_write(error, out) from error
 
 
 def _open_out(out: Path) -> Folder:
@@ -151,7 +151,8 @@ def _file_name(name: str) -> str:
     return name
 
 
-def _explained(error: OSError, out: Path) -> SurroundingsError:
+def could_not_write(error: OSError, out: Path, *, what: str = "the report") -> SurroundingsError:
+    """Return the error to show where something could not be written below `out`."""
     where = error.filename if isinstance(error.filename, str) else str(out)
     reason = error.strerror or str(error)
     if error.errno in FULL:
@@ -164,5 +165,5 @@ def _explained(error: OSError, out: Path) -> SurroundingsError:
     else:
         remedy = "Name another folder with --out."
     return SurroundingsError(
-        f"the report could not be written below {out}: {where}: {reason}", remedy=remedy
+        f"{what} could not be written below {out}: {where}: {reason}", remedy=remedy
     )

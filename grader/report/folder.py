@@ -105,6 +105,11 @@ class Folder:
         with open(fd, "rb") as file:  # noqa: PTH123 - it is a descriptor
             return file.read() if stat.S_ISREG(os.fstat(fd).st_mode) else None
 
+    def remove(self, name: str) -> None:
+        """Remove a file, if it is there; of a link it is the link that goes."""
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(name, dir_fd=self._fd)
+
     def replace(self, name: str, content: bytes) -> None:
         """Put a file in the place of `name`: at each moment there is the old one or the new one.
 

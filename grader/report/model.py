@@ -122,13 +122,19 @@ class Exit(_Part):
 
 
 class Observed(_Part):
-    """What the run showed."""
+    """What the run showed.
+
+    `period` is what the assignment asks for, in seconds; `due` the instants (virtual) at which the
+    clock stood still to wait for a line, empty on the wall clock.
+    """
 
     command: str = ""
     clock: Literal["virtual", "wall"] | None = None
     ticks: list[Tick] = Field(default_factory=list)
     nodes: list[str] = Field(default_factory=list)
     exit: Exit | None = None
+    period: float | None = None
+    due: list[float] = Field(default_factory=list)
 
 
 class Evidence(_Part):

@@ -30,7 +30,7 @@ def _spelled(character: str) -> str:
 
 def one_line(text: str, *, most: int = 300) -> str:
     """Return `text` on one line (newlines spelled out), cut in the middle to `most` characters."""
-    return visible(_shorten(text, most=most)).replace("\n", "\\n")
+    return visible(shorten(text, most=most)).replace("\n", "\\n")
 
 
 def first_lines(text: str, *, lines: int, most: int = 500) -> list[str]:
@@ -41,7 +41,7 @@ def first_lines(text: str, *, lines: int, most: int = 500) -> list[str]:
         tail = lines - head
         left_out = f"[... {len(found) - lines:,} lines left out ...]"
         found = [*found[:head], left_out, *(found[-tail:] if tail else [])]
-    return [visible(_shorten(line, most=most)) for line in found]
+    return [visible(shorten(line, most=most)) for line in found]
 
 
 def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], int]:
@@ -55,7 +55,7 @@ def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], in
         if found[number].lstrip().startswith("Traceback (most recent call last)"):
             start = min(start, number)
             break
-    return [visible(_shorten(line, most=most)) for line in found[start:]], len(found)
+    return [visible(shorten(line, most=most)) for line in found[start:]], len(found)
 
 
 def points(value: float) -> str:
@@ -73,7 +73,8 @@ def _split(text: str) -> list[str]:
     return text.replace("\r\n", "\n").strip("\n").rstrip().split("\n")
 
 
-def _shorten(text: str, *, most: int) -> str:
+def shorten(text: str, *, most: int) -> str:
+    """Return `text`, cut in the middle to about `most` characters."""
     if len(text) <= most:
         return text
     half = most // 2

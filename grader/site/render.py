@@ -1,0 +1,107 @@
+"""HTML from templates. Every text is taken for hostile, whoever wrote it.
+
+Three walls, each enough by itself: in every expression of every template markup is escaped, what
+cannot be seen is spelled out and what is long is cut; the content security policy of each page allows only the
+style and the script of this room, by their hashes; and there is no place in a template where a text
+becomes an address, a style or a script.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from pathlib import Path
+
+from jinja2 import Environment
+from jinja2 import FileSystemLoader
+from jinja2 import StrictUndefined
+from markupsafe import Markup
+from markupsafe import escape
+
+from grader.batch.model import Student
+from grader.report.blocks import WORDS
+from grader.report.plain import one_line
+from grader.report.plain import points
+from grader.report.plain import shorten
+from grader.report.plain import visible
+from grader.site.words import SIGNS
+from grader.site.words import STATES
+from grader.site.words import duration
+from grader.site.words import instant
+from grader.site.words import plural
+
+TEMPLATES = Path(__file__).resolve().parent / "templates"
+MOST = 1_000  # characters of a text that is not a whole log or field
+MOST_NAME = 120
+
+
+class Renderer:
+    """Makes pages of the templates; `values` are known in all of them."""
+
+    def __init__(self, **values: object) -> None:
+        self._css = (TEMPLATES / "site.css").read_text(encoding="utf-8")
+        self._js = (TEMPLATES / "site.js").read_text(encoding="utf-8")
+        self._environment = _environment()
+        self._environment.globals.update(values)
+
+    def page(self, template: str, *, script: bool, **values: object) -> bytes:
+        """Return a page in UTF-8, with our script in it or none at all."""
+        js = self._js if script else ""
+        style, code = Markup(self._css), Markup(js)  # noqa: S704 - files of this room
+        known = {"css": style, "js": code, "policy": _policy(self._css, js)}
+        text = self._environment.get_template(template).render(known, **values)
+        return text.encode()
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=_tamed,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(seconds="{:.3f} s".format, whole=_whole)
+    environment.globals.update(
+        states=STATES,
+        signs=SIGNS,
+        words=WORDS,
+        points=points,
+        duration=duration,
+        instant=instant,
+        plural=plural,
+        one_line=one_line,
+        who=_who,
+    )
+    return environment
+
+
+def _who(student: Student) -> str:
+    """Return a student's name, fit for a heading or a link."""
+    return one_line(student.name or student.key, most=MOST_NAME)
+
+
+def _tamed(value: object) -> object:
+    """Spell out what cannot be seen in a text and bound its length; markup of ours stays."""
+    if not isinstance(value, str) or isinstance(value, Markup):
+        return value
+    return visible(shorten(value, most=MOST))
+
+
+def _whole(text: str) -> Markup:
+    """Return a text that was cut already as what may stand between two tags."""
+    return escape(visible(text))
+
+
+def _policy(css: str, js: str) -> str:
+    """Return the content security policy: nothing but these two texts, and no requests."""
+    script = f"'{_hash(js)}'" if js else "'none'"
+    return (
+        f"default-src 'none'; style-src '{_hash(css)}'; script-src {script}; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def _hash(text: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

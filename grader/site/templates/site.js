@@ -1,0 +1,70 @@
+"use strict";
+// Search and sort; all that is read is there without them.
+
+const plain = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
+
+const value = (row, column) => {
+  const cell = row.cells[column];
+  return cell.dataset.value ?? cell.textContent.trim();
+};
+
+const compare = (a, b, isNumber) =>
+  isNumber ? Number(a) - Number(b) : a.localeCompare(b, "en", { numeric: true, sensitivity: "base" });
+
+const sort = (table, column, direction) => {
+  const isNumber = table.tHead.rows[0].cells[column].classList.contains("number");
+  const sign = direction === "ascending" ? 1 : -1;
+  const rows = [...table.tBodies[0].rows].map((row) => ({ row, key: value(row, column) }));
+  rows.sort((a, b) => {
+    // what has no value comes last, whichever the direction
+    if (a.key === "" || b.key === "") return Number(a.key === "") - Number(b.key === "");
+    return sign * compare(a.key, b.key, isNumber);
+  });
+  table.tBodies[0].append(...rows.map(({ row }) => row));
+  for (const head of table.tHead.rows[0].cells) head.removeAttribute("aria-sort");
+  table.tHead.rows[0].cells[column].setAttribute("aria-sort", direction);
+};
+
+for (const table of document.querySelectorAll("table.sortable")) {
+  for (const [column, head] of [...table.tHead.rows[0].cells].entries()) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.append(...head.childNodes);
+    head.append(button);
+    button.addEventListener("click", () => {
+      const before = head.getAttribute("aria-sort");
+      sort(table, column, before === "ascending" ? "descending" : "ascending");
+    });
+  }
+}
+
+const field = document.getElementById("find");
+const shown = document.getElementById("shown");
+const rows = [...document.querySelectorAll("#all tbody tr")].map((row) => ({
+  row,
+  text: plain(`${row.textContent} ${row.dataset.find}`),
+}));
+
+const find = () => {
+  const words = plain(field.value).split(/\s+/).filter(Boolean);
+  let count = 0;
+  for (const { row, text } of rows) {
+    row.hidden = !words.every((word) => text.includes(word));
+    count += row.hidden ? 0 : 1;
+  }
+  const all = `${rows.length} ${rows.length === 1 ? "student" : "students"}`;
+  shown.textContent = words.length ? `${count} of ${all} shown` : all;
+};
+
+field.addEventListener("input", find);
+document.querySelector(".find").hidden = false;
+
+for (const button of document.querySelectorAll(".who")) {
+  button.hidden = false;
+  button.addEventListener("click", () => {
+    field.value = button.dataset.find;
+    find();
+    field.focus();
+  });
+}
+find();

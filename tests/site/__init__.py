@@ -1,0 +1,1 @@
+"""The page of a class, looked at in a real browser."""

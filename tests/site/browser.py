@@ -1,0 +1,108 @@
+"""Chromium from Debian's packages, with nothing of it that goes out by itself."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from dataclasses import field
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Browser
+from playwright.sync_api import Page
+from playwright.sync_api import sync_playwright
+
+CHROMIUM = Path("/usr/bin/chromium")
+FLAGS = (
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+
+def installed(program: str, package: str) -> Path:
+    """Return a program of Debian's packages, installed now if it is missing and we are root."""
+    if found := shutil.which(program):
+        return Path(found)
+    if os.geteuid() != 0:
+        raise RuntimeError(f"the tests need {program}: apt-get install {package}")
+    lock = Path(tempfile.gettempdir()) / "ros2_teaching_lab-apt.lock"
+    with lock.open("a") as handle:  # several test processes at once
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        if not shutil.which(program):
+            env = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+            for words in (["update"], ["install", "-y", "--no-install-recommends", package]):
+                subprocess.run(["apt-get", "-q", *words], env=env, check=True, capture_output=True)
+    return Path(shutil.which(program) or f"{program} is still missing")
+
+
+@contextmanager
+def browser() -> Iterator[Browser]:
+    """Start Chromium without a window; its profile is a new folder that goes with it."""
+    path = installed("chromium", "chromium")
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(
+            executable_path=path, headless=True, chromium_sandbox=False, args=list(FLAGS)
+        )
+        try:
+            yield started
+        finally:
+            started.close()
+
+
+@dataclass
+class Witness:
+    """What the page that is open did: the addresses it asked for, complaints, windows."""
+
+    page: Page
+    requests: list[str] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
+    dialogs: list[str] = field(default_factory=list)
+
+    def open(self, path: Path, part: str = "") -> Page:
+        """Open a page and forget what the one before did."""
+        for kept in (self.requests, self.complaints, self.dialogs):
+            kept.clear()
+        self.page.goto(path.as_uri() + part)
+        return self.page
+
+
+Open = Callable[..., Witness]
+
+
+@contextmanager
+def opening(started: Browser) -> Iterator[Open]:
+    """Give a function that opens a new page in a context of its own (options as new_context)."""
+    contexts = []
+
+    def new(**options: Any) -> Witness:
+        context = started.new_context(**options)
+        contexts.append(context)
+        witness = Witness(context.new_page())
+        page = witness.page
+        context.on("request", lambda request: witness.requests.append(request.url))
+        page.on("console", lambda message: witness.complaints.append(message.text))
+        page.on("pageerror", lambda error: witness.complaints.append(str(error)))
+
+        def dismiss(dialog: Any) -> None:
+            witness.dialogs.append(dialog.message)
+            dialog.dismiss()
+
+        page.on("dialog", dismiss)
+        return witness
+
+    try:
+        yield new
+    finally:
+        for context in contexts:
+            context.close()

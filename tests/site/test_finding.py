@@ -1,0 +1,131 @@
+"""Search and sort on the overview."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page
+from playwright.sync_api import expect
+
+from tests.site.browser import Open
+
+pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+
+
+@pytest.fixture
+def page(visit: Open, site: Path) -> Page:
+    return visit().open(site / "index.html")
+
+
+def column(page: Page, number: int) -> list[str]:
+    """The texts of a column of the students' table, of the rows that are shown."""
+    cells = page.locator(f"#all tbody tr:not([hidden]) > :nth-child({number})")
+    return [text.strip() for text in cells.all_inner_texts()]
+
+
+def points(page: Page) -> list[float]:
+    return [float(text.split()[0]) for text in column(page, 5) if text != "–"]
+
+
+def search(page: Page, text: str) -> None:
+    page.get_by_label("Find students").fill(text)
+
+
+def test_search_shows_those_who_match_every_word_and_says_how_many(page: Page) -> None:
+    search(page, "LEE ann")
+    assert column(page, 1) == ["Ann Lee"]
+    expect(page.get_by_role("status")).to_have_text("1 of 40 students shown")
+    search(page, "")
+    assert len(column(page, 1)) == 40
+    expect(page.get_by_role("status")).to_have_text("40 students")
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("jose lee", "José Lee"), ("ILIC", ""), ("dorte lee", "Dörte Lee"), ("70021", "Dörte Lee"),
+     ("student4@example.org", "Émile Lee"), ("user8", "Ines Lee")],
+)  # fmt: skip
+def test_search_knows_names_without_their_accents_numbers_and_addresses(
+    page: Page, text: str, name: str
+) -> None:
+    search(page, text)
+    assert column(page, 1) == ([name] if name else [])
+
+
+def test_search_finds_states_failed_checks_and_mistakes(page: Page) -> None:
+    search(page, "ungradable")
+    assert set(column(page, 4)) == {"ungradable"}
+    search(page, "run.output")
+    assert set(column(page, 6)) == {"run.output"}
+    search(page, "setup.misspelt_module")
+    assert set(column(page, 6)) == {"entry_point.mapping"}
+
+
+def test_a_search_for_nobody_says_so(page: Page) -> None:
+    search(page, "nobody at all")
+    expect(page.get_by_role("status")).to_have_text("0 of 40 students shown")
+
+
+def test_who_failed_a_check_is_one_press_away(page: Page) -> None:
+    page.get_by_role("button", name="who failed run.output").press("Enter")
+    expect(page.get_by_label("Find students")).to_be_focused()
+    assert set(column(page, 6)) == {"run.output"}
+
+
+def test_every_column_has_a_button_that_sorts_it(page: Page) -> None:
+    heads = page.locator("#all thead th")
+    assert heads.count() == 9
+    for head in heads.all():
+        button = head.get_by_role("button")
+        button.press("Enter")
+        expect(head).to_have_attribute("aria-sort", "ascending")
+        button.press(" ")
+        expect(head).to_have_attribute("aria-sort", "descending")
+        assert page.locator("#all thead th[aria-sort]").count() == 1
+
+
+def test_points_are_sorted_as_numbers_and_who_has_none_comes_last(page: Page) -> None:
+    button = page.locator("#all thead").get_by_role("button", name="Points")
+    button.click()
+    assert points(page) == sorted(points(page))
+    assert len(set(points(page))) > 3
+    assert set(column(page, 5)[-6:]) == {"–"}
+    button.click()
+    assert points(page) == sorted(points(page), reverse=True)
+    assert set(column(page, 5)[-6:]) == {"–"}
+
+
+def test_names_are_sorted_with_their_accents_where_readers_expect_them(page: Page) -> None:
+    page.locator("#all thead").get_by_role("button", name="Student").click()
+    firsts = [name.split()[0] for name in column(page, 1)]
+    assert list(dict.fromkeys(firsts)) == [
+        "Ann", "Bela", "Chidi", "Dörte", "Émile", "Farah", "Goran", "Hana", "Ines", "José",
+    ]  # fmt: skip
+
+
+def test_lateness_is_sorted_by_its_length(page: Page) -> None:
+    page.locator("#all thead").get_by_role("button", name="Late").click()
+    assert column(page, 7)[:3] == ["2 h 10 min", "2 h 10 min", ""]
+
+
+def test_a_sorted_table_keeps_its_search(page: Page) -> None:
+    search(page, "lee")
+    before = column(page, 1)
+    page.locator("#all thead").get_by_role("button", name="Points").click()
+    assert sorted(column(page, 1)) == sorted(before)
+
+
+def test_without_scripts_everything_can_be_read_and_nothing_is_there_that_does_not_work(
+    visit: Open, site: Path
+) -> None:
+    page = visit(java_script_enabled=False).open(site / "index.html")
+    expect(page.locator("#all tbody tr")).to_have_count(40)
+    expect(page.get_by_label("Find students")).not_to_be_visible()
+    expect(page.get_by_role("button")).to_have_count(0)
+    page.get_by_role("link", name="Bela Lee").first.click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Bela Lee")
+    page.get_by_role("link", name="Next").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Chidi Lee")
+    page.get_by_role("link", name="The class").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Robotics 1, winter term")
