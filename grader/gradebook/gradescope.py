@@ -1,0 +1,106 @@
+"""Gradescope's `results.json` (autograder_samples/docs/specs.md) of one report.
+
+A test with the visibility `hidden` or `after_due_date` is shown by Gradescope to whom it may be
+shown; what is said above the tests and in the others names none of them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from grader.batch.model import Entry
+from grader.batch.model import Override
+from grader.gradebook.check_text import check_text
+from grader.gradebook.points import Mark
+from grader.gradebook.points import marks
+from grader.gradebook.points import rounded
+from grader.gradebook.points import single
+from grader.gradebook.points import steps
+from grader.report.model import Report
+from grader.report.plain import first_lines
+from grader.report.plain import one_line
+from grader.report.plain import points
+
+MOST = 200  # characters of a name
+
+
+def results(
+    report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
+) -> dict[str, Any]:
+    """Return the results of a report; `penalty` are the points taken for lateness."""
+    entry = single(report, penalty=penalty, overrides=overrides)
+    return {
+        "score": entry.final or 0.0,
+        "execution_time": round(report.timing.total, 3),
+        "output": _output(entry, report),
+        "output_format": "text",
+        "test_output_format": "text",
+        "test_name_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "extra_data": _extra(report),
+        "tests": [_test(mark, report) for mark in marks(entry)],
+    }
+
+
+def results_json(found: dict[str, Any]) -> str:
+    r"""Return results as text: ASCII, `\n` at each line's end."""
+    return json.dumps(found, indent=1, allow_nan=False) + "\n"
+
+
+def problem(text: str, *, total: float = 0) -> dict[str, Any]:
+    """Return results that say why there are none; the student's text is `text`."""
+    output = "\n".join(first_lines(text, lines=20))
+    found: dict[str, Any] = {"score": 0.0, "output": output, "output_format": "text"}
+    tests = [{"name": "The grader", "score": 0.0, "output": output, "status": "failed"}]
+    tests[0] |= {"max_score": total} if total else {}
+    return {**found, "visibility": "visible", "stdout_visibility": "hidden", "tests": tests}
+
+
+def _test(mark: Mark, report: Report) -> dict[str, Any]:
+    check = mark.check
+    test: dict[str, Any] = {
+        "name": f"{one_line(check.id, most=60)}: {one_line(check.title, most=MOST)}",
+        "name_format": "text",
+        "score": mark.points or 0.0,
+        "max_score": rounded(check.max_score),
+        "output": check_text(mark, report),
+        "output_format": "text",
+        "visibility": check.visibility,
+        "extra_data": {"check": check.id, "status": check.status},
+    }
+    if mark.points is not None:  # what nobody knows is neither passed nor failed
+        test["status"] = "passed" if mark.passed else "failed"
+    return test
+
+
+def _output(entry: Entry, report: Report) -> str:
+    lines = [f"{points(entry.final or 0)} of {points(report.max_score)} points"]
+    if report.status == "error":
+        lines = ["The grader failed, not your package. Please tell your instructor."]
+    open_ = sum(mark.check.max_score for mark in marks(entry) if mark.points is None)
+    if open_:
+        lines.append(f"{points(open_)} points could be neither given nor taken.")
+    for step in steps(entry):
+        lines.append(f"{step.why}: {points(step.points)} points")
+    lines += [line for note in report.submission.notes for line in first_lines(note, lines=3)]
+    if report.observed.command:
+        lines.append(f"Run with: {one_line(report.observed.command, most=1_000)}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _extra(report: Report) -> dict[str, Any]:
+    """Return by what the report can be found again; Gradescope keeps it with the submission."""
+    return {
+        "report": {
+            "schema": report.schema_,
+            "assignment": report.assignment.id,
+            "assignment_sha256": report.assignment.sha256,
+            "submission_sha256": report.submission.sha256,
+            "distro": report.environment.distro,
+            "grader": report.environment.grader,
+            "started": report.started,
+        }
+    }

@@ -1,0 +1,183 @@
+"""What runs inside Gradescope's container: marks the submission, `results.json` always up to date.
+
+Gradescope takes what the file holds when the autograder ends or is cut off: it is there before the
+first check is asked and is replaced as a whole after each. What the student's code did is never
+read from it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sys
+import traceback
+from dataclasses import dataclass
+from dataclasses import field
+from pathlib import Path
+from typing import Any
+
+import click
+
+from grader import events
+from grader.errors import GraderError
+from grader.gradebook import gradescope
+from grader.ordering import make_orders
+from grader.report.blocks import UNSEEN
+from grader.report.folder import Folder
+from grader.report.model import CheckResult
+from grader.report.model import Report
+from grader.report.plain import one_line
+from grader.runner import Order
+from grader.runner import grade
+
+RESULTS = "results.json"
+METADATA = "submission_metadata.json"
+MOST_METADATA = 10_000_000  # bytes; earlier results are in it
+OUR_FAULT = (
+    "The grader failed, not your package. Please tell your instructor: the reason is in the "
+    "output that instructors see."
+)
+CUT_OFF = "Marking was cut off here. These checks were not asked yet: "
+
+
+@dataclass
+class ResultsFile:
+    """A listener that keeps `results.json` up to date while a submission is marked."""
+
+    folder: Path
+    order: Order
+    extra: dict[str, Any]
+    finished: list[CheckResult] = field(default_factory=list)
+
+    def __call__(self, event: events.Event) -> None:
+        """Take a finished check in and write the file anew."""
+        if isinstance(event, events.CheckFinished):
+            self.finished.append(event.result)
+            self.write(self._so_far())
+
+    def start(self) -> None:
+        """Write the file that counts if nothing else ever does."""
+        self.write(self._so_far())
+
+    def write(self, found: dict[str, Any]) -> None:
+        """Replace the file; it belongs to root, in a folder that others cannot write to."""
+        found = {**found, "extra_data": {**found.get("extra_data", {}), **self.extra}}
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with Folder.open(self.folder) as folder:
+            folder.close_to_others()
+            folder.replace(RESULTS, gradescope.results_json(found).encode("ascii"))
+
+    def failed(self) -> None:
+        """Say that the fault is ours, below what was found out before."""
+        found = self._so_far()
+        self.write({**found, "output": f"{OUR_FAULT}\n{found['output']}"})
+
+    def _so_far(self) -> dict[str, Any]:
+        """Return the results of the checks that were asked."""
+        assignment = self.order.assignment
+        asked = {result.id for result in self.finished}
+        report = _empty_report(self.order)
+        report = report.model_copy(
+            update={"checks": list(self.finished), "score": sum(r.score for r in self.finished)}
+        )
+        left = [use for use in assignment.checks if use.id not in asked]
+        names = [use.id if use.visibility == "visible" else UNSEEN for use in left]
+        found = gradescope.results(report)
+        cut_off = f"{CUT_OFF}{', '.join(dict.fromkeys(names))}\n" if names else ""
+        tests = found["tests"] or gradescope.problem(OUR_FAULT)["tests"]
+        return {**found, "output": found["output"] + cut_off, "tests": tests}
+
+
+def run(
+    autograder: Path,
+    *,
+    assignment: str = "hello_time",
+    distro: str = "jazzy",
+    sandbox: str = "account",
+) -> int:
+    """Mark `<autograder>/submission` and return the exit status.
+
+    0 if there is a verdict, 3 if the grader failed; `results/results.json` is there in each case.
+    """
+    results = autograder / "results"
+    metadata = read_metadata(autograder / METADATA)
+    try:
+        order = _order(autograder, metadata, assignment, distro, sandbox)
+    except GraderError as error:
+        click.echo(f"grader: {error}", err=True)
+        _write_problem(results)
+        return error.exit_status
+    file = ResultsFile(results, order, _extra(metadata))
+    file.start()
+    try:
+        report = grade(order, file)
+        file.write(gradescope.results(report))
+    except GraderError as error:
+        click.echo(f"grader: {error}", err=True)
+        file.failed()
+        return 3
+    except Exception:  # ours: the instructor sees it, the student that it is not theirs
+        traceback.print_exc(file=sys.stderr)
+        file.failed()
+        return 3
+    click.echo(f"{order.name or 'the submission'}: {report.score:g} of {report.max_score:g} points")
+    return 0
+
+
+def read_metadata(path: Path) -> dict[str, Any]:
+    """Return Gradescope's `submission_metadata.json`; {} where there is none that can be read."""
+    with contextlib.suppress(OSError, ValueError, RecursionError):
+        if path.stat().st_size <= MOST_METADATA:
+            found = json.loads(path.read_bytes())
+            return found if isinstance(found, dict) else {}
+    return {}
+
+
+def student_name(metadata: dict[str, Any]) -> str | None:
+    """Return the names of those who handed in together, None if the metadata does not say."""
+    users = metadata.get("users")
+    named = [u.get("name") for u in users if isinstance(u, dict)] if isinstance(users, list) else []
+    names = [one_line(name, most=60) for name in named if isinstance(name, str) and name.strip()]
+    return ", ".join(names) or None
+
+
+def _order(
+    autograder: Path, metadata: dict[str, Any], assignment: str, distro: str, sandbox: str
+) -> Order:
+    submission = autograder / "submission"
+    name = student_name(metadata)
+    return make_orders(submission, assignment, distro, sandbox, (), name=name)[0]
+
+
+def _extra(metadata: dict[str, Any]) -> dict[str, Any]:
+    known = {name: metadata.get(name) for name in ("id", "created_at")}
+    kept = {name: value for name, value in known.items() if isinstance(value, str | int)}
+    return {"submission": kept} if kept else {}
+
+
+def _write_problem(results: Path) -> None:
+    results.mkdir(parents=True, exist_ok=True)
+    with Folder.open(results) as folder:
+        text = gradescope.results_json(gradescope.problem(OUR_FAULT))
+        folder.replace(RESULTS, text.encode("ascii"))
+
+
+def _empty_report(order: Order) -> Report:
+    """Return the report of a submission of which nothing is known yet."""
+    assignment = order.assignment
+    return Report.model_validate(
+        {
+            "assignment": {
+                "id": assignment.id,
+                "title": assignment.title,
+                "sha256": assignment.sha256,
+            },
+            "submission": {"name": order.name or "", "path": "", "sha256": ""},
+            "environment": {"distro": order.distro.name, "ros": "wheels", "sandbox": "account"},
+            "status": "graded",
+            "score": 0,
+            "max_score": assignment.max_score,
+            "checks": [],
+            "started": "",
+        }
+    )

@@ -1,0 +1,87 @@
+"""One student's feedback as Markdown (CommonMark); no text of a submission becomes markup."""
+
+from __future__ import annotations
+
+import re
+
+from grader.batch.model import Entry
+from grader.gradebook.feedback import feedback_view
+from grader.gradebook.feedback import headline
+from grader.gradebook.feedback import hidden_words
+from grader.gradebook.feedback import mark_of
+from grader.report.plain import first_lines
+from grader.report.plain import last_lines
+from grader.report.plain import one_line
+from grader.site.student import CheckView
+
+# CommonMark: a backslash before ASCII punctuation makes it a character like any other
+ACTIVE = re.compile(r"([\\`*_\[\]<>&#|~!$@]|:(?=//)|(?<=www)\.|^[-+=])", re.I)
+LIST_NUMBER = re.compile(r"^(\d+)([.)])")
+BACKTICKS = re.compile(r"`+")
+LOG_LINES, FIELD_LINES = 60, 30
+
+
+def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
+    """Return the feedback; hidden checks are counted only, unless `show_hidden`."""
+    view = feedback_view(entry, show_hidden=show_hidden)
+    student = entry.student
+    lines = [f"# {_plain(student.name or student.key)}: {_plain(title)}", ""]
+    lines += [f"**{_plain(headline(entry))}**", ""]
+    if entry.problem:
+        lines += [_plain(entry.problem), ""]
+    lines += [f"- {_plain(line)}" for line in view.reckoning]
+    if view.checks:
+        lines += ["", "## Checks", ""]
+        lines += [f"- {_code(one.check.id)} {_plain(mark_of(one))}" for one in view.checks]
+    if hidden := hidden_words(view):
+        lines.append(f"- {_plain(hidden)}")
+    for one in view.checks:
+        if one.needs_block or one.override is not None or one.check.advice:
+            lines += ["", *_block(one)]
+    for name, text in (("ros2 run", view.transcript), ("colcon build", view.build_log)):
+        if text.strip():
+            lines += [
+                "",
+                f"## What {name} printed",
+                "",
+                *_fenced(last_lines(text, lines=LOG_LINES)[0]),
+            ]
+    return "\n".join(lines) + "\n"
+
+
+def _block(one: CheckView) -> list[str]:
+    lines = [f"## {_code(one.check.id)}: {_plain(one.check.title)}"]
+    for field in one.fields:
+        text = first_lines(field.text, lines=FIELD_LINES, most=1_000)
+        if not field.code:
+            lines += ["", f"{field.label}: {_plain(field.text)}"]
+        elif len(text) > 1:
+            lines += ["", f"{field.label}:", "", *_fenced(text)]
+        else:
+            lines += ["", f"{field.label}: {_code(text[0])}"]
+    if one.override is not None:
+        by = f" by {_plain(one.override.by)}" if one.override.by else ""
+        lines += ["", f"Corrected{by}, because: {_plain(one.override.because)}"]
+    return lines
+
+
+def _plain(text: str) -> str:
+    """Return a text as one line in which nothing is markup, wherever it stands."""
+    line = one_line(" ".join(first_lines(text, lines=40, most=1_000)), most=4_000).strip()
+    return LIST_NUMBER.sub(r"\1\\\2", ACTIVE.sub(r"\\\1", line))
+
+
+def _code(text: str) -> str:
+    """Return a text as code within a line; its fence is longer than any run of backticks in it."""
+    line = one_line(text, most=1_000)
+    fence = "`" * (_longest(line) + 1)
+    return f"{fence} {line} {fence}" if "`" in line or not line.strip() else f"{fence}{line}{fence}"
+
+
+def _fenced(lines: list[str]) -> list[str]:
+    fence = "`" * max(3, _longest("\n".join(lines)) + 1)
+    return [f"{fence}text", *lines, fence]
+
+
+def _longest(text: str) -> int:
+    return max((len(run) for run in BACKTICKS.findall(text)), default=0)

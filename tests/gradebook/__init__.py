@@ -1,0 +1,1 @@
+"""What goes back into other systems, read with those systems' own rules."""

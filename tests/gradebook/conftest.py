@@ -1,0 +1,31 @@
+"""Fixtures of these tests: the real reports that the page's tests have marked, once a session."""
+
+from __future__ import annotations
+
+import pytest
+
+from grader.batch.model import ClassResult
+from grader.report.model import Report
+from tests.site import classes
+from tests.site.conftest import chromium
+from tests.site.conftest import reports
+from tests.site.conftest import visit
+
+__all__ = ["chromium", "reports", "visit"]
+
+
+@pytest.fixture
+def mixed(reports: tuple[Report, ...]) -> ClassResult:
+    """A class of 24 with something of everything: late, missing, ungradable, corrected, …"""
+    return classes.mixed(reports, 24)
+
+
+@pytest.fixture
+def broken(reports: tuple[Report, ...]) -> Report:
+    """The real report of a package whose node says `hello time`."""
+    return reports[classes.REAL.index("text_capital")]
+
+
+@pytest.fixture
+def solution(reports: tuple[Report, ...]) -> Report:
+    return reports[classes.REAL.index("solution")]

@@ -1,0 +1,71 @@
+"""The commands of this room: what they print, write and refuse, and with which exit status."""
+
+from __future__ import annotations
+
+import json
+import stat as modes
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from grader.report.files import report_json
+from tests import stage
+from tests.gradebook.schemas import GRADESCOPE
+from tests.gradebook.schemas import PRAIRIELEARN
+from tests.gradebook.test_github import read
+from tests.gradebook.test_junit import suites
+from tests.report import samples
+
+
+def outputs(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    return stage.run([sys.executable, "-m", "grader.gradebook", *words])
+
+
+@pytest.fixture
+def report(tmp_path: Path) -> Path:
+    path = tmp_path / "report.json"
+    path.write_text(report_json(samples.failing_report()))
+    return path
+
+
+def test_a_report_is_converted_into_each_form(report: Path) -> None:
+    jsonschema.validate(json.loads(outputs("convert", "gradescope", report).stdout), GRADESCOPE)
+    jsonschema.validate(json.loads(outputs("convert", "prairielearn", report).stdout), PRAIRIELEARN)
+    name, _, value = outputs("convert", "github", report).stdout.partition("=")
+    assert name == "result"
+    assert read(value.strip())["status"] == "fail"
+    (suite,) = suites(outputs("convert", "junit", report).stdout.encode())
+    assert suite.failures == 1
+    assert outputs("convert", "md", report).stdout.startswith("# anna")
+
+
+def test_the_archive_is_written_for_its_owner_only(tmp_path: Path) -> None:
+    out = tmp_path / "autograder.zip"
+    done = outputs("gradescope-zip", out)
+    assert done.returncode == 0, done.stderr
+    assert modes.S_IMODE(out.stat().st_mode) == 0o600
+    with zipfile.ZipFile(out) as archive:
+        assert archive.testzip() is None
+        assert "run_autograder" in archive.namelist()
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["convert", "gradescope", "/no/such"], 2, "/no/such"),
+        (["convert", "gradescope", str(stage.ROOT / "setup.py")], 2, "no report"),
+        (["convert", "gradscope", "x"], 2, "gradscope"),
+        (["gradescope-zip", "--distro", "jazy", "x.zip"], 2, "did you mean 'jazzy'?"),
+        (["gradescope-zip", "--sandbox", "acount", "x.zip"], 2, "did you mean 'account'?"),
+        (["gradescope-zip", "/no/such/folder/x.zip"], 3, "could not be written"),
+    ],
+)
+def test_wrong_usage_says_what_to_do(words: list[str], status: int, said: str) -> None:
+    done = outputs(*words)
+    assert done.returncode == status
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr

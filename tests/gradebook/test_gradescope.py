@@ -1,0 +1,104 @@
+"""Gradescope's results.json: the reader's fields, our points, and what a student may not see."""
+
+from __future__ import annotations
+
+import json
+
+import jsonschema
+import pytest
+from hypothesis import given
+from hypothesis import settings
+
+from grader.batch.model import ClassResult
+from grader.batch.model import Override
+from grader.gradebook import gradescope
+from grader.report.model import Report
+from tests.gradebook.schemas import GRADESCOPE
+from tests.gradebook.texts import hostile_entry
+from tests.gradebook.texts import texts
+from tests.report import samples
+
+
+def test_real_reports_are_results_that_gradescope_reads(mixed: ClassResult) -> None:
+    reports = [entry.report for entry in mixed.entries if entry.report is not None]
+    for report in reports:
+        found = gradescope.results(report)
+        jsonschema.validate(json.loads(gradescope.results_json(found)), GRADESCOPE)
+        assert found["score"] == sum(test["score"] for test in found["tests"])
+        assert [test["max_score"] for test in found["tests"]] == [
+            check.max_score for check in report.checks
+        ]
+
+
+def test_a_failed_check_tells_what_was_found_and_how_to_mend_it(broken: Report) -> None:
+    tests = {t["extra_data"]["check"]: t for t in gradescope.results(broken)["tests"]}
+    output = tests["run.output"]["output"]
+    assert tests["run.output"]["status"] == "failed"
+    assert broken.check("run.output").fix.split()[0] in output
+    assert "found" in output
+    assert tests["build.colcon"]["status"] == "passed"
+
+
+def test_each_check_keeps_its_visibility_and_no_other_text_names_it() -> None:
+    hidden = samples.check("build.colcon", "failed", visibility="hidden", actual="secret fault")
+    late = samples.check("run.logger", "passed", visibility="after_due_date")
+    blocked = samples.check("run.output", "skipped", blocked_by="build.colcon")
+    found = gradescope.results(samples.report(hidden, late, blocked))
+    tests = {t["extra_data"]["check"]: t for t in found["tests"]}
+    shown = {check: test["visibility"] for check, test in tests.items()}
+    assert shown.pop("build.colcon") == "hidden"
+    assert shown.pop("run.logger") == "after_due_date"
+    assert set(shown.values()) == {"visible"}
+    for check, test in tests.items():
+        if check not in ("build.colcon", "run.logger"):
+            assert "build.colcon" not in json.dumps(test)
+    assert "a hidden check did not pass" in tests["run.output"]["output"]
+    assert "build.colcon" not in found["output"]
+    assert "secret" not in found["output"]
+
+
+def test_penalty_and_corrections_are_in_the_score_and_in_the_text() -> None:
+    change = Override("1", "entry_point.mapping", 12.5, "a typo of the sheet", by="M. Curie")
+    report = samples.failing_report()
+    found = gradescope.results(report, penalty=5, overrides=(change,))
+    assert found["score"] == report.score + 12.5 - 5
+    assert "Points taken for lateness: -5 points" in found["output"]
+    tests = {t["extra_data"]["check"]: t for t in found["tests"]}
+    assert tests["entry_point.mapping"]["score"] == 12.5
+    assert "M. Curie" in tests["entry_point.mapping"]["output"]
+    assert "a typo of the sheet" in tests["entry_point.mapping"]["output"]
+
+
+@pytest.mark.parametrize("penalty", [100, 1_000])
+def test_a_penalty_never_leads_below_zero(penalty: float) -> None:
+    assert gradescope.results(samples.failing_report(), penalty=penalty)["score"] == 0
+
+
+def test_what_nobody_knows_is_neither_passed_nor_failed() -> None:
+    open_ = samples.check("run.period", "inconclusive", actual="too busy")
+    found = gradescope.results(samples.report(open_))
+    test = next(t for t in found["tests"] if t["extra_data"]["check"] == "run.period")
+    assert "status" not in test
+    assert found["score"] == 96
+    assert "4 points could be neither given nor taken" in found["output"]
+
+
+def test_the_grader_s_own_fault_is_called_so() -> None:
+    found = gradescope.results(samples.report(status="error", checks=[], score=0))
+    assert found["score"] == 0
+    assert "not your package" in found["output"]
+
+
+@settings(max_examples=60, deadline=None)
+@given(texts)
+def test_hostile_texts_are_shown_as_harmless_text(text: str) -> None:
+    report = hostile_entry(text).report
+    assert report is not None
+    written = gradescope.results_json(gradescope.results(report))
+    assert written.isascii()
+    assert "\r" not in written
+    found = json.loads(written)
+    jsonschema.validate(found, GRADESCOPE)
+    for test in found["tests"]:
+        assert test["name"].isprintable()
+        assert test["output"].replace("\n", "").isprintable()

@@ -1,0 +1,69 @@
+"""Moodle's gradebook import: one unknown user would end it, so nobody doubtful is in the file."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+
+from hypothesis import given
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from grader.batch.model import ClassResult
+from grader.gradebook.moodle_import import moodle_import
+from tests.gradebook.texts import hostile_class
+from tests.gradebook.texts import texts
+from tests.report import samples
+from tests.site import classes
+
+
+def rows(content: bytes) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(content.decode(), newline="")))
+
+
+def test_each_student_has_one_row_by_id_number(mixed: ClassResult) -> None:
+    found = rows(moodle_import(mixed).content)
+    assert len(found) == len(mixed.entries)
+    for row, entry in zip(found, mixed.entries, strict=True):
+        assert row["ID number"] == entry.student.id_number
+        grade = row[mixed.title]
+        assert grade == "-" if entry.final is None else float(grade) == entry.final
+    assert "laboratory" in found[9]["Feedback"]
+
+
+def test_who_cannot_be_told_is_left_out_and_named() -> None:
+    entries = [classes.entry(n, samples.report()) for n in range(5)]
+
+    def with_email(n: int, email: str) -> None:
+        student = dataclasses.replace(entries[n].student, email=email)
+        entries[n] = dataclasses.replace(entries[n], student=student)
+
+    with_email(0, "")
+    with_email(1, "=1+1@example.org")
+    with_email(2, "twice@example.org")
+    with_email(3, "twice@example.org")
+    made = moodle_import(classes.result(entries), by="email")
+    assert [row["Email address"] for row in rows(made.content)] == ["student4@example.org"]
+    assert len(made.warnings) == 4
+    for entry, warning in zip(entries, made.warnings, strict=False):
+        assert entry.student.name in warning
+
+
+def test_what_most_students_have_identifies_them() -> None:
+    entries = [classes.entry(n, samples.report()) for n in range(3)]
+    bare = [
+        dataclasses.replace(e, student=dataclasses.replace(e.student, id_number="", email=""))
+        for e in entries
+    ]
+    assert "Username" in rows(moodle_import(classes.result(bare)).content)[0]
+    assert "ID number" in rows(moodle_import(classes.result(entries)).content)[0]
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(texts, min_size=1, max_size=3))
+def test_hostile_names_stay_in_their_cells(found: list[str]) -> None:
+    made = moodle_import(hostile_class(*found))
+    read = rows(made.content)
+    assert len(read) + len(made.warnings) == len(found)
+    assert all(None not in row and None not in row.values() for row in read)

@@ -1,0 +1,85 @@
+"""PrairieLearn's results.json: gradable or not, points on all tests, one megabyte at most."""
+
+from __future__ import annotations
+
+import json
+
+import jsonschema
+from hypothesis import given
+from hypothesis import settings
+
+from grader.batch.model import ClassResult
+from grader.gradebook import prairielearn
+from grader.gradebook.points import single
+from grader.report.model import Report
+from tests.gradebook.schemas import PRAIRIELEARN
+from tests.gradebook.texts import hostile_entry
+from tests.gradebook.texts import texts
+from tests.report import samples
+from tests.site import classes
+
+
+def test_the_score_is_the_share_of_the_final_points(mixed: ClassResult) -> None:
+    for entry in mixed.entries:
+        found = json.loads(prairielearn.results_json(prairielearn.results(entry)))
+        jsonschema.validate(found, PRAIRIELEARN)
+        assert found["gradable"] == (entry.final is not None)
+        if entry.final is not None and entry.report is not None:
+            assert found["score"] == entry.final / 100
+            assert len(found["tests"]) == len(entry.report.checks)
+
+
+def test_an_archive_that_cannot_be_read_costs_no_attempt() -> None:
+    entry = classes.entry(1, None, status="ungradable", problem="not a zip file any more")
+    found = prairielearn.results(entry)
+    assert found["gradable"] is False
+    assert found["format_errors"] == ["not a zip file any more"]
+    assert "score" not in found
+
+
+def test_corrections_and_lateness_are_told(mixed: ClassResult) -> None:
+    late, corrected = mixed.entry("1003"), mixed.entry("1009")
+    assert "late: -5 points" in prairielearn.results(late)["message"]
+    tests = {test["name"]: test for test in prairielearn.results(corrected)["tests"]}
+    assert tests["run.output"]["points"] == 10
+    assert "M. Curie" in tests["run.output"]["message"]
+
+
+def test_hidden_checks_have_points_but_no_name() -> None:
+    hidden = samples.check("build.colcon", "failed", visibility="hidden", actual="secret")
+    entry = single(samples.report(hidden))
+    written = json.dumps(prairielearn.results(entry))
+    assert "build.colcon" not in written
+    assert "secret" not in written
+    assert sum(test["max_points"] for test in prairielearn.results(entry)["tests"]) == 100
+
+
+def test_what_was_printed_is_in_it(broken: Report) -> None:
+    output = prairielearn.results(single(broken))["output"]
+    assert "hello time: 9" in output
+    assert "Finished <<< my_robot_controller" in output
+
+
+def test_a_report_of_many_megabytes_fits() -> None:
+    long = "\U0001f600" * 400 + "\n"
+    checks = [
+        samples.check(f"check.n{n}", "failed", actual=long * 40, fix=long * 40, expected=long * 40)
+        for n in range(12)
+    ]
+    report = samples.report(*checks, evidence={"transcript": long * 400, "build_log": long * 400})
+    found = prairielearn.results(single(report))
+    assert len(prairielearn.results_json(found).encode()) <= 1_000_000
+    assert len(found["tests"]) == len(report.checks)
+    jsonschema.validate(found, PRAIRIELEARN)
+
+
+@settings(max_examples=60, deadline=None)
+@given(texts)
+def test_hostile_texts_are_harmless(text: str) -> None:
+    entry = hostile_entry(text)
+    found = json.loads(prairielearn.results_json(prairielearn.results(entry)))
+    jsonschema.validate(found, PRAIRIELEARN)
+    assert found["score"] == 0.56
+    for test in found["tests"]:
+        assert test["name"].isprintable()
+        assert test["output"].replace("\n", "").isprintable()

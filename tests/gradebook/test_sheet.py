@@ -1,0 +1,75 @@
+"""A teacher's CSV file is read as `csv` reads it, and only the cells that we fill in change."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.errors import UsageError
+from grader.gradebook.sheet import Sheet
+from tests.gradebook.texts import texts
+
+bits = st.lists(st.sampled_from(["a", "ß", '"', ",", ";", "\t", "\r", "\n", "\r\n", " "])).map(
+    "".join
+)
+
+
+def rows_of(content: bytes, delimiter: str) -> list[list[str]]:
+    text = content.decode("utf-8-sig")
+    return [row for row in csv.reader(io.StringIO(text, newline=""), delimiter=delimiter) if row]
+
+
+@given(bits.filter(lambda text: text.strip("\r\n") != ""), st.booleans())
+def test_every_text_is_read_as_csv_reads_it(text: str, bom: bool) -> None:
+    content = text.encode("utf-8-sig" if bom else "utf-8")
+    sheet = Sheet(content, name="x")
+    assert [[c.value for c in row] for row in sheet.rows] == rows_of(content, sheet.delimiter)
+    assert sheet.filled({}) == content
+
+
+@given(
+    st.lists(
+        st.lists(texts.map(lambda t: t.replace("\x00", "")), min_size=3, max_size=3), min_size=2
+    ),
+    st.sampled_from([",", ";", "\t"]),
+    st.sampled_from(["\n", "\r\n"]),
+    texts.map(lambda t: t.replace("\x00", "")),
+)
+def test_one_filled_cell_changes_no_other(
+    rows: list[list[str]], delimiter: str, end: str, value: str
+) -> None:
+    rows[0] = ["Identifier", "Grade", "Feedback"]
+    rows = [[cell.encode("utf-8", "replace").decode() for cell in row] for row in rows]
+    value = value.encode("utf-8", "replace").decode()
+    out = io.StringIO()
+    csv.writer(out, delimiter=delimiter, lineterminator=end, quoting=csv.QUOTE_ALL).writerows(rows)
+    before = out.getvalue().encode()
+    after = Sheet(before, name="x").filled({(1, 1): value})
+    rows[1][1] = value
+    assert rows_of(after, delimiter) == rows
+    assert after.startswith(before[: before.index(end.encode())])
+
+
+def test_bytes_around_a_filled_cell_stay() -> None:
+    before = b'\xef\xbb\xbfa;"b"; c \r\n"x""y";1;  z\n\r\n"q";;\xc3\xa4'
+    after = Sheet(before, name="x").filled({(1, 1): "95", (2, 1): "a;b"})
+    assert after == b'\xef\xbb\xbfa;"b"; c \r\n"x""y";95;  z\n\r\n"q";"a;b";\xc3\xa4'
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("a,b\nÄnn,1".encode("cp1252"), "is not UTF-8"),
+        ("a,b\n".encode("utf-16"), "is not UTF-8"),
+        (b"PK\x03\x04\x00\x00", "is no CSV"),
+        (b"", "is empty"),
+        (b"\n\n", "is empty"),
+    ],
+)
+def test_what_is_no_csv_file_is_refused(content: bytes, said: str) -> None:
+    with pytest.raises(UsageError, match=said):
+        Sheet(content, name="the file")
