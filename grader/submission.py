@@ -3,52 +3,70 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import stat
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 
 from grader.errors import UsageError
+from grader.intake.archive_kind import without_ending
+from grader.intake.archive_limits import ArchiveLimits
+from grader.intake.archive_limits import Spent
+from grader.intake.archive_nested import look_inside
+from grader.intake.archive_problems import ArchiveError
 from grader.intake.choose import Choice
 from grader.intake.choose import choose
 from grader.intake.choose import find_candidates
 from grader.intake.contents import TooLargeError
 from grader.intake.contents import read_package
+from grader.intake.given import digest_of_file
+from grader.intake.given import open_place
+from grader.intake.given import resolved
 from grader.intake.model import Candidate
 from grader.intake.model import SourceFile
 from grader.intake.model import Submission
-from grader.intake.modes import git_ignores_modes
-from grader.intake.modes import git_modes
-from grader.intake.modes import keeps_modes
 from grader.intake.naming import sanitise
 from grader.intake.naming import submission_name
 from grader.intake.notes import shown
+from grader.intake.problems import Problem
 from grader.intake.problems import too_large
+from grader.intake.recorded import with_modes
 from grader.intake.tree import Tree
 from grader.intake.tree import ancestors
-from grader.intake.tree import join
-from grader.intake.tree import look
 from grader.report.model import Modes
+from grader.report.model import Origin
 
 __all__ = ["Candidate", "SourceFile", "Submission", "take_in"]
 
 MOST_NODE_FILES = 20
 
 
-def take_in(path: Path, *, package: str, node_file: str, name: str | None = None) -> Submission:
-    """Take in a directory that is the package, a workspace, or holds the package below.
+def take_in(
+    path: Path,
+    *,
+    package: str,
+    node_file: str,
+    name: str | None = None,
+    modes_kept: bool = True,
+) -> Submission:
+    """Take in a folder or an archive that is the package, a workspace, or holds the package below.
 
-    Raises UsageError for a path that is no directory, does not exist or cannot be read. All else
-    that is wrong is the student's, and is said in the Submission.
+    `modes_kept` is False where the way here lost the exec bits of a folder's files (what was
+    uploaded file by file, say). Raises UsageError for a path that is neither, does not exist or
+    cannot be read. All else that is wrong is the student's, and is said in the Submission.
     """
-    folder = _directory(path)
+    own = resolved(path)
+    name = name or submission_name(_without_ending(own), package)
+    spent = Spent(ArchiveLimits())
     try:
-        tree = look(folder)
+        place = open_place(own, spent, modes_kept=modes_kept)
+        tree, unopened = look_inside(place, spent)
+    except ArchiveError as error:
+        return _refused(own, name, error.problem)
     except OSError as error:
         raise UsageError(f"{shown(str(path))} cannot be read: {error.strerror}") from None
     candidates = find_candidates(tree)
     choice = choose(tree, candidates, package=package, node_file=node_file)
+    if not candidates and unopened is not None:
+        choice = Choice(None, problem=unopened)
     files: tuple[SourceFile, ...] = ()
     if choice.chosen is not None:
         try:
@@ -56,14 +74,14 @@ def take_in(path: Path, *, package: str, node_file: str, name: str | None = None
         except TooLargeError as error:
             choice = Choice(None, problem=too_large(str(error), choice.chosen.path))
     root = choice.chosen.path if choice.chosen else None
-    files, modes = _with_modes(tree, root, files)
+    files, modes = with_modes(tree, root, files)
     problem = choice.problem
     return Submission(
-        path=folder,
-        name=sanitise(name) if name else submission_name(folder, package),
-        origin="git" if any(place in tree.git for place in ancestors(root or ".")) else "directory",
+        path=own,
+        name=sanitise(name),
+        origin=_origin(tree, root or "."),
         modes=modes,
-        sha256=_digest(files if root is not None else _outline(tree)),
+        sha256=_digest(files if root is not None else _outline(tree), modes),
         root=root,
         files=files,
         candidates=tuple(candidates),
@@ -77,52 +95,30 @@ def take_in(path: Path, *, package: str, node_file: str, name: str | None = None
     )
 
 
-def _directory(path: Path) -> Path:
-    """Return the resolved path of a directory that exists."""
-    name = shown(str(path))
-    try:
-        kind = os.stat(path).st_mode  # noqa: PTH116 - one look tells all
-        if stat.S_ISDIR(kind):
-            return path.resolve()
-    except FileNotFoundError:
-        raise UsageError(f"there is no folder {name}") from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UsageError(f"{name} cannot be read: {reason}") from None
-    if stat.S_ISREG(kind):
-        raise UsageError(
-            f"{name} is a file, not a folder",
-            remedy="Give the folder that holds the package; archives come with class marking.",
-        )
-    raise UsageError(f"{name} is neither a folder nor a file")
+def _without_ending(path: Path) -> Path:
+    return path if path.is_dir() else path.with_name(without_ending(path.name))
 
 
-def _with_modes(
-    tree: Tree, root: str | None, files: tuple[SourceFile, ...]
-) -> tuple[tuple[SourceFile, ...], Modes]:
-    """Return the files with the exec bits that the student gave them, as far as that is known.
+def _origin(tree: Tree, root: str) -> Origin:
+    origin = tree.place.origin(root)
+    in_git = any(place in tree.git for place in ancestors(root))
+    return "git" if origin == "directory" and in_git else origin
 
-    A checkout whose git ignores them, or on a file system that has none, still has those of its
-    index.
-    """
-    if root is None:
-        return files, "recorded"
-    above = [place for place in ancestors(root) if place in tree.git]
-    repository = tree.root / above[0] if above else None
-    ignored = repository is not None and git_ignores_modes(repository)
-    if not ignored and keeps_modes(tree.root):
-        return files, "recorded"
-    known = git_modes(repository) if repository is not None else {}
-    inside = (tree.root / root).relative_to(repository).as_posix() if repository else "."
-    told = [known.get(join(inside, file.path)) for file in files]
-    told = [None if file.kind != "file" else mode for file, mode in zip(files, told, strict=True)]
-    python = [m for f, m in zip(files, told, strict=True) if f.path.endswith(".py")]
-    if not python or any(mode is None for mode in python):
-        return files, "unknown"
-    given = [
-        file if m is None else replace(file, mode=m) for file, m in zip(files, told, strict=True)
-    ]
-    return tuple(given), "recorded"
+
+def _refused(path: Path, name: str, problem: Problem) -> Submission:
+    """An archive that was not taken in: known by its bytes."""
+    return Submission(
+        path=path,
+        name=sanitise(name),
+        origin="zip" if path.suffix.lower() == ".zip" else "tar",
+        modes="unknown",
+        sha256=digest_of_file(path, most=ArchiveLimits().packed),
+        root=None,
+        files=(),
+        problem=problem.text,
+        problem_mistake=problem.mistake,
+        problem_fix=problem.fix,
+    )
 
 
 def _named(tree: Tree, name: str) -> tuple[str, ...]:
@@ -136,11 +132,12 @@ def _outline(tree: Tree) -> Iterable[SourceFile]:
         yield SourceFile(path, entry.kind, entry.mode, str(entry.size).encode(), entry.target)
 
 
-def _digest(files: Iterable[SourceFile]) -> str:
-    """Return the hash of what was handed in: paths, kinds, exec bits and contents."""
+def _digest(files: Iterable[SourceFile], modes: Modes) -> str:
+    """Return the hash of what was handed in: paths, kinds, exec bits (if known) and contents."""
     digest = hashlib.sha256()
     for file in files:
         bits = "x" if file.kind == "file" and file.mode & 0o100 else "-"
+        bits = bits if modes == "recorded" else "?"
         for part in (file.path, file.kind, bits, file.target, file.reason):
             digest.update(f"{len(part.encode())}:{part}".encode())
         digest.update(f"{len(file.data)}:".encode() + file.data)

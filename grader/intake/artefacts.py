@@ -7,9 +7,10 @@ folders are known by what is in them (colcon-core writes `COLCON_IGNORE` into al
 
 from __future__ import annotations
 
-import os
 from collections.abc import Set
-from pathlib import Path
+from itertools import islice
+
+from grader.intake.place import Place
 
 COLCON = frozenset({"build", "install", "log"})
 FOLDERS = frozenset(
@@ -33,49 +34,55 @@ MARKS = {
 MOST_PEEKED = 1_000
 
 
-def is_colcon_artefact(folder: Path, beside: Set[str]) -> bool:
+def is_colcon_artefact(place: Place, folder: str, beside: Set[str]) -> bool:
     """Whether a folder called build, install or log was made by colcon or by setup.py build.
 
     `beside` are those of the three names that lie side by side: colcon makes all three, so that
     one that is known makes the others known.
     """
-    if "__init__.py" in _names(folder):
+    if "__init__.py" in _names(place, folder):
         return False
-    return any(_is_marked(folder.parent / name) for name in beside)
+    above = folder.rpartition("/")[0]
+    return any(_is_marked(place, f"{above}/{name}" if above else name) for name in beside)
 
 
-def _is_marked(folder: Path) -> bool:
-    names = _names(folder)
+def _is_marked(place: Place, folder: str) -> bool:
+    names = _names(place, folder)
     if "__init__.py" in names:
         return False
-    if names & MARKS[folder.name]:
+    kind = folder.rpartition("/")[2]
+    if names & MARKS[kind]:
         return True
     starts = ("build_20", "list_20", "test_20", "bdist.", "temp.")
     if any(name.startswith(starts) for name in names):
         return True
-    return folder.name == "build" and any(
-        not (folder / name).is_symlink() and "colcon_build.rc" in _names(folder / name)
+    return kind == "build" and any(
+        not _is_link(place, f"{folder}/{name}")
+        and "colcon_build.rc" in _names(place, f"{folder}/{name}")
         for name in sorted(names)[:20]
     )
 
 
-def _names(folder: Path) -> set[str]:
-    found = set()
+def _is_link(place: Place, path: str) -> bool:
     try:
-        with os.scandir(folder) as entries:
-            for entry in entries:
-                found.add(entry.name)
-                if len(found) >= MOST_PEEKED:
-                    break
+        entry = place.entry(path)
+    except OSError:
+        return False
+    return entry is not None and entry.kind == "link"
+
+
+def _names(place: Place, folder: str) -> set[str]:
+    try:
+        return set(islice(place.names(folder), MOST_PEEKED))
     except OSError:
         return set()
-    return found
 
 
-def is_tool_folder(name: str, folder: Path) -> bool:
+def is_tool_folder(place: Place, folder: str) -> bool:
     """Whether a folder belongs to a tool and not to the package."""
+    name = folder.rpartition("/")[2]
     if name in (".venv", "venv", "env", ".env"):
-        return "pyvenv.cfg" in _names(folder) or name == ".venv"
+        return "pyvenv.cfg" in _names(place, folder) or name == ".venv"
     return name in FOLDERS or name.endswith((".egg-info", ".dist-info"))
 
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import difflib
 from dataclasses import dataclass
 
-from grader.intake.contents import Unread
-from grader.intake.contents import read_bytes
 from grader.intake.model import Candidate
 from grader.intake.notes import shown
 from grader.intake.problems import Problem
 from grader.intake.problems import duplicate
 from grader.intake.problems import no_package
+from grader.intake.reading import Unread
 from grader.intake.tree import Tree
 from grader.intake.tree import ancestors
 from grader.intake.tree import join
@@ -52,11 +51,11 @@ def _name(tree: Tree, folder: str) -> str:
     for file, read in ((MANIFEST, name_in), (SETUP, literal_name)):
         entry = tree.file(join(folder, file))
         if entry is not None:
-            found = read_bytes(tree.root / entry.path, MOST_NAMING_BYTES)
+            found = tree.place.read(entry.path, MOST_NAMING_BYTES)
             name = None if isinstance(found, Unread) else read(found)
             if name:
                 return shown(name)
-    return shown(tree.root.name if folder == "." else folder.rpartition("/")[2])
+    return shown(tree.place.name if folder == "." else folder.rpartition("/")[2])
 
 
 def choose(tree: Tree, candidates: list[Candidate], *, package: str, node_file: str) -> Choice:

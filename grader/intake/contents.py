@@ -1,20 +1,17 @@
-"""The files of one package, read with bounds; what is no plain file is never opened."""
+"""The files of one package, read with bounds."""
 
 from __future__ import annotations
 
-import os
-import stat
 from collections.abc import Iterator
-from dataclasses import dataclass
-from pathlib import Path
 
 from grader.intake.links import follow
 from grader.intake.model import SourceFile
+from grader.intake.place import Entry
+from grader.intake.reading import MEGABYTE
+from grader.intake.reading import Unread
 from grader.intake.tree import LEADS_OUT
-from grader.intake.tree import Entry
 from grader.intake.tree import Tree
 
-MEGABYTE = 1_000_000
 MOST_FILES = 5_000
 """How many files and folders a package may have."""
 MOST_FILE_BYTES = 5 * MEGABYTE
@@ -29,31 +26,6 @@ TOO_MANY_LINKS = f"left out, as there are more than {MOST_LINKS} links"
 
 class TooLargeError(Exception):
     """A package beyond the limits; the message says which and by how much."""
-
-
-@dataclass(frozen=True)
-class Unread:
-    """Why a file has no data."""
-
-    reason: str
-
-
-def read_bytes(path: Path, limit: int) -> bytes | Unread:
-    """Return a regular file's bytes, at most `limit`; never follows a link, never waits."""
-    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-    too_large = Unread(f"it is larger than {limit / MEGABYTE:g} MB")
-    try:
-        handle = os.open(path, flags)
-        with os.fdopen(handle, "rb") as file:
-            if not stat.S_ISREG(os.fstat(handle).st_mode):
-                return Unread("it is not a plain file")
-            if os.fstat(handle).st_size > limit:
-                return too_large
-            found = file.read(limit + 1)
-    except OSError as error:
-        return Unread(f"it cannot be read ({error.strerror or type(error).__name__})")
-    # (what grows while it is read, or tells no size, is cut off by the limit)
-    return too_large if len(found) > limit else found
 
 
 def read_package(tree: Tree, root: str) -> tuple[SourceFile, ...]:
@@ -89,7 +61,7 @@ class _Reader:
                 yield from self._link(path, entry)
 
     def _file(self, path: str, entry: Entry) -> SourceFile:
-        found = read_bytes(self._tree.root / entry.path, MOST_FILE_BYTES)
+        found = self._tree.place.read(entry.path, MOST_FILE_BYTES)
         if isinstance(found, Unread):
             self._tree.left_out.add(f"without its content, as {found.reason}", entry.path)
             return SourceFile(path, "file", entry.mode, unreadable=True, reason=found.reason)

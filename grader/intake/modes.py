@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import struct
+from collections.abc import Callable
 from collections.abc import Mapping
 from pathlib import Path
 
-from grader.intake.contents import Unread
-from grader.intake.contents import read_bytes
+from grader.intake.reading import Unread
+from grader.intake.reading import read_bytes
 
 MOUNTS = Path("/proc/self/mountinfo")
 NO_MODES = frozenset(
@@ -42,9 +43,11 @@ def keeps_modes(path: Path, mounts: Path = MOUNTS) -> bool:
     return kind not in NO_MODES
 
 
-def git_ignores_modes(repository: Path) -> bool:
+def git_ignores_modes(
+    repository: Path, read: Callable[[Path, int], bytes | Unread] = read_bytes
+) -> bool:
     """Whether `core.fileMode` is false in a checkout (git-config(1)); git itself is never run."""
-    found = read_bytes(repository / ".git" / "config", MOST_CONFIG_BYTES)
+    found = read(repository / ".git" / "config", MOST_CONFIG_BYTES)
     if isinstance(found, Unread):
         return False
     inside = False
@@ -58,12 +61,14 @@ def git_ignores_modes(repository: Path) -> bool:
     return False
 
 
-def git_modes(repository: Path) -> Mapping[str, int]:
+def git_modes(
+    repository: Path, read: Callable[[Path, int], bytes | Unread] = read_bytes
+) -> Mapping[str, int]:
     """Return the modes (0o644, 0o755) of a checkout's index by path; empty if it tells none.
 
     Versions 2 and 3 of the format (gitformat-index(5)) with SHA-1 names.
     """
-    found = read_bytes(repository / ".git" / "index", MOST_INDEX_BYTES)
+    found = read(repository / ".git" / "index", MOST_INDEX_BYTES)
     if isinstance(found, Unread) or len(found) < 12:
         return {}
     magic, version, count = struct.unpack(">4sII", found[:12])

@@ -60,8 +60,10 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
     if archives and len(files) == len(archives):
         return Problem(
             "package.archive_inside",
-            f"There is no package in the folder, only an archive: {shown(archives[0])}.",
-            "Hand in the archive itself, or unpack it and hand in the folder.",
+            "There is no package in the folder, only a file that is called an archive and is none: "
+            f"{shown(archives[0])}.",
+            "Pack the package's folder anew (a new name does not make an archive), and open the "
+            "archive once before you hand it in.",
         )
     links = list(tree.links().items())
     if not files and links:

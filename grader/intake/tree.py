@@ -1,15 +1,12 @@
-"""What lies in a directory: looked at from outside, no link followed, nothing opened."""
+"""What lies in a folder or an archive: looked at from outside, no link followed."""
 
 from __future__ import annotations
 
-import os
-import stat
 import unicodedata
 from collections import deque
 from dataclasses import dataclass
 from dataclasses import field
-from pathlib import Path
-from typing import Literal
+from dataclasses import replace
 
 from grader.intake.artefacts import COLCON
 from grader.intake.artefacts import is_colcon_artefact
@@ -17,6 +14,8 @@ from grader.intake.artefacts import is_tool_file
 from grader.intake.artefacts import is_tool_folder
 from grader.intake.links import follow
 from grader.intake.notes import LeftOut
+from grader.intake.place import Entry
+from grader.intake.place import Place
 
 MOST_LEVELS = 32
 """How many folders deep the submission is looked at."""
@@ -37,24 +36,13 @@ TOO_FULL = f"only the first {MOST_IN_FOLDER} names were looked at in"
 TOO_MANY = f"not looked into, as there are more than {MOST_ENTRIES} files and folders"
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A name in the tree: `path` relative to the tree's root; `size` in bytes, `target` of links."""
-
-    path: str
-    kind: Literal["file", "folder", "link"]
-    mode: int
-    size: int = 0
-    target: str = ""
-
-
 @dataclass
 class Tree:
     """All that was seen; `truncated` are the folders with more names than are looked at,
     `links_out` the package's links (relative to it) that lead out of it.
     """
 
-    root: Path
+    place: Place
     entries: dict[str, Entry] = field(default_factory=dict)
     left_out: LeftOut = field(default_factory=LeftOut)
     git: set[str] = field(default_factory=set)
@@ -103,9 +91,11 @@ def ancestors(path: str) -> list[str]:
     return found
 
 
-def look(root: Path) -> Tree:
-    """Return what lies below `root`; OSError only where `root` itself cannot be read."""
-    tree = Tree(root)
+def look(place: Place) -> Tree:
+    """Return what lies in a place; OSError only where the place itself cannot be read."""
+    tree = Tree(place)
+    for reason, where in place.remarks():
+        tree.left_out.add(reason, where)
     waiting = deque([(".", 0)])
     while waiting:
         folder, depth = waiting.popleft()
@@ -128,67 +118,57 @@ def look(root: Path) -> Tree:
     return tree
 
 
-def _names(tree: Tree, folder: str) -> list[os.DirEntry[str]]:
-    found: list[os.DirEntry[str]] = []
-    with os.scandir(tree.root if folder == "." else tree.root / folder) as names:
-        for entry in names:
-            if len(found) >= MOST_IN_FOLDER:
-                tree.left_out.add(TOO_FULL, folder)
-                tree.truncated.add(folder)
-                break
-            found.append(entry)
-    return sorted(found, key=lambda entry: entry.name)
+def _names(tree: Tree, folder: str) -> list[str]:
+    found: list[str] = []
+    for name in tree.place.names(folder):
+        if len(found) >= MOST_IN_FOLDER:
+            tree.left_out.add(TOO_FULL, folder)
+            tree.truncated.add(folder)
+            break
+        found.append(name)
+    return sorted(found)
 
 
-def _sort(tree: Tree, folder: str, found: list[os.DirEntry[str]]) -> list[Entry]:
+def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
     """Put what is kept into the tree and return it; note what is not."""
     kept = []
-    beside = {e.name for e in found if e.is_dir(follow_symlinks=False)}
+    found = {name: _entry(tree, join(folder, name)) for name in names}
+    beside = COLCON & {name for name, e in found.items() if e is not None and e.kind == "folder"}
     artefacts = {
-        name
-        for name in COLCON & beside
-        if is_colcon_artefact(tree.root / folder / name, COLCON & beside)
+        name for name in beside if is_colcon_artefact(tree.place, join(folder, name), beside)
     }
-    for item in found:
-        path = join(folder, item.name)
-        if not is_plain(item.name):
-            tree.left_out.add(BAD_NAME, path)
-            continue
-        try:
-            entry = _entry(item, path)
-        except OSError as error:
-            tree.left_out.add(f"left out, as it cannot be looked at ({error.strerror})", path)
-            continue
-        if item.name == ".git" and entry is not None and entry.kind != "link":
-            tree.git.add(folder)
+    for name, entry in found.items():
         if entry is None:
-            tree.left_out.add(SPECIAL, path)
-        elif entry.kind == "folder" and (
-            item.name in artefacts or is_tool_folder(item.name, Path(item.path))
-        ):
-            tree.left_out.add(MADE_BY_TOOLS, f"{path}/")
-        elif entry.kind != "folder" and is_tool_file(item.name):
-            tree.left_out.add(MADE_BY_TOOLS, path)
+            continue
+        if name == ".git" and entry.kind != "link":
+            tree.git.add(folder)
+        if entry.kind == "folder" and (name in artefacts or is_tool_folder(tree.place, entry.path)):
+            tree.left_out.add(MADE_BY_TOOLS, f"{entry.path}/")
+        elif entry.kind != "folder" and is_tool_file(name):
+            tree.left_out.add(MADE_BY_TOOLS, entry.path)
         else:
-            tree.entries[path] = entry
+            tree.entries[entry.path] = entry
             kept.append(entry)
     return kept
 
 
-def _entry(item: os.DirEntry[str], path: str) -> Entry | None:
-    """Return what a name is; None for what is neither file, folder nor link."""
-    status = item.stat(follow_symlinks=False)
-    mode = stat.S_IMODE(status.st_mode)
-    if stat.S_ISLNK(status.st_mode):
-        target = os.readlink(item.path)  # noqa: PTH115
+def _entry(tree: Tree, path: str) -> Entry | None:
+    """Return what a name is; None, with a note, for what is not to be kept."""
+    if not is_plain(path.rpartition("/")[2]):
+        tree.left_out.add(BAD_NAME, path)
+        return None
+    try:
+        entry = tree.place.entry(path)
+    except OSError as error:
+        tree.left_out.add(f"left out, as it cannot be looked at ({error.strerror})", path)
+        return None
+    if entry is None:
+        tree.left_out.add(SPECIAL, path)
+    elif entry.kind == "link":
         # one that cannot be kept leads out: an absolute path is what that looks like
-        fits = len(target) <= LONGEST_TARGET and is_plain(target)
-        return Entry(path, "link", mode, target=target if fits else "/")
-    if stat.S_ISDIR(status.st_mode):
-        return Entry(path, "folder", mode)
-    if stat.S_ISREG(status.st_mode):
-        return Entry(path, "file", mode, size=status.st_size)
-    return None
+        fits = len(entry.target) <= LONGEST_TARGET and is_plain(entry.target)
+        return entry if fits else replace(entry, target="/")
+    return entry
 
 
 def is_plain(name: str) -> bool:

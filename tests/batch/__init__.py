@@ -1,0 +1,1 @@
+"""A whole class: what is downloaded, and what becomes of it."""
