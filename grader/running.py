@@ -69,11 +69,7 @@ def observe(
     probe.ready()
     script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {run.command}'
     begin = time.monotonic()
-    terminal = Terminal(
-        sandbox.command(["bash", "-c", script]),
-        env=sandbox.outer_environment("student"),
-        most=int(limits.output),
-    )
+    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=int(limits.output))
     try:
         observer = Observer(terminal, probe, assignment.output)
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)

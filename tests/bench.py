@@ -172,11 +172,7 @@ def bare_run(ros: Ros, submission: Submission) -> Cost:
         script += ros2_run(ASSIGNMENT).replace("use_sim_time:=true", "use_sim_time:=false")
         before = machine_cpu()
         begin = time.monotonic()
-        terminal = Terminal(
-            sandbox.command(["bash", "-c", script]),
-            env=sandbox.outer_environment("student"),
-            most=100_000,
-        )
+        terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
         while not terminal.ended and not any("Hello" in line.text for line in terminal.read(10)):
             pass
         up = time.monotonic() - begin - ASSIGNMENT.output.period
@@ -194,11 +190,7 @@ def plain_grader(ros: Ros, submission: Submission) -> Cost:
         build(sandbox, submission, package=ASSIGNMENT.package)
         script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
         script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
-        terminal = Terminal(
-            sandbox.command(["bash", "-c", script]),
-            env=sandbox.outer_environment("student"),
-            most=100_000,
-        )
+        terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
         seen = 0
         while seen < PLAIN_TICKS and not terminal.ended:
             seen += sum("Hello time" in line.text for line in terminal.read(10))
