@@ -11,7 +11,7 @@
 set -euo pipefail
 
 if [ $# -lt 2 ] || [ $# -gt 3 ]; then
-  sed -n '2,/^set/s/^# \{0,1\}//p' "$0" | sed '$d'
+  sed -n '2,/^set/s/^# \{0,1\}//p' "$0"
   exit 2
 fi
 suite=$1 image=$2

@@ -10,20 +10,12 @@ ARG WHEELS_BASE=debian:trixie-slim
 
 FROM ${WHEELS_BASE} AS python
 ARG APT_MIRROR=
-# hadolint ignore=DL3008
-RUN if [ -n "$APT_MIRROR" ]; then \
-      find /etc/apt -name '*.list' -o -name '*.sources' | \
-        xargs -r sed -i -E "s#https?://[^ ]*/(debian|ubuntu)/?( |\$)#$APT_MIRROR\2#"; \
-    fi \
- && apt-get update \
- && apt-get install -y --no-install-recommends python3 libatomic1 \
- && rm -rf /var/lib/apt/lists/*
+COPY docker/apt_install.sh /usr/local/sbin/
+RUN apt_install.sh python3 libatomic1
 
 FROM python AS prefix
-# hadolint ignore=DL3008
-RUN apt-get update \
- && apt-get install -y --no-install-recommends python3-venv ca-certificates \
- && rm -rf /var/lib/apt/lists/*
+ARG APT_MIRROR=
+RUN apt_install.sh python3-venv ca-certificates
 COPY docker/ca/ /usr/local/share/ca-certificates/
 RUN update-ca-certificates > /dev/null 2>&1
 ENV PIP_CERT=/etc/ssl/certs/ca-certificates.crt PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import select
 import time
 from dataclasses import dataclass
 
@@ -53,8 +52,7 @@ class Terminal:
         """Return the lines that have come, waiting up to `seconds` for the first."""
         lines: list[Line] = []
         while not self.ended and not self.flooded:
-            ready, _, _ = select.select([self._console], [], [], 0 if lines else seconds)
-            if not ready:
+            if not self._console.wait(0 if lines else seconds):
                 break
             data = self._console.read()
             if not data:

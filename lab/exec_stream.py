@@ -11,7 +11,6 @@ import contextlib
 import os
 import select
 import socket
-import struct
 import time
 from typing import Any
 
@@ -19,11 +18,13 @@ import docker
 from docker.errors import APIError
 
 from grader.errors import SurroundingsError
+from grader.sandbox.execs import Frames
+from grader.sandbox.execs import already_read
+from grader.sandbox.execs import socket_of
 from lab.terminal import TERMINAL
 from lab.terminal import on_new_size
 from lab.terminal import raw
 
-HEADER = struct.Struct(">BxxxL")
 STDOUT, STDERR = 1, 2
 CHUNK = 65536
 STATUS_SECONDS = 10.0
@@ -44,9 +45,9 @@ class ExecStream:
         made = api.exec_create(container, words, stdin=True, detach_keys=DETACH_KEYS, **options)
         self._id: str = made["Id"]
         connection: Any = api.exec_start(self._id, tty=self._tty, socket=True)
-        self._socket: socket.socket = getattr(connection, "_sock", connection)
+        self._socket: socket.socket = socket_of(connection)
         self._connection = connection  # (it would close the socket if it were let go)
-        self._rest = _already_read(connection, self._socket)
+        self._rest = already_read(connection, self._socket)
 
     def close(self) -> None:
         """Let go of it: its input ends."""
@@ -82,7 +83,7 @@ class ExecStream:
             data = self.read()
             if not data:
                 return b""
-            text += b"".join(part for stream, part in frames.take(data) if stream == STDOUT)
+            text += b"".join(part for stream, part in frames.feed(data) if stream == STDOUT)
         return text
 
     def run(self) -> int:
@@ -142,44 +143,8 @@ class ExecStream:
         raise SurroundingsError("Docker does not say how the command in the lab ended")
 
 
-class Frames:
-    """Takes the two output streams apart."""
-
-    def __init__(self) -> None:
-        self._data = b""
-
-    def take(self, data: bytes) -> list[tuple[int, bytes]]:
-        """Return the whole frames that are there now: stream and bytes."""
-        self._data += data
-        found = []
-        while len(self._data) >= HEADER.size:
-            stream, length = HEADER.unpack_from(self._data)
-            end = HEADER.size + length
-            if len(self._data) < end:
-                break
-            found.append((stream, self._data[HEADER.size : end]))
-            self._data = self._data[end:]
-        return found
-
-
-def _already_read(connection: Any, raw_socket: socket.socket) -> bytes:
-    """Return what came together with the answer's head: it is in the HTTP reader's buffer."""
-    response = getattr(connection, "_response", None)
-    reader = getattr(getattr(getattr(response, "raw", None), "_fp", None), "fp", None)
-    if reader is None:
-        raw_socket.settimeout(None)
-        return b""
-    raw_socket.setblocking(False)
-    try:
-        return bytes(reader.read1(len(reader.peek())) if reader.peek() else b"")
-    except (BlockingIOError, ValueError, TypeError):
-        return b""
-    finally:
-        raw_socket.settimeout(None)
-
-
 def _write_out(data: bytes, frames: Frames | None) -> None:
-    parts = [(STDOUT, data)] if frames is None else frames.take(data)
+    parts = [(STDOUT, data)] if frames is None else frames.feed(data)
     for stream, part in parts:
         left = memoryview(part)
         while left:

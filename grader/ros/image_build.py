@@ -77,7 +77,7 @@ def build_image(
         _build(client, "docker/wheels.Dockerfile", "wheels", under, build, network, say)
         arguments |= {"BASE": under, "ROS": "wheels"}
     else:
-        arguments |= {"BASE": network.ros_base or distro.image, "ROS": "image"}
+        arguments |= {"BASE": network.ros_base or distro.pinned_image, "ROS": "image"}
     name = image_name(distro, stage, base)
     return _build(client, "docker/Dockerfile", stage, name, arguments, network, say)
 

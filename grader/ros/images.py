@@ -29,6 +29,7 @@ ROS_LABEL = "ros2-teaching-lab.ros"
 STAGE_LABEL = "ros2-teaching-lab.stage"
 VERSIONS = "/opt/ros/versions.json"
 OLDEST_API = (1, 40)  # Docker 19.03
+FIRST_ANSWER_SECONDS = 20.0  # a daemon that hangs must not hang us
 ANSWER_SECONDS = 120.0
 WITHOUT = "Without Docker: SANDBOX=bubblewrap."
 
@@ -50,10 +51,11 @@ def connect() -> DockerClient:
     import docker.errors  # noqa: PLC0415
 
     try:
-        client = docker.from_env(timeout=int(ANSWER_SECONDS))
+        client = docker.from_env(timeout=int(FIRST_ANSWER_SECONDS))
         version = str(client.version(api_version=False)["ApiVersion"])
     except (docker.errors.DockerException, OSError) as error:
         raise _unreachable(str(error)) from None
+    client.api.timeout = int(ANSWER_SECONDS)
     if tuple(int(part) for part in version.split(".")[:2]) < OLDEST_API:
         raise SurroundingsError(
             f"this Docker daemon is too old (API {version}; {'.'.join(map(str, OLDEST_API))} is "

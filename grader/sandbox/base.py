@@ -66,8 +66,8 @@ class Console(ABC):
     """A command on a pseudo-terminal of its own."""
 
     @abstractmethod
-    def fileno(self) -> int:
-        """Return the descriptor that is readable when something has come."""
+    def wait(self, seconds: float) -> bool:
+        """Wait until something has come; return whether it has."""
 
     @abstractmethod
     def read(self) -> bytes:
@@ -180,6 +180,10 @@ class Sandbox(ABC):
 
     def resource_met(self) -> str:
         """Return the limit on the whole submission that its processes ran into, "" if none."""
+        return ""
+
+    def probe_met(self) -> str:
+        """Return the limit that ended the probe, "" if none: the submission has fed it too much."""
         return ""
 
     def limit_report(self) -> dict[str, LimitInfo]:

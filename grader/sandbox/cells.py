@@ -25,6 +25,7 @@ from grader.limits import Limits
 from grader.sandbox.base import HOME
 from grader.sandbox.execs import Exec
 from grader.sandbox.execs import Frames
+from grader.sandbox.execs import converse
 from grader.sandbox.execs import socket_of
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 STUDENT, PROBE, KEEPER = 1000, 1001, 1002
 PROFILE = "/run/grader/fastdds.xml"
 READY_SECONDS = 30.0
+MOST_SAID = 100_000  # bytes of what the kernel says of a cell
 KEEPER_PROCESSES = 3  # docker-init, timeout, cat
 KEEP = (
     f'umask 022; printf %s "$1" > {PROFILE}; echo ready; '
@@ -41,7 +43,7 @@ KEEP = (
 # the kernel's own words on what met a limit: version 1 of control groups, then version 2
 MET = (
     "cat /sys/fs/cgroup/memory/memory.oom_control /sys/fs/cgroup/memory.events 2>/dev/null; "
-    "sed s/^max/pids_max/ /sys/fs/cgroup/pids/pids.events /sys/fs/cgroup/pids.events 2>/dev/null"
+    "sed s/^max/pids_max/ /sys/fs/cgroup/pids/pids.events /sys/fs/cgroup/pids.events 2>/dev/null; :"
 )
 
 
@@ -152,18 +154,13 @@ class Cell:
             return "memory"  # nothing but the kernel's lack of memory ends a keeper before its time
         except docker.errors.APIError:
             return "processes"  # not even this one was let in
-        said = b""
-        with contextlib.suppress(OSError):
-            asked.socket.settimeout(READY_SECONDS)
-            while data := asked.socket.recv(1 << 16):
-                said += data
-        status = asked.wait(READY_SECONDS)
+        outcome = converse(asked, b"", seconds=READY_SECONDS, most=MOST_SAID)
         asked.close()
-        words = b"".join(text for _, text in Frames().feed(said)).decode(errors="replace").split()
+        words = outcome.output.decode(errors="replace").split()
         counts = {a: int(b) for a, b in zip(words, words[1:]) if b.isdigit()}
         if counts.get("oom_kill", 0):
             return "memory"
-        return "processes" if counts.get("pids_max", 0) or status != 0 else ""
+        return "processes" if counts.get("pids_max", 0) or outcome.status != 0 else ""
 
     def remove(self) -> None:
         """Kill it and wait until it is gone, with the volume that only it used."""

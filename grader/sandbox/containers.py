@@ -234,17 +234,23 @@ class Containers(Sandbox):
         met, self._met = self._met, ""
         return met
 
+    def probe_met(self) -> str:
+        with docker_errors("looking at what ended the probe"):
+            return self._open_holder.met()
+
     def close(self) -> None:
         for slot, cell in list(self._slots.items()):
             self._retire(slot, cell)
         holder, self._holder = self._holder, None
-        with docker_errors("closing the sandbox"):
-            if holder is not None:
-                holder.remove()
-            for removal in self._removals:
-                removal.result()
-        self._threads.shutdown()
-        self._client.close()
+        try:
+            with docker_errors("closing the sandbox"):
+                if holder is not None:
+                    holder.remove()
+                for removal in self._removals:
+                    removal.result()
+        finally:
+            self._threads.shutdown()
+            self._client.close()
 
 
 def _remove(cell: Future[Cell]) -> None:

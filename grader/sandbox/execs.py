@@ -33,6 +33,7 @@ HEADER = struct.Struct(">BxxxL")  # of a frame: which stream, how many bytes (Do
 STDERR = 2
 MOST_ERRORS = 4_000  # bytes of stderr that are kept
 LOOK_SECONDS = 0.25  # how often it is asked whether a silent command has ended
+DRAIN_SECONDS = 1.0  # of silence after which nothing more comes of a command that has ended
 STATUS_SECONDS = 5.0  # in which the status of a command that has let go of its streams is known
 POLL_SECONDS = 0.002
 GONE = 137  # the status of a command whose container was killed
@@ -68,8 +69,28 @@ class Exec:
         self._id: str = made["Id"]
         self._reply = api.exec_start(self._id, tty=tty, socket=True)
         self.socket = socket_of(self._reply)
+        self._early = already_read(self._reply, self.socket)
         if tty:
             api.exec_resize(self._id, height=ROWS, width=COLUMNS)
+
+    def wait_for_output(self, seconds: float) -> bool:
+        """Wait until there is something to read (or the end of it); return whether there is."""
+        patience = self.patience(max(0.0, seconds))
+        return bool(select.select([self.socket], [], [], patience)[0] or self._early)
+
+    def patience(self, seconds: float) -> float:
+        """Return how long to wait for the socket: not at all if something is there already."""
+        return 0 if self._early else seconds
+
+    def receive(self) -> bytes:
+        """Return what has come, b"" at the end."""
+        if self._early:
+            data, self._early = self._early, b""
+            return data
+        try:
+            return self.socket.recv(1 << 18)
+        except ConnectionError:
+            return b""
 
     def status(self) -> int | None:
         """Return its exit status, None while it runs."""
@@ -99,6 +120,25 @@ def socket_of(reply: object) -> socket.socket:
     return found
 
 
+def already_read(reply: object, line: socket.socket) -> bytes:
+    """Return what came together with the answer's head: it is in the HTTP reader's buffer.
+
+    (The SDK hands out the raw socket under that reader; these bytes would be lost.)
+    """
+    response = getattr(reply, "_response", None)
+    reader = getattr(getattr(getattr(response, "raw", None), "_fp", None), "fp", None)
+    if reader is None:
+        line.settimeout(None)
+        return b""
+    line.setblocking(False)
+    try:
+        return bytes(reader.read1(len(reader.peek())) if reader.peek() else b"")
+    except (BlockingIOError, ValueError, TypeError):
+        return b""
+    finally:
+        line.settimeout(None)
+
+
 class Frames:
     """Takes the frames of stdout and stderr apart."""
 
@@ -119,6 +159,7 @@ class Frames:
 def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outcome:
     """Feed stdin, read both streams to their end, cut while they are read."""
     begin = time.monotonic()
+    ended: float | None = None
     frames, output, rest = Frames(), bytearray(), memoryview(stdin)
     line = command.socket
     line.setblocking(False)
@@ -132,21 +173,25 @@ def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outco
         left = begin + seconds - time.monotonic()
         if left <= 0:
             return outcome(None, "wall time")
-        can_read, can_write, _ = select.select(
-            [line], [line] if rest else [], [], min(left, LOOK_SECONDS)
-        )
+        can_write = select.select(
+            [line], [line] if rest else [], [], command.patience(min(left, LOOK_SECONDS))
+        )[1]
         if can_write:
             rest = _send(line, rest)
-        if can_read:
-            data = line.recv(1 << 16)
+        if command.wait_for_output(0):
+            data = command.receive()
             if not data:
                 break
             for _, text in frames.feed(data):
                 output += text
             if len(output) >= most:
                 return outcome(None, "output")
-        # what it left in the background keeps the streams open: that it has ended is asked for
-        elif not can_write and command.status() is not None:
+            ended = None
+        # what it left in the background keeps the streams open: that it has ended is asked for,
+        # and its last words may still be on their way then
+        elif not can_write and ended is None:
+            ended = time.monotonic() if command.status() is not None else None
+        elif ended is not None and time.monotonic() - ended > DRAIN_SECONDS:
             break
     return outcome(command.wait(STATUS_SECONDS))
 
@@ -176,14 +221,11 @@ class ExecConsole(Console):
         self._interrupted = False
         self._status: int | None = None
 
-    def fileno(self) -> int:
-        return self._command.socket.fileno()
+    def wait(self, seconds: float) -> bool:
+        return self._command.wait_for_output(seconds)
 
     def read(self) -> bytes:
-        try:
-            return self._command.socket.recv(65536)
-        except OSError:
-            return b""
+        return self._command.receive()
 
     def interrupt(self) -> None:
         self._interrupted = True
@@ -191,7 +233,8 @@ class ExecConsole(Console):
 
     def poll(self) -> tuple[int | None, int | None] | None:
         if self._status is None:
-            self._status = self._command.status()
+            with docker_errors("running the node"):
+                self._status = self._command.status()
         return None if self._status is None else (self._status, None)
 
     def end(self) -> None:
@@ -216,13 +259,9 @@ class ExecPipe(Pipe):
         deadline = time.monotonic() + seconds
         output = b""
         while not output:
-            left = max(0.0, deadline - time.monotonic())
-            if not select.select([self._command.socket], [], [], left)[0]:
+            if not self._command.wait_for_output(deadline - time.monotonic()):
                 return None
-            try:
-                data = self._command.socket.recv(1 << 20)
-            except OSError:
-                data = b""
+            data = self._command.receive()
             if not data:
                 return b""
             for stream, text in self._frames.feed(data):

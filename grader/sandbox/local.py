@@ -106,12 +106,12 @@ class LocalConsole(Console):
         self._spawn.ptyproc.delayafterclose = self._spawn.ptyproc.delayafterterminate = 0
         self._spawn.delaybeforesend = None
 
-    def fileno(self) -> int:
-        return int(self._spawn.child_fd)
+    def wait(self, seconds: float) -> bool:
+        return bool(select.select([self._spawn.child_fd], [], [], max(0.0, seconds))[0])
 
     def read(self) -> bytes:
         try:
-            return os.read(self.fileno(), 65536)
+            return os.read(int(self._spawn.child_fd), 65536)
         except OSError:  # Linux says EIO when the last process has let go of the terminal
             return b""
 

@@ -28,7 +28,7 @@ GONE_SECONDS = 15.0
 SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 
 
-def made_by(client: DockerClient, pid: int) -> list[str]:
+def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
     """Return the containers and volumes that a process has made and that are still there."""
 
     def is_its(labels: dict[str, str] | None) -> bool:
@@ -36,13 +36,19 @@ def made_by(client: DockerClient, pid: int) -> list[str]:
 
     containers = client.api.containers(all=True, filters={"label": orphans.OWNER})
     volumes = client.api.volumes(filters={"label": orphans.OWNER})["Volumes"] or ()
-    found = [str(each["Names"]) for each in containers if is_its(each["Labels"])]
+    found = [
+        str(each["Names"])
+        for each in containers
+        if is_its(each["Labels"]) and state in ("", each["State"])
+    ]
+    if state:
+        return found
     return found + [str(each["Name"]) for each in volumes if is_its(each["Labels"])]
 
 
-def wait_until_gone(client: DockerClient, pid: int) -> list[str]:
+def wait_until_gone(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
     deadline = time.monotonic() + GONE_SECONDS
-    while (left := made_by(client, pid)) and time.monotonic() < deadline:
+    while (left := made_by(client, pid, state=state)) and time.monotonic() < deadline:
         time.sleep(0.05)  # the daemon removes them by itself
     return left
 
@@ -83,6 +89,16 @@ def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -
     assert [line for line in after.split() if line.endswith("/comm")] == [
         line for line in before.split() if line.endswith("/comm")
     ]
+
+
+def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], Sandbox]) -> None:
+    hog = "x = bytearray(500_000_000); x[::4096] = b'1' * len(x[::4096])"
+    with make_sandbox(Limits(memory=80_000_000)) as opened:
+        assert opened.probe_met() == ""
+        probe = opened.pipe(["python3", "-S", "-c", hog], role="probe")
+        assert probe.read(20) == b""
+        assert opened.probe_met() == "memory"
+        probe.finish(1)
 
 
 def test_closing_leaves_nothing(
@@ -140,6 +156,8 @@ def test_however_the_grader_ends_nothing_is_left(
     said = grader.stderr.read()
     assert grader.wait(30) == status, said
     assert "Traceback" not in said
+    assert wait_until_gone(client, grader.pid, state="running") == []
+    orphans.clear_away(client)  # as the next grader does: one that was never started is left
     assert wait_until_gone(client, grader.pid) == []
 
 

@@ -12,10 +12,10 @@ from pathlib import Path
 import docker
 import pytest
 
+from grader.sandbox.execs import Frames
 from lab.exec_stream import STDERR
 from lab.exec_stream import STDOUT
 from lab.exec_stream import ExecStream
-from lab.exec_stream import Frames
 
 
 class _Daemon(socketserver.StreamRequestHandler):
@@ -68,5 +68,5 @@ def test_the_two_streams_are_taken_apart_however_they_are_cut(size: int) -> None
     sent = [(STDOUT, b"a" * 300), (STDERR, b"b"), (STDOUT, b""), (STDOUT, b"c\n")]
     wire = b"".join(struct.pack(">BxxxL", stream, len(text)) + text for stream, text in sent)
     frames = Frames()
-    found = [part for at in range(0, len(wire), size) for part in frames.take(wire[at : at + size])]
+    found = [part for at in range(0, len(wire), size) for part in frames.feed(wire[at : at + size])]
     assert found == sent
