@@ -4,18 +4,15 @@ usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated.
 
 from __future__ import annotations
 
-import os
-import signal
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING
 
 import click
 
 import grader
-from grader.errors import GraderError
+from grader.entry import run
 
 if TYPE_CHECKING:
     from grader.report.model import Report
@@ -23,39 +20,9 @@ if TYPE_CHECKING:
     from grader.runner import Order
 
 
-class Terminated(BaseException):
-    """SIGTERM came: everything is closed on the way out."""
-
-
-def _terminated(number: int, frame: FrameType | None) -> None:
-    del number, frame
-    raise Terminated
-
-
 def main(argv: list[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    signal.signal(signal.SIGTERM, _terminated)
-    signal.signal(signal.SIGHUP, _terminated)
-    try:
-        status = commands.main(args=argv, prog_name="grader", standalone_mode=False)
-        return status if isinstance(status, int) else 0
-    except click.exceptions.Exit as done:
-        return done.exit_code
-    except click.ClickException as error:
-        error.show()
-        return 2
-    except GraderError as error:
-        click.echo(f"grader: {error}", err=True)
-        return error.exit_status
-    except (KeyboardInterrupt, click.Abort):
-        click.echo("grader: interrupted; nothing was left running", err=True)
-        return 130
-    except Terminated:
-        click.echo("grader: terminated; nothing was left running", err=True)
-        return 143
-    except BrokenPipeError:  # the reader of our output has gone (| head)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+    return run(commands, "grader", argv)
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -23,10 +23,10 @@ from grader.ros.prefix import Ros
 from grader.ros.prefix import base_interpreter
 from grader.sandbox.base import HOME
 from grader.sandbox.bubblewrap import FILES
-from grader.sandbox.bubblewrap import SYSTEM
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.bubblewrap import memory_file
 from grader.sandbox.bubblewrap import parents_of as parents
+from grader.sandbox.bubblewrap import system_mounts
 from grader.sandbox.local import need
 from lab.terminal import foreground_again
 from lab.terminal import ignoring_interrupts
@@ -111,12 +111,7 @@ class BubblewrapLab:
         for folder in parents(*places, *FILES, *SETTINGS, *map(str, pythons)):
             if not folder.startswith("/usr"):
                 yield from ("--perms", "0755", "--dir", folder)
-        for path in SYSTEM:
-            place = Path(path)
-            if place.is_symlink():
-                yield from ("--symlink", str(place.readlink()), path)
-            elif place.is_dir():
-                yield from ("--ro-bind", path, path)
+        yield from system_mounts()
         for path in (*FILES, *SETTINGS):
             yield from ("--ro-bind-try", path, path)
         for python in sorted(pythons):

@@ -43,7 +43,6 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     # each kind is loaded only when it is wanted: the one must not need the other's libraries
     from grader.ros.images import connect  # noqa: PLC0415
     from grader.ros.images import find_image  # noqa: PLC0415
-
     from lab.container import ContainerLab  # noqa: PLC0415
 
     client = connect()

@@ -4,46 +4,18 @@ wrong usage, 3 the lab's own surroundings failed, 130/143 interrupted/terminated
 
 from __future__ import annotations
 
-import signal
 import sys
 from pathlib import Path
-from types import FrameType
 
 import click
 
 import grader
-from grader.errors import GraderError
-
-
-class Terminated(BaseException):
-    """SIGTERM or SIGHUP came: the lab is closed on the way out."""
-
-
-def _terminated(number: int, frame: FrameType | None) -> None:
-    del number, frame
-    raise Terminated
+from grader.entry import run
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    signal.signal(signal.SIGTERM, _terminated)
-    signal.signal(signal.SIGHUP, _terminated)
-    try:
-        status = command.main(args=argv, prog_name="lab", standalone_mode=False)
-        return status if isinstance(status, int) else 0
-    except click.exceptions.Exit as done:
-        return done.exit_code
-    except click.ClickException as error:
-        error.show()
-        return 2
-    except GraderError as error:
-        click.echo(f"lab: {error}", err=True)
-        return error.exit_status
-    except (KeyboardInterrupt, click.Abort):
-        click.echo("lab: interrupted; nothing was left running", err=True)
-        return 130
-    except Terminated:
-        return 143
+    return run(command, "lab", argv)
 
 
 @click.command(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

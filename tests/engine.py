@@ -39,6 +39,7 @@ PACKAGES = {
     "dockerd": "docker.io",
     "debootstrap": "debootstrap",
     "docker-compose": "docker-compose",
+    "npm": "npm",
 }
 START_SECONDS = 60.0
 WITHOUT = "GRADER_TESTS_WITHOUT_DOCKER"

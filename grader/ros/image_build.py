@@ -140,7 +140,12 @@ def _failed(name: str, said: str, tail: list[str], arguments: dict[str, str]) ->
     words = "\n".join([*tail, said])
     if "no space left" in words:
         remedy = "Free some space for Docker: `docker system df` shows what takes it."
-    elif base in said or "pull access denied" in said or "registry" in said or "manifest" in said:
+    elif (
+        (base and base in said)
+        or "pull access denied" in said
+        or "registry" in said
+        or "manifest" in said
+    ):
         remedy = (
             f"The base {base} could not be had. Where no registry can be reached: "
             "docker/make_base.sh makes a base with debootstrap, and `make images BASE=wheels` needs "

@@ -185,12 +185,7 @@ class Bubblewrap(LocalSandbox):
         for folder in parents_of(WORKSPACE, PROFILE, self.ros.inside, str(interpreter)):
             if not folder.startswith("/usr"):
                 yield from ("--perms", "0755", "--dir", folder)
-        for path in SYSTEM:
-            place = Path(path)
-            if place.is_symlink():
-                yield from ("--symlink", str(place.readlink()), path)
-            elif place.is_dir():
-                yield from ("--ro-bind", path, path)
+        yield from system_mounts()
         for path in FILES:
             yield from ("--ro-bind-try", path, path)
         if not interpreter.is_relative_to("/usr"):
@@ -277,6 +272,16 @@ def _remedy(said: str) -> str:
     if "user namespaces" in _cause(said):
         return "Allow them (sysctl user.max_user_namespaces=15000), or run the grader as root."
     return "Report this with its text."
+
+
+def system_mounts() -> Iterator[str]:
+    """Yield bwrap's words for the programs and libraries of this machine, read-only."""
+    for path in SYSTEM:
+        place = Path(path)
+        if place.is_symlink():
+            yield from ("--symlink", str(place.readlink()), path)
+        elif place.is_dir():
+            yield from ("--ro-bind", path, path)
 
 
 def parents_of(*paths: str) -> list[str]:
