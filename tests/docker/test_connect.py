@@ -10,10 +10,12 @@ from http.server import BaseHTTPRequestHandler
 from http.server import HTTPServer
 from pathlib import Path
 
+import docker.errors
 import pytest
 
 from grader.errors import SurroundingsError
 from grader.ros import images
+from grader.sandbox.execs import docker_errors
 from tests import stage
 
 pytestmark = [pytest.mark.docker]
@@ -92,3 +94,14 @@ def test_a_closed_socket_is_said_with_what_to_do() -> None:
     assert "closed to this user" in done.stderr
     assert "docker" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_full_disk_is_said_with_what_to_do() -> None:
+    said = "write /var/lib/docker/tmp/x: no space left on device"
+    with (
+        pytest.raises(SurroundingsError) as caught,
+        docker_errors("opening the sandbox"),
+    ):
+        raise docker.errors.APIError("500 Server Error", explanation=said)
+    assert "no space left" in caught.value.message
+    assert "docker system df" in caught.value.remedy
