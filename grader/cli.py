@@ -4,56 +4,25 @@ usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated.
 
 from __future__ import annotations
 
-import os
-import signal
 import sys
+from dataclasses import replace
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING
 
 import click
 
 import grader
-from grader.errors import GraderError
+from grader.entry import run
 
 if TYPE_CHECKING:
     from grader.report.model import Report
+    from grader.ros.images import Base
     from grader.runner import Order
-
-
-class Terminated(BaseException):
-    """SIGTERM came: everything is closed on the way out."""
-
-
-def _terminated(number: int, frame: FrameType | None) -> None:
-    del number, frame
-    raise Terminated
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    signal.signal(signal.SIGTERM, _terminated)
-    signal.signal(signal.SIGHUP, _terminated)
-    try:
-        status = commands.main(args=argv, prog_name="grader", standalone_mode=False)
-        return status if isinstance(status, int) else 0
-    except click.exceptions.Exit as done:
-        return done.exit_code
-    except click.ClickException as error:
-        error.show()
-        return 2
-    except GraderError as error:
-        click.echo(f"grader: {error}", err=True)
-        return error.exit_status
-    except (KeyboardInterrupt, click.Abort):
-        click.echo("grader: interrupted; nothing was left running", err=True)
-        return 130
-    except Terminated:
-        click.echo("grader: terminated; nothing was left running", err=True)
-        return 143
-    except BrokenPipeError:  # the reader of our output has gone (| head)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+    return run(commands, "grader", argv)
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -83,7 +52,7 @@ _sandbox = click.option(
     "--sandbox",
     default="auto",
     show_default=True,
-    help="Where the student's code runs: auto, bubblewrap, account or none.",
+    help="Where the student's code runs: auto, docker, bubblewrap, account or none.",
 )
 _limit = click.option(
     "--limit",
@@ -167,6 +136,60 @@ def prefix(distro: str) -> int:
 
     found = wheels_prefix(find_distro(distro), say=lambda text: click.echo(text, err=True))
     click.echo(found)
+    return 0
+
+
+@commands.command()
+@click.option("--distro", help="Build the images of this distro; several with commas between them.")
+@click.option(
+    "--base",
+    type=click.Choice(["ros", "wheels"]),
+    default="ros",
+    show_default=True,
+    help="What they stand on: the official ros:<distro>-ros-base, or PyPI's ROS wheels.",
+)
+@click.option("--extra-ca", type=click.Path(path_type=Path), help="A CA certificate (PEM) for pip.")
+@click.option("--apt-mirror", default="", metavar="URL", help="The mirror that apt uses.")
+@click.option("--pip-index", default="", metavar="URL", help="The package index that pip uses.")
+@click.option("--base-image", default="", metavar="IMAGE", help="Another image to start from.")
+def images(
+    distro: str | None,
+    base: Base,
+    extra_ca: Path | None,
+    apt_mirror: str,
+    pip_index: str,
+    base_image: str,
+) -> int:
+    """Build the Docker images of a distro (--distro), and list all with their sizes.
+
+    HTTP_PROXY, HTTPS_PROXY and NO_PROXY are passed on to the build.
+    """
+    from grader.ros.distro import find_distro  # noqa: PLC0415
+    from grader.ros.image_build import Network  # noqa: PLC0415
+    from grader.ros.image_build import build_image  # noqa: PLC0415
+    from grader.ros.images import connect  # noqa: PLC0415
+    from grader.ros.images import table  # noqa: PLC0415
+
+    wanted = [find_distro(word.strip()) for word in (distro or "").split(",") if word.strip()]
+    network = Network(apt_mirror=apt_mirror, pip_index=pip_index, extra_ca=extra_ca)
+    if base_image:
+        network = replace(network, wheels_base=base_image, ros_base=base_image)
+    client = connect()
+    for found in wanted:
+        for stage in ("grade", "lab"):
+            build_image(
+                client,
+                found,
+                stage=stage,
+                base=base,
+                network=network,
+                say=lambda text: click.echo(text, err=True),
+            )
+    rows = [row for row in table(client) if not wanted or row.distro in {d.name for d in wanted}]
+    width = max(len(row.name) for row in rows)
+    for row in rows:
+        size = f"{row.size / 1e6:,.0f} MB" if row.size is not None else "not here"
+        click.echo(f"{row.name:<{width}}  {size:>10}  {row.id}".rstrip())
     return 0
 
 

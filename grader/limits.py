@@ -35,6 +35,8 @@ class Limits:
     """Of all processes and files in memory together; of each process where no cgroup is to be had."""
     processes: float = 200
     """Processes and threads."""
+    cpus: float = 2
+    """Processors that it may keep busy at once."""
     file_size: float = 100 * MEGABYTE
     """Of one file."""
     workspace: float = 300 * MEGABYTE
@@ -59,7 +61,7 @@ class Limits:
 def _unit(name: str) -> str:
     if name.endswith("_seconds"):
         return "s"
-    return "" if name == "processes" else "bytes"
+    return "" if name in ("processes", "cpus") else "bytes"
 
 
 UNITS = {field.name: _unit(field.name) for field in fields(Limits)}

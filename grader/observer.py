@@ -158,9 +158,21 @@ class Observer:
         return time.time() - line.wall > GRACE
 
     def settle(self) -> list[Event]:
-        """Give every line that is still waiting for its log record its grace time."""
+        """Give every line that is still waiting for its log record its grace time, and every record
+        that is still waiting for its line: a container's terminal is slower than its network.
+        """
         events: list[Event] = []
         deadline = time.monotonic() + 2 * LATE_GRACE
-        while self._unmatched and not self.terminal.flooded and time.monotonic() < deadline:
+        while (
+            (self._unmatched or self._has_unshown_records())
+            and not self.terminal.flooded
+            and time.monotonic() < deadline
+        ):
             events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
         return events
+
+    def _has_unshown_records(self) -> bool:
+        """Whether a record's line may still come on the terminal."""
+        return not self.terminal.ended and any(
+            record.stamp not in self._shown for record in self.records[-4000:]
+        )

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
-import select
-import subprocess
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -68,16 +65,7 @@ class ProbeLink:
         script = (
             f"PROBE=$(cat <<'PROBE_ENDS'\n{SOURCE.read_text(encoding='utf-8')}\nPROBE_ENDS\n)\n"
         )
-        command = sandbox.command(["bash", "-c", script + setup], role="probe")
-        self._sandbox = sandbox
-        self._process = subprocess.Popen(
-            command,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            start_new_session=True,
-            env=dict(sandbox.outer_environment("probe")),
-        )
+        self._pipe = sandbox.pipe(["bash", "-c", script + setup], role="probe")
         self._buffer = b""
         self._ready = False
 
@@ -90,11 +78,9 @@ class ProbeLink:
     def ask(self, do: str, *, seconds: float = 0, **more: int) -> Answer:
         """Send one command and return the answer; ProbeError if none comes."""
         self.ready()
-        assert self._process.stdin is not None
         try:
             command = {"do": do, "seconds": seconds, **more}
-            self._process.stdin.write(json.dumps(command).encode() + b"\n")
-            self._process.stdin.flush()
+            self._pipe.write(json.dumps(command).encode() + b"\n")
         except OSError as error:
             raise self._lost("it has ended") from error
         said = self._read(seconds + PATIENCE)
@@ -110,14 +96,11 @@ class ProbeLink:
             raise self._lost("its answer is not one of a probe") from error
 
     def _read(self, seconds: float) -> dict[str, Any]:
-        assert self._process.stdout is not None
-        descriptor = self._process.stdout.fileno()
         deadline = time.monotonic() + seconds
         while b"\n" not in self._buffer:
-            left = deadline - time.monotonic()
-            if left <= 0 or not select.select([descriptor], [], [], left)[0]:
+            data = self._pipe.read(deadline - time.monotonic())
+            if data is None:
                 raise self._lost(f"no answer within {seconds:.0f} s")
-            data = os.read(descriptor, 1 << 20)
             if not data or len(self._buffer) > LONGEST_ANSWER:
                 raise self._lost("it has ended")
             self._buffer += data
@@ -131,21 +114,12 @@ class ProbeLink:
         return answer
 
     def _lost(self, why: str) -> ProbeError:
-        self._sandbox.end(self._process)
-        assert self._process.stderr is not None
-        said = self._process.stderr.read(4_000).decode(errors="replace").strip()
+        self._pipe.kill()
+        said = self._pipe.errors().decode(errors="replace").strip()
         return ProbeError(f"the probe failed: {why}" + (f"\n{said}" if said else ""))
 
     def close(self) -> None:
         """End the probe: it is asked to, and killed if it does not."""
-        with contextlib.suppress(OSError, ValueError, subprocess.TimeoutExpired):
-            assert self._process.stdin is not None
-            self._process.stdin.write(b'{"do": "end"}\n')
-            self._process.stdin.close()
-            self._process.wait(END_SECONDS)
-        self._sandbox.end(self._process)
-        for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
-            if stream is not None:
-                with contextlib.suppress(OSError):
-                    stream.close()
-        self._process.wait()
+        with contextlib.suppress(OSError, ValueError):
+            self._pipe.write(b'{"do": "end"}\n')
+        self._pipe.finish(END_SECONDS)

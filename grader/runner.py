@@ -32,7 +32,6 @@ from grader.observer import Event
 from grader.report import model
 from grader.ros.distro import Distro
 from grader.ros.prefix import Ros
-from grader.ros.prefix import find_ros
 from grader.running import Run
 from grader.sandbox.choose import open_sandbox
 from grader.session import Session
@@ -76,15 +75,20 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
     )
     intake = time.monotonic() - begin
     listener(events.StageStarted("setup", f"opening the sandbox for ROS {order.distro.name}"))
-    ros = find_ros(order.distro, say=lambda text: listener(events.Note(text)))
-    sandbox = open_sandbox(order.sandbox, ros, order.limits, own_code=order.own_code)
+    sandbox = open_sandbox(
+        order.sandbox,
+        order.distro,
+        order.limits,
+        own_code=order.own_code,
+        say=lambda text: listener(events.Note(text)),
+    )
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
         results = _decide(evidence, assignment, listener)
         limits = sandbox.limit_report()
-    report = _report(order, evidence, results, ros)
+    report = _report(order, evidence, results, sandbox.ros)
     environment = report.environment.model_copy(update={"sandbox": sandbox.name, "limits": limits})
     timing = model.Timing(
         setup=round(setup, 3),

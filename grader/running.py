@@ -16,6 +16,7 @@ from grader.observer import Event
 from grader.observer import Observer
 from grader.observer import Watch
 from grader.probe_link import NodeSeen
+from grader.probe_link import ProbeError
 from grader.probe_link import ProbeLink
 from grader.sandbox.base import Sandbox
 from grader.terminal import Terminal
@@ -62,18 +63,15 @@ def observe(
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, say what was seen.
 
-    Raises ProbeError where our own side failed.
+    Raises ProbeError where our own side failed; a probe that met a limit was fed too much by the
+    node, and that is the run's `resource`.
     """
     limits = sandbox.limits
     run = Run(command=ros2_run(assignment))
     probe.ready()
     script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {run.command}'
     begin = time.monotonic()
-    terminal = Terminal(
-        sandbox.command(["bash", "-c", script]),
-        env=sandbox.outer_environment("student"),
-        most=int(limits.output),
-    )
+    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=int(limits.output))
     try:
         observer = Observer(terminal, probe, assignment.output)
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)
@@ -92,6 +90,10 @@ def observe(
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
         _stop(run, terminal, limits.stop_seconds)
         run.watch.events += observer.take()
+    except ProbeError:
+        run.resource = sandbox.probe_met()
+        if not run.resource:
+            raise
     finally:
         terminal.close()
         run.transcript = terminal.transcript

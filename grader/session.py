@@ -79,7 +79,7 @@ class Session:
                 failure = error
                 self._drop_probe()
                 continue
-            run.resource = self.sandbox.resource_met()
+            run.resource = run.resource or self.sandbox.resource_met()
             return run
         raise Inconclusive(f"the probe failed {RUNS} times, the last time: {failure}")
 

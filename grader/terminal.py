@@ -1,26 +1,16 @@
-"""A pseudo-terminal with `ros2 run` on it, driven with pexpect: lines with their times, Ctrl+C."""
+"""A pseudo-terminal with `ros2 run` on it, and what came on it: lines with their times, Ctrl+C."""
 
 from __future__ import annotations
 
-import contextlib
-import os
 import re
-import select
-import signal
 import time
-from collections.abc import Mapping
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-import pexpect
-
-from grader.sandbox.base import kill_below
+from grader.sandbox.base import Console
 
 ANSI = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])")
 LOG_LINE = re.compile(r"^\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)$")
 LONGEST_LINE = 4_000  # characters; what a line has beyond them is left out
-ROWS, COLUMNS = 40, 160
-KILL_SECONDS = 5.0
 POLL_SECONDS = 0.002  # between two looks at a process that is ending
 
 
@@ -42,30 +32,16 @@ class Line:
 
 
 class Terminal:
-    """A command on a pseudo-terminal; what it prints is cut while it is read."""
+    """Reads a console; what it prints is cut while it is read."""
 
-    def __init__(self, command: Sequence[str], *, env: Mapping[str, str], most: int) -> None:
+    def __init__(self, console: Console, *, most: int) -> None:
         self.started = time.time()
-        self._spawn = pexpect.spawn(
-            command[0],
-            list(command[1:]),
-            env=dict(env),
-            timeout=None,
-            dimensions=(ROWS, COLUMNS),
-        )
-        self._spawn.delayafterclose = self._spawn.delayafterterminate = 0
-        self._spawn.ptyproc.delayafterclose = self._spawn.ptyproc.delayafterterminate = 0
-        self._spawn.delaybeforesend = None
+        self._console = console
         self._most = most
         self._raw = bytearray()
         self._rest = b""
         self.ended = False
         self.flooded = False
-
-    @property
-    def fd(self) -> int:
-        """The terminal's file descriptor, to wait on together with others."""
-        return int(self._spawn.child_fd)
 
     @property
     def transcript(self) -> str:
@@ -76,13 +52,9 @@ class Terminal:
         """Return the lines that have come, waiting up to `seconds` for the first."""
         lines: list[Line] = []
         while not self.ended and not self.flooded:
-            ready, _, _ = select.select([self.fd], [], [], 0 if lines else seconds)
-            if not ready:
+            if not self._console.wait(0 if lines else seconds):
                 break
-            try:
-                data = os.read(self.fd, 65536)
-            except OSError:  # Linux says EIO when the last process has let go of the terminal
-                data = b""
+            data = self._console.read()
             if not data:
                 self.ended = True
                 break
@@ -103,7 +75,7 @@ class Terminal:
     def interrupt(self) -> None:
         """Press Ctrl+C."""
         try:
-            self._spawn.sendintr()
+            self._console.interrupt()
         except OSError:
             self.ended = True
 
@@ -116,30 +88,20 @@ class Terminal:
             if left <= 0:
                 return lines, False
             lines += self.read(left)
-        while time.monotonic() < deadline:
-            if not self._spawn.isalive():
-                return lines, True
+        while self._console.poll() is None:
+            if time.monotonic() > deadline:
+                return lines, False
             time.sleep(POLL_SECONDS)  # the terminal is shut already: only the status is to come
-        return lines, not self._spawn.isalive()
+        return lines, True
 
     @property
     def status(self) -> tuple[int | None, int | None]:
         """Exit status and signal of the command; both None while it runs."""
-        if self._spawn.isalive():
-            return None, None
-        return self._spawn.exitstatus, self._spawn.signalstatus
+        return self._console.poll() or (None, None)
 
     def close(self) -> None:
         """End what still runs on it."""
-        begin = time.monotonic()
-        while self._spawn.isalive() and time.monotonic() < begin + KILL_SECONDS:
-            if time.monotonic() < begin + KILL_SECONDS / 2:
-                kill_below(self._spawn.pid)
-            else:
-                with contextlib.suppress(ProcessLookupError):
-                    os.killpg(self._spawn.pid, signal.SIGKILL)
-            time.sleep(POLL_SECONDS)
-        self._spawn.close(force=False)
+        self._console.end()
 
 
 def _clean(data: bytes) -> str:

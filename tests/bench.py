@@ -25,6 +25,7 @@ from pathlib import Path
 from grader.assignment import load_assignment
 from grader.limits import Limits
 from grader.probe_link import ProbeLink
+from grader.ros import images
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.ros.prefix import find_ros
@@ -35,6 +36,7 @@ from grader.submission import Submission
 from grader.submission import take_in
 from grader.terminal import Terminal
 from grader.workspace import build
+from tests import engine
 from tests import stage
 
 COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
@@ -68,6 +70,7 @@ def main() -> int:
     imported = middle(lambda: bare_import(ros), asked.runs)
     plain = plain_grader(ros, submission)
     firsts, virtual = starts(ros, submission, asked.starts)
+    in_containers, overhead = containers_overhead(asked.runs)
     help_ = middle(lambda: timed(stage.grader("--help")), asked.runs)
     memory = peak_memory()
     own = max(0.0, verdict.cpu - colcon.cpu - node.cpu - imported.cpu)
@@ -80,6 +83,10 @@ def main() -> int:
             "  bare import of rclpy (the probe's)",
             f"{imported.wall:.2f} s wall, {imported.cpu:.2f} s cpu",
         ),
+        (
+            "one verdict in containers",
+            f"{in_containers.wall:.2f} s wall, {in_containers.cpu:.2f} s cpu",
+        ),
         ("plain grader (build, run, 5 ticks)", f"{plain.wall:.2f} s wall, {plain.cpu:.2f} s cpu"),
     ]
     for name, text in rows:
@@ -87,6 +94,7 @@ def main() -> int:
     print()
     bounds = [
         bound("verdict: seconds of wall time", verdict.wall, 4.0),
+        bound("containers: seconds beyond bubblewrap", overhead, 1.0),
         bound("10 ticks in virtual time: seconds", virtual, 1.0),
         bound(f"first line over 1 s: of {len(firsts)} starts", late, len(firsts) / 100),
         bound("grader's own share of the processor time", own / verdict.cpu, 0.25),
@@ -109,7 +117,11 @@ def bound(name: str, value: float, most: float) -> bool:
 
 def middle(measure: Callable[[], Cost], runs: int) -> Cost:
     """Return the medians of several runs."""
-    costs = [measure() for _ in range(runs)]
+    return middle_of([measure() for _ in range(runs)])
+
+
+def middle_of(costs: Sequence[Cost]) -> Cost:
+    """Return the medians."""
     return Cost(
         statistics.median(cost.wall for cost in costs),
         statistics.median(cost.cpu for cost in costs),
@@ -134,10 +146,26 @@ def machine_cpu() -> float:
     return (user + nice + system + irq + softirq) / os.sysconf("SC_CLK_TCK")
 
 
-def verdict_once() -> Cost:
+def verdict_once(sandbox: str = "bubblewrap") -> Cost:
     """One verdict, as a user gets it: a process of its own, with report and terminal text."""
     with tempfile.TemporaryDirectory() as out:
-        return timed(stage.grader("grade", SOLUTION, "--out", out))
+        return timed(stage.grader("grade", SOLUTION, "--sandbox", sandbox, "--out", out))
+
+
+def containers_overhead(runs: int) -> tuple[Cost, float]:
+    """Return a verdict's cost in containers, and its seconds beyond the same under bubblewrap.
+
+    The two take turns, so that what else the machine does falls on both.
+    """
+    os.environ[images.REPOSITORY_VARIABLE] = engine.REPOSITORY
+    client = images.connect()
+    if images.find_image(client, find_distro("jazzy")) is None:
+        sys.exit("the images are not here: python -m tests.engine up")
+    client.close()
+    verdict_once("docker")
+    pairs = [(verdict_once("docker"), verdict_once("bubblewrap")) for _ in range(runs)]
+    inside = middle_of([docker for docker, _ in pairs])
+    return inside, statistics.median(docker.wall - bwrap.wall for docker, bwrap in pairs)
 
 
 def _shell(ros: Ros, script: str, stdin: bytes = b"") -> Cost:
@@ -172,11 +200,7 @@ def bare_run(ros: Ros, submission: Submission) -> Cost:
         script += ros2_run(ASSIGNMENT).replace("use_sim_time:=true", "use_sim_time:=false")
         before = machine_cpu()
         begin = time.monotonic()
-        terminal = Terminal(
-            sandbox.command(["bash", "-c", script]),
-            env=sandbox.outer_environment("student"),
-            most=100_000,
-        )
+        terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
         while not terminal.ended and not any("Hello" in line.text for line in terminal.read(10)):
             pass
         up = time.monotonic() - begin - ASSIGNMENT.output.period
@@ -194,11 +218,7 @@ def plain_grader(ros: Ros, submission: Submission) -> Cost:
         build(sandbox, submission, package=ASSIGNMENT.package)
         script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
         script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
-        terminal = Terminal(
-            sandbox.command(["bash", "-c", script]),
-            env=sandbox.outer_environment("student"),
-            most=100_000,
-        )
+        terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
         seen = 0
         while seen < PLAIN_TICKS and not terminal.ended:
             seen += sum("Hello time" in line.text for line in terminal.read(10))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -34,6 +35,12 @@ def jazzy_prefix(ros_jazzy: Ros) -> Path:
 
 
 @pytest.fixture
-def sandbox(ros_jazzy: Ros) -> Iterator[Sandbox]:
-    with Bubblewrap(ros_jazzy, Limits()) as opened:
+def make_sandbox(ros_jazzy: Ros) -> Callable[[Limits], Sandbox]:
+    """What makes a sandbox with these limits; the tests of other sandboxes have their own."""
+    return lambda limits: Bubblewrap(ros_jazzy, limits)
+
+
+@pytest.fixture
+def sandbox(make_sandbox: Callable[[Limits], Sandbox]) -> Iterator[Sandbox]:
+    with make_sandbox(Limits()) as opened:
         yield opened

@@ -12,6 +12,7 @@ import pytest
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.limits import Limits
+from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.plain import Bare
@@ -66,7 +67,7 @@ def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> No
 def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     with pytest.raises(SurroundingsError, match="needs root"):
-        open_sandbox("account", ros_jazzy, Limits())
+        open_sandbox("account", find_distro("jazzy"), Limits())
 
 
 def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
@@ -100,7 +101,7 @@ def test_auto_never_marks_without_a_sandbox(
 ) -> None:
     monkeypatch.setattr("shutil.which", lambda name: None)
     with pytest.raises(SurroundingsError) as caught:
-        open_sandbox("auto", ros_jazzy, Limits())
+        open_sandbox("auto", find_distro("jazzy"), Limits())
     assert "bwrap is missing" in caught.value.message
     assert "apt-get install bubblewrap" in caught.value.remedy
 
@@ -110,12 +111,12 @@ def test_own_code_may_run_without_one(ros_jazzy: Ros, monkeypatch: pytest.Monkey
 
     real = shutil.which
     monkeypatch.setattr("shutil.which", lambda name: None if name == "bwrap" else real(name))
-    opened = open_sandbox("auto", ros_jazzy, Limits(), own_code=True)
+    opened = open_sandbox("auto", find_distro("jazzy"), Limits(), own_code=True)
     opened.close()
     assert opened.name == "none"
 
 
 def test_a_misspelt_sandbox_gets_a_suggestion(ros_jazzy: Ros) -> None:
     with pytest.raises(UsageError) as caught:
-        open_sandbox("bublewrap", ros_jazzy, Limits())
+        open_sandbox("bublewrap", find_distro("jazzy"), Limits())
     assert "did you mean 'bubblewrap'?" in caught.value.remedy

@@ -29,8 +29,14 @@ class Distro:
     setuptools: str
     image: str
     end_of_life: str = ""
+    digest: str = ""
     rclpy: str = ""
     lock: Path | None = None
+
+    @property
+    def pinned_image(self) -> str:
+        """The official image; by its digest where distros.toml has one (docker/pin.sh)."""
+        return f"{self.image}@{self.digest}" if self.digest else self.image
 
 
 @lru_cache(maxsize=1)

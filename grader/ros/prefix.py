@@ -38,7 +38,7 @@ class Ros:
     """A ROS installation: `path` on this machine, `interpreter` the Python that it runs on."""
 
     distro: Distro
-    kind: str  # wheels | system
+    kind: str  # wheels | system | image
     path: Path
     interpreter: Path
     versions: dict[str, str]
@@ -76,9 +76,12 @@ def find_ros(distro: Distro, *, say: Say = print) -> Ros:
             )
         python = Path("/usr/bin/python3").resolve()
         return Ros(distro, "system", system, python, _system_versions(system))
-    path = wheels_prefix(distro, say=say)
+    if choice in ("auto", "wheels") and (system / "wheels-prefix.json").is_file():
+        path, interpreter = system, (system / "bin" / "python3").resolve()  # in an image of ours
+    else:
+        path, interpreter = wheels_prefix(distro, say=say), base_interpreter()
     versions = json.loads((path / "wheels-prefix.json").read_text(encoding="utf-8"))
-    return Ros(distro, "wheels", path, base_interpreter(), versions)
+    return Ros(distro, "wheels", path, interpreter, versions)
 
 
 def prefix_path(distro: Distro) -> Path:

@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-import selectors
-import signal
-import subprocess
-import time
 from abc import ABC
 from abc import abstractmethod
-from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from typing import TYPE_CHECKING
 from typing import Literal
 
-from grader.errors import SurroundingsError
 from grader.limits import UNITS
 from grader.limits import Limits
 from grader.report.model import LimitInfo
 from grader.ros.prefix import Ros
 
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 Role = Literal["student", "probe"]
 HOME = "/home/student"
-END_SECONDS = 2.0  # in which a command that was killed is gone
+WORKSPACE = f"{HOME}/ros2_ws"
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+ROWS, COLUMNS = 40, 160  # of a pseudo-terminal
 
 DISCOVERY_PROFILE = """<?xml version="1.0" encoding="UTF-8"?>
 <profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
@@ -66,12 +62,58 @@ class Outcome:
     stopped_by: str = ""
 
 
+class Console(ABC):
+    """A command on a pseudo-terminal of its own."""
+
+    @abstractmethod
+    def wait(self, seconds: float) -> bool:
+        """Wait until something has come; return whether it has."""
+
+    @abstractmethod
+    def read(self) -> bytes:
+        """Return what has come, b"" once the last process has let go of the terminal."""
+
+    @abstractmethod
+    def interrupt(self) -> None:
+        """Press Ctrl+C. Raises OSError where nobody is there any more."""
+
+    @abstractmethod
+    def poll(self) -> tuple[int | None, int | None] | None:
+        """Return exit status and signal of the command, None while it runs."""
+
+    @abstractmethod
+    def end(self) -> None:
+        """End what still runs on it, and let go of it."""
+
+
+class Pipe(ABC):
+    """A command whose input and output are pipes."""
+
+    @abstractmethod
+    def write(self, data: bytes) -> None:
+        """Write to its input. Raises OSError where nobody reads any more."""
+
+    @abstractmethod
+    def read(self, seconds: float) -> bytes | None:
+        """Return what has come on its output, b"" at its end, None if nothing came in time."""
+
+    @abstractmethod
+    def errors(self) -> bytes:
+        """Return what it said on stderr, once it has ended."""
+
+    @abstractmethod
+    def finish(self, seconds: float) -> None:
+        """Close its input, give it that long to end by itself, then end it and let go of it."""
+
+    @abstractmethod
+    def kill(self) -> None:
+        """End it, and what it started, at once."""
+
+
 class Sandbox(ABC):
     """A sandbox over one workspace.
 
-    `command` turns a command into one that runs inside when it is started on this machine, so
-    that pipes and pseudo-terminals are the caller's own. Leaving the `with` block ends everything
-    that was started in it.
+    Leaving the `with` block ends everything that was started in it.
     """
 
     name: str = ""
@@ -80,7 +122,7 @@ class Sandbox(ABC):
         self.ros = ros
         self.limits = limits
 
-    def __enter__(self) -> Sandbox:
+    def __enter__(self) -> Self:
         try:
             self.open()
         except BaseException:
@@ -96,17 +138,36 @@ class Sandbox(ABC):
         """Open it; SurroundingsError with cause and remedy where that cannot be done."""
 
     @abstractmethod
-    def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
-        """Return the command that runs `argv` inside, in its own PID, mount and IPC namespaces."""
+    def run(
+        self,
+        argv: Sequence[str],
+        *,
+        role: Role = "student",
+        stdin: bytes = b"",
+        seconds: float,
+        output: float | None = None,
+    ) -> Outcome:
+        """Run a command to its end, both output streams together, cut while they are read.
+
+        Ends it (and all that it started) at `seconds` of wall time or at `output` bytes.
+        """
+
+    @abstractmethod
+    def console(self, argv: Sequence[str]) -> Console:
+        """Start a command of the student's on a pseudo-terminal."""
+
+    @abstractmethod
+    def pipe(self, argv: Sequence[str], *, role: Role) -> Pipe:
+        """Start a command with pipes."""
 
     @abstractmethod
     def close(self) -> None:
         """End every process that was started in it and remove what it made."""
 
     @property
-    @abstractmethod
     def workspace(self) -> str:
         """The workspace's path as commands inside see it."""
+        return WORKSPACE
 
     @property
     def ros_path(self) -> str:
@@ -121,9 +182,13 @@ class Sandbox(ABC):
         """Return the limit on the whole submission that its processes ran into, "" if none."""
         return ""
 
+    def probe_met(self) -> str:
+        """Return the limit that ended the probe, "" if none: the submission has fed it too much."""
+        return ""
+
     def limit_report(self) -> dict[str, LimitInfo]:
         """Return every limit with what holds it."""
-        by = dict.fromkeys(UNITS, "grader") | self.held()
+        by = dict.fromkeys(UNITS, "grader") | {"cpus": "none"} | self.held()
         return {
             name: LimitInfo(value=getattr(self.limits, name), unit=unit, held_by=by[name])
             for name, unit in UNITS.items()
@@ -158,119 +223,3 @@ class Sandbox(ABC):
     @abstractmethod
     def profile_path(self, role: Role) -> str:
         """Return where the Fast DDS profile is, as a command of that role sees it."""
-
-    def run(
-        self,
-        argv: Sequence[str],
-        *,
-        role: Role = "student",
-        stdin: bytes = b"",
-        seconds: float,
-        output: float | None = None,
-    ) -> Outcome:
-        """Run a command to its end, both output streams together, cut while they are read.
-
-        Ends it (and all that it started) at `seconds` of wall time or at `output` bytes.
-        """
-        most = int(self.limits.output if output is None else output)
-        command = self.command(argv, role=role)
-        started = time.monotonic()
-        with subprocess.Popen(
-            command,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-            env=self.outer_environment(role),
-        ) as process:
-            try:
-                text, stopped_by = _converse(process, stdin, started + seconds, most)
-            finally:
-                self.end(process)
-        status = None if stopped_by else process.returncode
-        return Outcome(status, text, time.monotonic() - started, stopped_by)
-
-    def outer_environment(self, role: Role) -> Mapping[str, str]:
-        """Return the environment for the command that `command` returned."""
-        del role
-        return {"PATH": PATH, "LANG": "C.UTF-8"}
-
-    def end(self, process: subprocess.Popen[bytes]) -> None:
-        """End a process that `command` made, and what it started, at once."""
-        if process.poll() is None:
-            kill_below(process.pid)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(END_SECONDS)
-        if process.poll() is None:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-
-
-def kill_below(pid: int) -> None:
-    """Kill the children of a process that `command` made, so that it collects them and ends.
-
-    (Killed together with them it would leave an orphan behind, and a PID namespace does not end
-    before somebody has collected the last of its processes.)
-    """
-    with contextlib.suppress(OSError):
-        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-        for child in children:
-            os.kill(int(child), signal.SIGKILL)
-        os.kill(pid, signal.SIGCONT if children else signal.SIGKILL)
-
-
-def _converse(
-    process: subprocess.Popen[bytes], stdin: bytes, deadline: float, most: int
-) -> tuple[bytes, str]:
-    """Feed stdin and read the output until the end of it; return it and which limit was met."""
-    assert process.stdin is not None and process.stdout is not None
-    output = bytearray()
-    rest = memoryview(stdin)
-    os.set_blocking(process.stdin.fileno(), False)
-    with selectors.DefaultSelector() as selector:
-        selector.register(process.stdout, selectors.EVENT_READ)
-        if rest:
-            selector.register(process.stdin, selectors.EVENT_WRITE)
-        else:
-            process.stdin.close()
-        while True:
-            left = deadline - time.monotonic()
-            if left <= 0:
-                return bytes(output), "wall time"
-            for key, _ in selector.select(left):
-                if key.fileobj is process.stdin:
-                    try:
-                        rest = rest[os.write(key.fd, rest[:65536]) :]
-                    except BrokenPipeError:
-                        rest = rest[:0]
-                    if not rest:
-                        selector.unregister(process.stdin)
-                        process.stdin.close()
-                    continue
-                data = os.read(key.fd, 65536)
-                if not data:
-                    return _wait(process, deadline, output)
-                output += data[: most - len(output)]
-                if len(output) >= most:
-                    return bytes(output), "output"
-
-
-def _wait(
-    process: subprocess.Popen[bytes], deadline: float, output: bytearray
-) -> tuple[bytes, str]:
-    try:
-        process.wait(max(0.0, deadline - time.monotonic()))
-    except subprocess.TimeoutExpired:
-        return bytes(output), "wall time"
-    return bytes(output), ""
-
-
-def need(program: str, found: str | None) -> str:
-    """Return the path of a program that a sandbox needs; SurroundingsError where it is missing."""
-    if found is None:
-        raise SurroundingsError(
-            f"the program {program} is missing",
-            remedy="Install it (Debian and Ubuntu: `sudo apt-get install bubblewrap util-linux "
-            "coreutils`).",
-        )
-    return found

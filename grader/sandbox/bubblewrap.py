@@ -28,15 +28,15 @@ from grader.limits import Limits
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE
 from grader.sandbox.base import HOME
+from grader.sandbox.base import WORKSPACE
 from grader.sandbox.base import Role
-from grader.sandbox.base import Sandbox
-from grader.sandbox.base import need
 from grader.sandbox.cgroups import Group
 from grader.sandbox.cgroups import open_group
+from grader.sandbox.local import LocalSandbox
+from grader.sandbox.local import need
 from grader.sandbox.processes import adopt_orphans
 from grader.sandbox.processes import collect_orphans
 
-WORKSPACE = f"{HOME}/ros2_ws"
 PROFILE = "/etc/grader/fastdds.xml"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-release")
@@ -52,7 +52,7 @@ CAUSES = (
 )
 
 
-class Bubblewrap(Sandbox):
+class Bubblewrap(LocalSandbox):
     """Commands in Linux namespaces made by bubblewrap."""
 
     name = "bubblewrap"
@@ -69,10 +69,6 @@ class Bubblewrap(Sandbox):
         uid = FIRST_UID + 2 * (os.getpid() % (UIDS // 2))
         self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
 
-    @property
-    def workspace(self) -> str:
-        return WORKSPACE
-
     def profile_path(self, role: Role) -> str:
         del role
         return PROFILE
@@ -87,7 +83,7 @@ class Bubblewrap(Sandbox):
             "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
             PROFILE: DISCOVERY_PROFILE,
         }
-        descriptors = {path: _memory_file(text) for path, text in texts.items()}
+        descriptors = {path: memory_file(text) for path, text in texts.items()}
         told, tell = os.pipe()
         command = [self._bwrap, "--die-with-parent", "--info-fd", str(tell)]
         command += ["--unshare-net", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
@@ -186,15 +182,10 @@ class Bubblewrap(Sandbox):
 
     def _mounts(self) -> Iterator[str]:
         interpreter = self.ros.interpreter.parent.parent
-        for folder in _parents(WORKSPACE, PROFILE, self.ros.inside, str(interpreter)):
+        for folder in parents_of(WORKSPACE, PROFILE, self.ros.inside, str(interpreter)):
             if not folder.startswith("/usr"):
                 yield from ("--perms", "0755", "--dir", folder)
-        for path in SYSTEM:
-            place = Path(path)
-            if place.is_symlink():
-                yield from ("--symlink", str(place.readlink()), path)
-            elif place.is_dir():
-                yield from ("--ro-bind", path, path)
+        yield from system_mounts()
         for path in FILES:
             yield from ("--ro-bind-try", path, path)
         if not interpreter.is_relative_to("/usr"):
@@ -283,13 +274,24 @@ def _remedy(said: str) -> str:
     return "Report this with its text."
 
 
-def _parents(*paths: str) -> list[str]:
+def system_mounts() -> Iterator[str]:
+    """Yield bwrap's words for the programs and libraries of this machine, read-only."""
+    for path in SYSTEM:
+        place = Path(path)
+        if place.is_symlink():
+            yield from ("--symlink", str(place.readlink()), path)
+        elif place.is_dir():
+            yield from ("--ro-bind", path, path)
+
+
+def parents_of(*paths: str) -> list[str]:
     """Return the folders above these paths, outermost first."""
     found = {str(parent) for path in paths for parent in Path(path).parents} - {"/"}
     return sorted(found, key=lambda folder: (folder.count("/"), folder))
 
 
-def _memory_file(text: str) -> int:
+def memory_file(text: str) -> int:
+    """Return a descriptor from which a text can be read: a file without a name."""
     descriptor = os.memfd_create("grader")
     os.write(descriptor, text.encode())
     os.lseek(descriptor, 0, os.SEEK_SET)

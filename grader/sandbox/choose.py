@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import difflib
 import os
+from pathlib import Path
 
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.limits import Limits
-from grader.ros.prefix import Ros
+from grader.ros.cache import Say
+from grader.ros.distro import Distro
+from grader.ros.prefix import find_ros
 from grader.sandbox.base import Sandbox
 
-NAMES = ("auto", "bubblewrap", "account", "none")
+NAMES = ("auto", "docker", "bubblewrap", "account", "none")
 DISPOSABLE = "GRADER_DISPOSABLE"
+DOCKER_SOCKET = Path("/var/run/docker.sock")
 
 
 def check_name(name: str) -> None:
@@ -25,43 +29,76 @@ def check_name(name: str) -> None:
         )
 
 
-def open_sandbox(name: str, ros: Ros, limits: Limits, *, own_code: bool = False) -> Sandbox:
-    """Return an opened sandbox; the caller closes it.
+def open_sandbox(
+    name: str, distro: Distro, limits: Limits, *, own_code: bool = False, say: Say = print
+) -> Sandbox:
+    """Return an opened sandbox over a ROS installation of that distro; the caller closes it.
 
-    `own_code` allows `auto` to end at `none`, for a student's own package. Raises
-    SurroundingsError where no sandbox is to be had, with cause and remedy.
+    `own_code` allows `auto` to end at `none`, for a student's own package. `say` hears of what is
+    made on the way (a prefix, an image). Raises SurroundingsError where no sandbox is to be had,
+    with cause and remedy.
     """
     check_name(name)
     tried: list[SurroundingsError] = []
     for choice in _choices(name, own_code=own_code):
         try:
-            sandbox = _make(choice, ros, limits)
-            sandbox.__enter__()
+            sandbox = _make(choice, distro, limits, say, asked=name != "auto")
+            if sandbox is not None:
+                return sandbox.__enter__()
         except SurroundingsError as error:
             tried.append(error)
-        else:
-            return sandbox
     raise SurroundingsError(
-        "no sandbox to mark in: " + "\n".join(error.message for error in tried),
-        remedy="\n".join(error.remedy for error in tried if error.remedy),
+        "no sandbox to mark in: " + "\n".join(dict.fromkeys(error.message for error in tried)),
+        remedy="\n".join(dict.fromkeys(error.remedy for error in tried if error.remedy)),
     )
 
 
 def _choices(name: str, *, own_code: bool) -> list[str]:
     if name != "auto":
         return [name]
-    choices = ["bubblewrap"]
+    choices = ["docker", "bubblewrap"]
     if os.environ.get(DISPOSABLE) == "1":
         choices.append("account")
     return [*choices, "none"] if own_code else choices
 
 
-def _make(name: str, ros: Ros, limits: Limits) -> Sandbox:
+def _make(choice: str, distro: Distro, limits: Limits, say: Say, *, asked: bool) -> Sandbox | None:
     # each sandbox is loaded only when it is asked for: `grader --help` must not pay for it
-    if name == "bubblewrap":
+    if choice == "docker":
+        return _containers(distro, limits, say, asked=asked)
+    ros = find_ros(distro, say=say)
+    if choice == "bubblewrap":
         from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
 
         return Bubblewrap(ros, limits)
     from grader.sandbox import plain  # noqa: PLC0415
 
-    return plain.Account(ros, limits) if name == "account" else plain.Bare(ros, limits)
+    return plain.Account(ros, limits) if choice == "account" else plain.Bare(ros, limits)
+
+
+def _containers(distro: Distro, limits: Limits, say: Say, *, asked: bool) -> Sandbox | None:
+    """Return the `docker` sandbox; None where `auto` asks and daemon or image are not there.
+
+    An image is made only where docker was asked for by name: `auto` never pulls gigabytes.
+    """
+    if not asked and not os.environ.get("DOCKER_HOST") and not DOCKER_SOCKET.exists():
+        return None
+    from grader.ros import image_build  # noqa: PLC0415
+    from grader.ros import images  # noqa: PLC0415
+    from grader.sandbox.containers import Containers  # noqa: PLC0415
+
+    try:
+        client = images.connect()
+    except SurroundingsError:
+        if asked:
+            raise
+        return None
+    image = images.find_image(client, distro)
+    if image is None and asked:
+        network = image_build.Network()
+        image_build.build_image(client, distro, stage="grade", base="ros", network=network, say=say)
+        image = images.find_image(client, distro)
+    if image is None:
+        client.close()
+        return None
+    return Containers(client, image, distro, limits)

@@ -28,10 +28,10 @@ from grader.limits import Limits
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE
 from grader.sandbox.base import Role
-from grader.sandbox.base import Sandbox
-from grader.sandbox.base import need
 from grader.sandbox.cgroups import Group
 from grader.sandbox.cgroups import open_group
+from grader.sandbox.local import LocalSandbox
+from grader.sandbox.local import need
 from grader.sandbox.processes import adopt_orphans
 from grader.sandbox.processes import descendants
 from grader.sandbox.processes import processes
@@ -49,7 +49,7 @@ FIRST_UID = 65_600
 END_SECONDS = 10.0
 
 
-class Bare(Sandbox):
+class Bare(LocalSandbox):
     """No sandbox at all: the commands run as the user that runs the grader."""
 
     name = "none"

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Builds and runs the whole table of distros and bases on a machine that reaches a registry, and
+# prints it as README has it:  docker/all.sh [DISTRO...]
+# For each: both images are built, the solution is marked in a container (it must have all points),
+# and the lab answers `ros2 pkg prefix`. WHEELS_BASE names another image for the base `wheels`.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+python3 grader/bootstrap.py || exit 3
+[ $# -gt 0 ] || set -- $(sed -n 's/^\[\([a-z]*\)\]$/\1/p' grader/ros/distros.toml)
+repository=${GRADER_IMAGES:-ros2-teaching-lab}
+solution=grader/keys/hello_time/solution/my_robot_controller
+log=$(mktemp -d)
+failed=0
+printf '| distro | base | built | marked | lab | grade image | lab image |\n|---|---|---|---|---|---|---|\n'
+for distro in "$@"; do
+  for base in ros wheels; do
+    if [ $base = wheels ] && ! grep -q "^\[$distro.wheels\]" grader/ros/distros.toml; then continue; fi
+    suffix=$([ $base = wheels ] && echo -wheels || true)
+    built=no marked=no lab=no
+    # another repository for each row: what is marked is this image, not its neighbour
+    export GRADER_IMAGES="$repository-row-$distro-$base"
+    image=$([ $base = wheels ] && echo "${WHEELS_BASE:-}" || true)
+    if .venv/bin/python -m grader images --distro "$distro" --base $base \
+      ${image:+--base-image "$image"} \
+      ${EXTRA_CA:+--extra-ca "$EXTRA_CA"} ${APT_MIRROR:+--apt-mirror "$APT_MIRROR"} \
+      ${PIP_INDEX_URL:+--pip-index "$PIP_INDEX_URL"} > "$log/$distro-$base.log" 2>&1; then
+      built=yes
+      .venv/bin/python -m grader grade "$solution" --sandbox docker --distro "$distro" \
+        --out "$log/reports-$base" >> "$log/$distro-$base.log" 2>&1 && marked=yes
+      docker run --rm "$GRADER_IMAGES:lab-$distro$suffix" bash -c \
+        ". /opt/ros/$distro/setup.bash && ros2 pkg prefix rclpy" >> "$log/$distro-$base.log" 2>&1 &&
+        lab=yes
+    fi
+    size() { docker image inspect --format '{{.Size}}' "$1" 2> /dev/null | awk '$1 {printf "%.0f MB", $1 / 1e6}'; }
+    printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$distro" $base $built $marked $lab \
+      "$(size "$GRADER_IMAGES:grade-$distro$suffix")" "$(size "$GRADER_IMAGES:lab-$distro$suffix")"
+    [ $built$marked$lab = yesyesyes ] || failed=1
+  done
+done
+echo "logs: $log" >&2
+exit $failed

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Says by which digests the official images are had today, as rows for grader/ros/distros.toml.
+# Needs a machine that reaches the registry:  docker/pin.sh [DISTRO...]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+[ $# -gt 0 ] || set -- $(sed -n 's/^\[\([a-z]*\)\]$/\1/p' grader/ros/distros.toml)
+for distro in "$@"; do
+  image="ros:$distro-ros-base"
+  docker pull -q "$image" > /dev/null
+  echo "[$distro]"
+  docker image inspect --format '{{index .RepoDigests 0}}' "$image" | sed 's/.*@/digest = "/; s/$/"/'
+done

@@ -1,0 +1,47 @@
+# A base for machines that cannot have the official ROS images: Debian's (or Docker's own) Python,
+# and /opt/ros/<distro> made of PyPI's ROS wheels by the same code as the local prefix.
+# jazzy and kilted. Builds with and without BuildKit.
+#
+#   docker build -f docker/wheels.Dockerfile --build-arg DISTRO=jazzy -t ros2-teaching-lab:base-jazzy-wheels .
+#
+# APT_MIRROR, PIP_INDEX_URL, HTTP_PROXY, HTTPS_PROXY: for networks as they are. An extra CA
+# certificate is a file docker/ca/*.crt; it stays in the builder stage, which is thrown away.
+ARG WHEELS_BASE=debian:trixie-slim
+
+FROM ${WHEELS_BASE} AS python
+ARG APT_MIRROR=
+COPY docker/apt_install.sh /usr/local/sbin/
+RUN apt_install.sh python3 libatomic1
+
+FROM python AS prefix
+ARG APT_MIRROR=
+RUN apt_install.sh python3-venv ca-certificates
+COPY docker/ca/ /usr/local/share/ca-certificates/
+RUN update-ca-certificates > /dev/null 2>&1
+ENV PIP_CERT=/etc/ssl/certs/ca-certificates.crt PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1
+ARG PIP_INDEX_URL=
+WORKDIR /src
+COPY grader/requirements.txt grader/
+RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
+ && python3 -m venv .venv \
+ && .venv/bin/pip install -q --require-hashes --only-binary :all: -r grader/requirements.txt
+COPY grader/__init__.py grader/errors.py grader/
+COPY grader/ros/__init__.py grader/ros/cache.py grader/ros/distro.py grader/ros/prefix.py \
+     grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
+COPY grader/ros/locks grader/ros/locks
+COPY grader/ros/ros2_command grader/ros/ros2_command
+ARG DISTRO=jazzy
+RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
+ && mkdir -p /opt/ros \
+ && GRADER_CACHE=/cache .venv/bin/python -c "from grader.ros.distro import find_distro; \
+from grader.ros.prefix import wheels_prefix; \
+wheels_prefix(find_distro('$DISTRO')).rename('/opt/ros/$DISTRO')"
+
+FROM python AS wheels
+COPY --from=prefix /opt/ros /opt/ros
+ARG DISTRO=jazzy
+ENV ROS_DISTRO=${DISTRO} LANG=C.UTF-8
+LABEL ros2-teaching-lab.distro="${DISTRO}" \
+      ros2-teaching-lab.ros="wheels" \
+      ros2-teaching-lab.stage="base"
+CMD ["bash"]

@@ -1,0 +1,47 @@
+"""How a command of this project ends: its exit status, and a message instead of a traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from types import FrameType
+
+import click
+
+from grader.errors import GraderError
+
+
+class Terminated(BaseException):
+    """SIGTERM or SIGHUP came: everything is closed on the way out."""
+
+
+def _terminated(number: int, frame: FrameType | None) -> None:
+    del number, frame
+    raise Terminated
+
+
+def run(command: click.Command, name: str, argv: list[str] | None) -> int:
+    """Run a command line and return its exit status: DESIGN's contract."""
+    signal.signal(signal.SIGTERM, _terminated)
+    signal.signal(signal.SIGHUP, _terminated)
+    try:
+        status = command.main(args=argv, prog_name=name, standalone_mode=False)
+        return status if isinstance(status, int) else 0
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    except click.ClickException as error:
+        error.show()
+        return 2
+    except GraderError as error:
+        click.echo(f"{name}: {error}", err=True)
+        return error.exit_status
+    except (KeyboardInterrupt, click.Abort):
+        click.echo(f"{name}: interrupted; nothing was left running", err=True)
+        return 130
+    except Terminated:
+        click.echo(f"{name}: terminated; nothing was left running", err=True)
+        return 143
+    except BrokenPipeError:  # the reader of our output has gone (| head)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1

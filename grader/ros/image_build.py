@@ -1,0 +1,225 @@
+"""Builds the images with the Docker SDK: no `docker` command is needed."""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import tarfile
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import IO
+from typing import TYPE_CHECKING
+
+import grader
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+from grader.ros.cache import Say
+from grader.ros.distro import Distro
+from grader.ros.images import Base
+from grader.ros.images import Stage
+from grader.ros.images import image_name
+
+if TYPE_CHECKING:
+    from docker import DockerClient
+
+WHEELS_BASE = "debian:trixie-slim"
+PROXIES = ("HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY", "http_proxy", "https_proxy", "no_proxy")
+CONTEXT = ("docker", "grader", "lab", ".dockerignore")
+STEP = re.compile(r"^Step (\d+/\d+) : (\S+) *(.*)")
+TAIL = 12  # lines of output that an error shows
+
+
+@dataclass(frozen=True)
+class Network:
+    """How a build reaches the world. `extra_ca`: a PEM file that only builder stages see.
+
+    `wheels_base` and `ros_base` name other images to start from (a local one, or a digest).
+    """
+
+    apt_mirror: str = ""
+    pip_index: str = ""
+    extra_ca: Path | None = None
+    wheels_base: str = WHEELS_BASE
+    ros_base: str = ""
+
+    def arguments(self) -> dict[str, str]:
+        """Return the build arguments, with the proxies of this process' environment."""
+        own = {"APT_MIRROR": self.apt_mirror, "PIP_INDEX_URL": self.pip_index}
+        proxies = {name: os.environ[name] for name in PROXIES if os.environ.get(name)}
+        return proxies | {name: value for name, value in own.items() if value}
+
+
+def build_image(
+    client: DockerClient,
+    distro: Distro,
+    *,
+    stage: Stage,
+    base: Base,
+    network: Network,
+    say: Say,
+) -> str:
+    """Build one image (and the base under it), tag it, and return its id.
+
+    Raises UsageError where the distro has no wheels, SurroundingsError where the build fails.
+    """
+    arguments = {**network.arguments(), "DISTRO": distro.name, "VERSION": grader.__version__}
+    if base == "wheels":
+        if distro.lock is None:
+            raise UsageError(
+                f"PyPI has no ROS wheels for {distro.name}", remedy="Use BASE=ros for it."
+            )
+        under = image_name(distro, "base", "wheels")
+        build = {**arguments, "WHEELS_BASE": network.wheels_base}
+        _build(client, "docker/wheels.Dockerfile", "wheels", under, build, network, say)
+        arguments |= {"BASE": under, "ROS": "wheels"}
+    else:
+        arguments |= {"BASE": network.ros_base or distro.pinned_image, "ROS": "image"}
+    name = image_name(distro, stage, base)
+    return _build(client, "docker/Dockerfile", stage, name, arguments, network, say)
+
+
+def _build(
+    client: DockerClient,
+    dockerfile: str,
+    target: str,
+    name: str,
+    arguments: dict[str, str],
+    network: Network,
+    say: Say,
+) -> str:
+    import docker.errors  # noqa: PLC0415
+
+    say(f"building {name} (the first time takes a few minutes)")
+    tail: list[str] = []
+    try:
+        with tempfile.TemporaryFile() as context:
+            _pack(context, network)
+            context.seek(0)
+            lines = client.api.build(
+                fileobj=context,
+                custom_context=True,
+                dockerfile=dockerfile,
+                target=target,
+                tag=name,
+                buildargs=arguments,
+                rm=True,
+                forcerm=True,
+                decode=True,
+            )
+            for text in _texts(lines):
+                tail = [*tail[1 - TAIL :], text]
+                step = STEP.match(text)
+                if step:
+                    say(f"  {step.group(1)} {step.group(2)} {step.group(3)[:70]}".rstrip())
+        return str(client.images.get(name).id)
+    except _BuildError as error:
+        raise _failed(name, str(error), tail, arguments) from None
+    except (docker.errors.DockerException, OSError) as error:
+        raise _failed(name, str(error), tail, arguments) from None
+
+
+class _BuildError(Exception):
+    """What the daemon says of a step that failed."""
+
+
+def _texts(lines: Iterator[dict[str, object]]) -> Iterator[str]:
+    for line in lines:
+        if "error" in line:
+            raise _BuildError(str(line["error"]).strip())
+        text = str(line.get("stream") or line.get("status") or "").strip()
+        if text:
+            yield text
+
+
+def _failed(name: str, said: str, tail: list[str], arguments: dict[str, str]) -> SurroundingsError:
+    base = arguments.get("BASE") or arguments.get("WHEELS_BASE", "")
+    words = "\n".join([*tail, said])
+    if "no space left" in words:
+        remedy = "Free some space for Docker: `docker system df` shows what takes it."
+    elif (
+        (base and base in said)
+        or "pull access denied" in said
+        or "registry" in said
+        or "manifest" in said
+    ):
+        remedy = (
+            f"The base {base} could not be had. Where no registry can be reached: "
+            "docker/make_base.sh makes a base with debootstrap, and `make images BASE=wheels` needs "
+            "no official image (docs/images.md)."
+        )
+    else:
+        remedy = (
+            "Check the network (HTTPS_PROXY, APT_MIRROR, EXTRA_CA=file.pem; docs/images.md), then "
+            "run the command again: finished steps are kept."
+        )
+    return SurroundingsError(f"{name} could not be built:\n{words}", remedy=remedy)
+
+
+def root() -> Path:
+    """Return the folder that is the build's context: this checkout, or the installed share."""
+    here = Path(__file__).resolve()
+    shares = [parent / "share" / "ros2_teaching_lab" for parent in here.parents]
+    places = [here.parents[2], *shares]
+    found = next((place for place in places if (place / "docker" / "Dockerfile").is_file()), None)
+    if found is None:
+        raise SurroundingsError(
+            "the Dockerfiles are not here", remedy="Build images from a checkout of the project."
+        )
+    return found
+
+
+def _pack(stream: IO[bytes], network: Network) -> None:
+    """Write the build's context: what .dockerignore leaves, and the extra certificate."""
+    folder = root()
+    rules = (folder / ".dockerignore").read_text(encoding="utf-8").splitlines()
+    with tarfile.open(fileobj=stream, mode="w") as archive:
+        for top in CONTEXT:
+            for path in sorted([folder / top, *(folder / top).rglob("*")]):
+                name = path.relative_to(folder).as_posix()
+                dockerfile = top in ("docker", ".dockerignore") and path.is_file()
+                if not path.is_dir() and (dockerfile or not is_ignored(name, rules)):
+                    archive.add(path, name, recursive=False, filter=_nobody)
+        if network.extra_ca is not None:
+            _add(archive, "docker/ca/extra.crt", _certificates(network.extra_ca))
+
+
+def is_ignored(name: str, rules: list[str]) -> bool:
+    """Whether .dockerignore leaves a file out: the last rule that matches it decides."""
+    ignored = False
+    folders = [name, *(parent.as_posix() for parent in Path(name).parents)]
+    for rule in rules:
+        pattern = rule.strip().removeprefix("!")
+        if not pattern or pattern.startswith("#"):
+            continue
+        patterns = {pattern, pattern.removeprefix("**/")}
+        if any(fnmatch(folder, each) for folder in folders for each in patterns):
+            ignored = not rule.startswith("!")
+    return ignored
+
+
+def _certificates(file: Path) -> bytes:
+    try:
+        data = file.read_bytes()
+    except OSError as error:
+        raise UsageError(f"the certificate {file} cannot be read: {error.strerror}") from None
+    if b"-----BEGIN CERTIFICATE-----" not in data:
+        raise UsageError(f"{file} is no certificate in PEM form")
+    return data
+
+
+def _nobody(entry: tarfile.TarInfo) -> tarfile.TarInfo:
+    """Leave out whose files these are and when they were made: the cache compares contents."""
+    entry.uid = entry.gid = entry.mtime = 0
+    entry.uname = entry.gname = ""
+    entry.mode = 0o755 if entry.mode & 0o100 else 0o644
+    return entry
+
+
+def _add(archive: tarfile.TarFile, name: str, data: bytes) -> None:
+    entry = tarfile.TarInfo(name)
+    entry.size, entry.mode = len(data), 0o644
+    archive.addfile(entry, io.BytesIO(data))

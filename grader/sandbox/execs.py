@@ -1,0 +1,285 @@
+"""A command in a running container, and the socket over which it talks to us."""
+
+from __future__ import annotations
+
+import select
+import socket
+import struct
+import time
+from collections.abc import Callable
+from collections.abc import Iterator
+from collections.abc import Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+from typing import Any
+from typing import Literal
+
+import docker.errors
+import requests.exceptions
+from pexpect.socket_pexpect import SocketSpawn
+
+from grader.errors import SurroundingsError
+from grader.sandbox.base import COLUMNS
+from grader.sandbox.base import ROWS
+from grader.sandbox.base import Console
+from grader.sandbox.base import Outcome
+from grader.sandbox.base import Pipe
+
+if TYPE_CHECKING:
+    from docker import APIClient
+
+End = Literal["as asked", "otherwise"]  # whether Ctrl+C ended a command on a console
+HEADER = struct.Struct(">BxxxL")  # of a frame: which stream, how many bytes (Docker's API, attach)
+STDERR = 2
+MOST_ERRORS = 4_000  # bytes of stderr that are kept
+LOOK_SECONDS = 0.25  # how often it is asked whether a silent command has ended
+DRAIN_SECONDS = 1.0  # of silence after which nothing more comes of a command that has ended
+STATUS_SECONDS = 5.0  # in which the status of a command that has let go of its streams is known
+POLL_SECONDS = 0.002
+GONE = 137  # the status of a command whose container was killed
+
+
+@contextmanager
+def docker_errors(doing: str) -> Iterator[None]:
+    """Turn what the daemon (or its absence) raises into SurroundingsError."""
+    try:
+        yield
+    except docker.errors.APIError as error:
+        said = str(error.explanation or error)
+        remedy = "Free some space for Docker (`docker system df` says what takes it)."
+        raise SurroundingsError(
+            f"Docker refused while {doing}: {said}",
+            remedy=remedy if "no space left" in said else "`docker info` tells how the daemon is.",
+        ) from error
+    except (docker.errors.DockerException, requests.exceptions.RequestException, OSError) as error:
+        raise SurroundingsError(
+            f"the Docker daemon went away while {doing}",
+            remedy="Start it (`sudo systemctl start docker`) and run the command again.",
+        ) from error
+
+
+class Exec:
+    """One command in a container. Raises what the Docker SDK raises."""
+
+    def __init__(
+        self, api: APIClient, container: str, argv: Sequence[str], *, user: int, tty: bool = False
+    ) -> None:
+        made = api.exec_create(container, list(argv), stdin=True, tty=tty, user=f"{user}:{user}")
+        self._api = api
+        self._id: str = made["Id"]
+        self._reply = api.exec_start(self._id, tty=tty, socket=True)
+        self.socket = socket_of(self._reply)
+        self._early = already_read(self._reply, self.socket)
+        if tty:
+            api.exec_resize(self._id, height=ROWS, width=COLUMNS)
+
+    def wait_for_output(self, seconds: float) -> bool:
+        """Wait until there is something to read (or the end of it); return whether there is."""
+        patience = self.patience(max(0.0, seconds))
+        return bool(select.select([self.socket], [], [], patience)[0] or self._early)
+
+    def patience(self, seconds: float) -> float:
+        """Return how long to wait for the socket: not at all if something is there already."""
+        return 0 if self._early else seconds
+
+    def receive(self) -> bytes:
+        """Return what has come, b"" at the end."""
+        if self._early:
+            data, self._early = self._early, b""
+            return data
+        try:
+            return self.socket.recv(1 << 18)
+        except ConnectionError:
+            return b""
+
+    def status(self) -> int | None:
+        """Return its exit status, None while it runs."""
+        try:
+            state: dict[str, Any] = self._api.exec_inspect(self._id)
+        except docker.errors.NotFound:
+            return GONE
+        return None if state["Running"] else int(state["ExitCode"] or 0)
+
+    def wait(self, seconds: float) -> int | None:
+        """Wait for its exit status; None if it did not end in time."""
+        deadline = time.monotonic() + seconds
+        while (status := self.status()) is None and time.monotonic() < deadline:
+            time.sleep(POLL_SECONDS)  # the API cannot be waited on for the end of an exec
+        return status
+
+    def close(self) -> None:
+        """Let go of the socket; the command itself ends with its container."""
+        self.socket.close()
+        self._reply.close()
+
+
+def socket_of(reply: object) -> socket.socket:
+    """Return the socket itself behind what the SDK gives for it (a file-like wrapper)."""
+    found = getattr(reply, "_sock", reply)
+    assert isinstance(found, socket.socket)
+    return found
+
+
+def already_read(reply: object, line: socket.socket) -> bytes:
+    """Return what came together with the answer's head: it is in the HTTP reader's buffer.
+
+    (The SDK hands out the raw socket under that reader; these bytes would be lost.)
+    """
+    response = getattr(reply, "_response", None)
+    reader = getattr(getattr(getattr(response, "raw", None), "_fp", None), "fp", None)
+    if reader is None:
+        line.settimeout(None)
+        return b""
+    line.setblocking(False)
+    try:
+        return bytes(reader.read1(len(reader.peek())) if reader.peek() else b"")
+    except (BlockingIOError, ValueError, TypeError):
+        return b""
+    finally:
+        line.settimeout(None)
+
+
+class Frames:
+    """Takes the frames of stdout and stderr apart."""
+
+    def __init__(self) -> None:
+        self._raw = bytearray()
+
+    def feed(self, data: bytes) -> Iterator[tuple[int, bytes]]:
+        """Yield the stream's number and the bytes of each whole frame."""
+        self._raw += data
+        while len(self._raw) >= HEADER.size:
+            stream, size = HEADER.unpack_from(self._raw)
+            if len(self._raw) < HEADER.size + size:
+                return
+            yield stream, bytes(self._raw[HEADER.size : HEADER.size + size])
+            del self._raw[: HEADER.size + size]
+
+
+def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outcome:
+    """Feed stdin, read both streams to their end, cut while they are read."""
+    begin = time.monotonic()
+    ended: float | None = None
+    frames, output, rest = Frames(), bytearray(), memoryview(stdin)
+    line = command.socket
+    line.setblocking(False)
+    if not rest:
+        line.shutdown(socket.SHUT_WR)
+
+    def outcome(status: int | None, stopped_by: str = "") -> Outcome:
+        return Outcome(status, bytes(output[:most]), time.monotonic() - begin, stopped_by)
+
+    while True:
+        left = begin + seconds - time.monotonic()
+        if left <= 0:
+            return outcome(None, "wall time")
+        can_write = select.select(
+            [line], [line] if rest else [], [], command.patience(min(left, LOOK_SECONDS))
+        )[1]
+        if can_write:
+            rest = _send(line, rest)
+        if command.wait_for_output(0):
+            data = command.receive()
+            if not data:
+                break
+            for _, text in frames.feed(data):
+                output += text
+            if len(output) >= most:
+                return outcome(None, "output")
+            ended = None
+        # what it left in the background keeps the streams open: that it has ended is asked for,
+        # and its last words may still be on their way then
+        elif not can_write and ended is None:
+            ended = time.monotonic() if command.status() is not None else None
+        elif ended is not None and time.monotonic() - ended > DRAIN_SECONDS:
+            break
+    return outcome(command.wait(STATUS_SECONDS))
+
+
+def _send(line: socket.socket, rest: memoryview) -> memoryview:
+    try:
+        rest = rest[line.send(rest[: 1 << 16]) :]
+    except BrokenPipeError:
+        rest = rest[:0]
+    if not rest:
+        line.shutdown(socket.SHUT_WR)
+    return rest
+
+
+class ExecConsole(Console):
+    """A command in a container on a pseudo-terminal, by pexpect over the exec's socket.
+
+    (Such a spawn of pexpect has no sendintr, wait or terminate: Ctrl+C is a byte that is sent, the
+    end is the container's.)
+    """
+
+    def __init__(self, command: Exec, *, ended: Callable[[End], None]) -> None:
+        self._command = command
+        self._spawn = SocketSpawn(command.socket, timeout=None)
+        self._spawn.delaybeforesend = None
+        self._ended = ended
+        self._interrupted = False
+        self._status: int | None = None
+
+    def wait(self, seconds: float) -> bool:
+        return self._command.wait_for_output(seconds)
+
+    def read(self) -> bytes:
+        return self._command.receive()
+
+    def interrupt(self) -> None:
+        self._interrupted = True
+        self._spawn.send(b"\x03")
+
+    def poll(self) -> tuple[int | None, int | None] | None:
+        if self._status is None:
+            with docker_errors("running the node"):
+                self._status = self._command.status()
+        return None if self._status is None else (self._status, None)
+
+    def end(self) -> None:
+        how: End = "as asked" if self._interrupted and self.poll() is not None else "otherwise"
+        self._command.close()
+        self._ended(how)
+
+
+class ExecPipe(Pipe):
+    """A command in a container with pipes."""
+
+    def __init__(self, command: Exec, *, ended: Callable[[], None]) -> None:
+        self._command = command
+        self._ended = ended
+        self._frames = Frames()
+        self._errors = b""
+
+    def write(self, data: bytes) -> None:
+        self._command.socket.sendall(data)
+
+    def read(self, seconds: float) -> bytes | None:
+        deadline = time.monotonic() + seconds
+        output = b""
+        while not output:
+            if not self._command.wait_for_output(deadline - time.monotonic()):
+                return None
+            data = self._command.receive()
+            if not data:
+                return b""
+            for stream, text in self._frames.feed(data):
+                if stream == STDERR:
+                    self._errors = (self._errors + text)[-MOST_ERRORS:]
+                else:
+                    output += text
+        return output
+
+    def errors(self) -> bytes:
+        return self._errors
+
+    def finish(self, seconds: float) -> None:
+        with docker_errors("ending the probe"):
+            ended = self._command.wait(seconds) is not None
+        self._command.close()
+        if not ended:
+            self._ended()
+
+    def kill(self) -> None:
+        self._ended()

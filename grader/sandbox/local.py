@@ -1,0 +1,253 @@
+"""What the sandboxes of this machine share: a command becomes one that is started here.
+
+So pipes and pseudo-terminals are the grader's own, and the kernel's rules for children hold.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import selectors
+import signal
+import subprocess
+import time
+from abc import abstractmethod
+from collections.abc import Mapping
+from collections.abc import Sequence
+from pathlib import Path
+
+import pexpect
+
+from grader.errors import SurroundingsError
+from grader.sandbox.base import COLUMNS
+from grader.sandbox.base import PATH
+from grader.sandbox.base import ROWS
+from grader.sandbox.base import Console
+from grader.sandbox.base import Outcome
+from grader.sandbox.base import Pipe
+from grader.sandbox.base import Role
+from grader.sandbox.base import Sandbox
+
+END_SECONDS = 2.0  # in which a command that was killed is gone
+KILL_SECONDS = 5.0
+POLL_SECONDS = 0.002  # between two looks at a process that is ending
+MOST_ERRORS = 4_000  # bytes of stderr that are kept
+
+
+class LocalSandbox(Sandbox):
+    """A sandbox whose commands are started on this machine."""
+
+    @abstractmethod
+    def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
+        """Return the command that, started here, runs `argv` inside."""
+
+    def outer_environment(self, role: Role) -> Mapping[str, str]:
+        """Return the environment for the command that `command` returned."""
+        del role
+        return {"PATH": PATH, "LANG": "C.UTF-8"}
+
+    def run(
+        self,
+        argv: Sequence[str],
+        *,
+        role: Role = "student",
+        stdin: bytes = b"",
+        seconds: float,
+        output: float | None = None,
+    ) -> Outcome:
+        most = int(self.limits.output if output is None else output)
+        command = self.command(argv, role=role)
+        started = time.monotonic()
+        with subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            env=self.outer_environment(role),
+        ) as process:
+            try:
+                text, stopped_by = _converse(process, stdin, started + seconds, most)
+            finally:
+                self.end(process)
+        status = None if stopped_by else process.returncode
+        return Outcome(status, text, time.monotonic() - started, stopped_by)
+
+    def console(self, argv: Sequence[str]) -> Console:
+        return LocalConsole(self.command(argv), self.outer_environment("student"))
+
+    def pipe(self, argv: Sequence[str], *, role: Role) -> Pipe:
+        return LocalPipe(self, self.command(argv, role=role), self.outer_environment(role))
+
+    def end(self, process: subprocess.Popen[bytes]) -> None:
+        """End a process that `command` made, and what it started, at once."""
+        if process.poll() is None:
+            kill_below(process.pid)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(END_SECONDS)
+        if process.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+
+
+class LocalConsole(Console):
+    """A command of this machine on a pseudo-terminal, by pexpect."""
+
+    def __init__(self, command: Sequence[str], env: Mapping[str, str]) -> None:
+        self._spawn = pexpect.spawn(
+            command[0],
+            list(command[1:]),
+            env=dict(env),
+            timeout=None,
+            dimensions=(ROWS, COLUMNS),
+        )
+        self._spawn.delayafterclose = self._spawn.delayafterterminate = 0
+        self._spawn.ptyproc.delayafterclose = self._spawn.ptyproc.delayafterterminate = 0
+        self._spawn.delaybeforesend = None
+
+    def wait(self, seconds: float) -> bool:
+        return bool(select.select([self._spawn.child_fd], [], [], max(0.0, seconds))[0])
+
+    def read(self) -> bytes:
+        try:
+            return os.read(int(self._spawn.child_fd), 65536)
+        except OSError:  # Linux says EIO when the last process has let go of the terminal
+            return b""
+
+    def interrupt(self) -> None:
+        self._spawn.sendintr()
+
+    def poll(self) -> tuple[int | None, int | None] | None:
+        if self._spawn.isalive():
+            return None
+        return self._spawn.exitstatus, self._spawn.signalstatus
+
+    def end(self) -> None:
+        begin = time.monotonic()
+        while self._spawn.isalive() and time.monotonic() < begin + KILL_SECONDS:
+            if time.monotonic() < begin + KILL_SECONDS / 2:
+                kill_below(self._spawn.pid)
+            else:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(self._spawn.pid, signal.SIGKILL)
+            time.sleep(POLL_SECONDS)
+        self._spawn.close(force=False)
+
+
+class LocalPipe(Pipe):
+    """A command of this machine with pipes."""
+
+    def __init__(
+        self, sandbox: LocalSandbox, command: Sequence[str], env: Mapping[str, str]
+    ) -> None:
+        self._sandbox = sandbox
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+            env=dict(env),
+        )
+
+    def write(self, data: bytes) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(data)
+        self._process.stdin.flush()
+
+    def read(self, seconds: float) -> bytes | None:
+        assert self._process.stdout is not None
+        descriptor = self._process.stdout.fileno()
+        if not select.select([descriptor], [], [], max(0.0, seconds))[0]:
+            return None
+        return os.read(descriptor, 1 << 20)
+
+    def errors(self) -> bytes:
+        assert self._process.stderr is not None
+        return self._process.stderr.read(MOST_ERRORS)
+
+    def finish(self, seconds: float) -> None:
+        with contextlib.suppress(OSError, ValueError, subprocess.TimeoutExpired):
+            assert self._process.stdin is not None
+            self._process.stdin.close()
+            self._process.wait(seconds)
+        self.kill()
+        for stream in (self._process.stdin, self._process.stdout, self._process.stderr):
+            if stream is not None:
+                with contextlib.suppress(OSError):
+                    stream.close()
+        self._process.wait()
+
+    def kill(self) -> None:
+        self._sandbox.end(self._process)
+
+
+def kill_below(pid: int) -> None:
+    """Kill the children of a process that `command` made, so that it collects them and ends.
+
+    (Killed together with them it would leave an orphan behind, and a PID namespace does not end
+    before somebody has collected the last of its processes.)
+    """
+    with contextlib.suppress(OSError):
+        children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        for child in children:
+            os.kill(int(child), signal.SIGKILL)
+        os.kill(pid, signal.SIGCONT if children else signal.SIGKILL)
+
+
+def _converse(
+    process: subprocess.Popen[bytes], stdin: bytes, deadline: float, most: int
+) -> tuple[bytes, str]:
+    """Feed stdin and read the output until the end of it; return it and which limit was met."""
+    assert process.stdin is not None and process.stdout is not None
+    output = bytearray()
+    rest = memoryview(stdin)
+    os.set_blocking(process.stdin.fileno(), False)
+    with selectors.DefaultSelector() as selector:
+        selector.register(process.stdout, selectors.EVENT_READ)
+        if rest:
+            selector.register(process.stdin, selectors.EVENT_WRITE)
+        else:
+            process.stdin.close()
+        while True:
+            left = deadline - time.monotonic()
+            if left <= 0:
+                return bytes(output), "wall time"
+            for key, _ in selector.select(left):
+                if key.fileobj is process.stdin:
+                    try:
+                        rest = rest[os.write(key.fd, rest[:65536]) :]
+                    except BrokenPipeError:
+                        rest = rest[:0]
+                    if not rest:
+                        selector.unregister(process.stdin)
+                        process.stdin.close()
+                    continue
+                data = os.read(key.fd, 65536)
+                if not data:
+                    return _wait(process, deadline, output)
+                output += data[: most - len(output)]
+                if len(output) >= most:
+                    return bytes(output), "output"
+
+
+def _wait(
+    process: subprocess.Popen[bytes], deadline: float, output: bytearray
+) -> tuple[bytes, str]:
+    try:
+        process.wait(max(0.0, deadline - time.monotonic()))
+    except subprocess.TimeoutExpired:
+        return bytes(output), "wall time"
+    return bytes(output), ""
+
+
+def need(program: str, found: str | None) -> str:
+    """Return the path of a program that a sandbox needs; SurroundingsError where it is missing."""
+    if found is None:
+        raise SurroundingsError(
+            f"the program {program} is missing",
+            remedy="Install it (Debian and Ubuntu: `sudo apt-get install bubblewrap util-linux "
+            "coreutils`).",
+        )
+    return found

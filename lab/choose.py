@@ -1,0 +1,75 @@
+"""Which kind of lab opens: `auto`, or the one that was asked for."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from pathlib import Path
+
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+from grader.ros.cache import Say
+from grader.ros.distro import Distro
+from lab.visit import Visit
+
+KINDS = ("auto", "docker", "bubblewrap")
+Enter = Callable[[Visit], int]
+
+
+def choose(kind: str, distro: Distro, *, say: Say) -> Enter:
+    """Return what opens a lab of this kind and returns its exit status; say which it is, and why.
+
+    Raises UsageError for another kind, SurroundingsError where the lab cannot be had.
+    """
+    if kind not in KINDS:
+        close = difflib.get_close_matches(kind.lower(), KINDS, n=1)
+        hint = f"did you mean '{close[0]}'? " if close else ""
+        raise UsageError(
+            f"there is no lab of the kind '{kind}'", remedy=f"{hint}Kinds: {', '.join(KINDS)}."
+        )
+    if kind == "bubblewrap":
+        return _bubblewrap(distro, say)
+    try:
+        enter, image = _docker(distro)
+    except SurroundingsError as error:
+        if kind == "docker":
+            raise
+        return _without_docker(distro, error, say)
+    say(f"opening ROS 2 {distro.name} in a container of {image}")
+    return enter
+
+
+def _docker(distro: Distro) -> tuple[Enter, str]:
+    # each kind is loaded only when it is wanted: the one must not need the other's libraries
+    from grader.ros.images import connect  # noqa: PLC0415
+    from grader.ros.images import find_image  # noqa: PLC0415
+    from lab.container import ContainerLab  # noqa: PLC0415
+
+    client = connect()
+    image = find_image(client, distro, "lab")
+    if image is None:
+        raise SurroundingsError(
+            f"Docker has no image of the {distro.name} lab",
+            remedy=f"Make it once: make images DISTRO={distro.name}",
+        )
+    lab = ContainerLab(client, image)
+    return lab.enter, image.tags[0] if image.tags else str(image.short_id)
+
+
+def _bubblewrap(distro: Distro, say: Say) -> Enter:
+    from grader.ros.prefix import find_ros  # noqa: PLC0415
+    from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
+
+    return BubblewrapLab(find_ros(distro, say=say)).enter
+
+
+def _without_docker(distro: Distro, error: SurroundingsError, say: Say) -> Enter:
+    if distro.lock is None and not (Path("/opt/ros") / distro.name / "setup.bash").is_file():
+        raise SurroundingsError(
+            f"ROS 2 {distro.name} has no wheels on PyPI, so its lab needs Docker, and "
+            f"{error.message}",
+            remedy=error.remedy,
+        )
+    why = error.message.splitlines()[0]
+    say(f"opening ROS 2 {distro.name} in bubblewrap, since {why}")
+    return _bubblewrap(distro, say)

@@ -1,0 +1,56 @@
+"""The `lab` command. Exit status: that of the command in the lab (0 after an interactive visit), 2
+wrong usage, 3 the lab's own surroundings failed, 130/143 interrupted/terminated.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+import grader
+from grader.entry import run
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    return run(command, "lab", argv)
+
+
+@click.command(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(grader.__version__, "-V", "--version", prog_name="lab")
+@click.option("--distro", default="jazzy", show_default=True, help="The ROS 2 distro of the lab.")
+@click.option(
+    "--workspace",
+    type=click.Path(path_type=Path),
+    help="Where the workspace is on this machine; made if it is not there. [default: ~/ros2_ws]",
+)
+@click.option(
+    "--sandbox",
+    default="auto",
+    show_default=True,
+    help="What the lab is made of: auto, docker or bubblewrap.",
+)
+@click.argument("words", nargs=-1, type=click.UNPROCESSED, metavar="[-- COMMAND...]")
+def command(distro: str, workspace: Path | None, sandbox: str, words: tuple[str, ...]) -> int:
+    """Open a ROS 2 terminal with your workspace in it; with a COMMAND, run that there instead.
+
+    The workspace is a folder of this machine and stays when the lab is closed. A second lab on the
+    same workspace is a second terminal.
+    """
+    from grader.ros.distro import find_distro  # noqa: PLC0415 - --help must not pay for it
+    from lab.choose import choose  # noqa: PLC0415
+    from lab.visit import Visit  # noqa: PLC0415
+    from lab.workspace import prepare  # noqa: PLC0415
+
+    found = find_distro(distro)
+    enter = choose(sandbox, found, say=_say)
+    visit = Visit(distro=found, workspace=prepare(workspace), command=words)
+    status = enter(visit)
+    interactive = not words and sys.stdin.isatty()
+    return 0 if interactive else status  # what a shell's last command said is no fault of the lab
+
+
+def _say(text: str) -> None:
+    click.echo(f"lab: {text}", err=True)

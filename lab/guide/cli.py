@@ -1,0 +1,123 @@
+"""The `guide` command: the current step, another one, the list of them, or the whole lesson."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.markdown import Markdown
+from rich.rule import Rule
+from rich.text import Text
+
+from grader.assignment import load_assignment
+from grader.errors import GraderError
+from grader.errors import UsageError
+from lab.guide.lesson import Lesson
+from lab.guide.lesson import Step
+from lab.guide.lesson import read_lesson
+from lab.guide.progress import Place
+from lab.guide.progress import current
+from lab.guide.progress import progress
+
+COURSE = Path(__file__).resolve().parent.parent / "course"
+CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
+WIDEST = 96  # columns; longer lines are hard to read
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status."""
+    try:
+        command.main(args=list(argv or ()), prog_name="guide", standalone_mode=False)
+    except click.ClickException as error:
+        error.show()
+        return 2
+    except GraderError as error:
+        click.echo(f"guide: {error}", err=True)
+        return error.exit_status
+    except (KeyboardInterrupt, click.Abort):
+        return 130
+    return 0
+
+
+@click.command(context_settings={"help_option_names": ["-h", "--help"]})
+@click.option(
+    "--workspace",
+    type=click.Path(path_type=Path),
+    default=Path("~/ros2_ws"),
+    show_default=True,
+    help="The workspace to look at.",
+)
+@click.argument("what", required=False, metavar="[N|list|all]")
+def command(workspace: Path, what: str | None) -> None:
+    """Show what to do next; N shows step N, `list` all steps with what is done, `all` the lesson.
+
+    What is done is told from the files in your workspace, and from this terminal.
+    """
+    lesson = read_lesson(
+        COURSE / "hello_time" / "lesson.md", distro=os.environ.get("ROS_DISTRO") or "jazzy"
+    )
+    wanted = load_assignment(COURSE / "hello_time" / "assignment.yaml")
+    found = progress(Place(workspace.expanduser(), wanted, os.environ))
+    console = Console(highlight=False, soft_wrap=True)
+    if console.is_terminal:
+        console = Console(highlight=False, width=min(console.width, WIDEST))
+    if what == "list":
+        _show_list(console, lesson, found)
+    elif what == "all":
+        _show_markdown(console, lesson.introduction)
+        for step in lesson.steps:
+            _show_step(console, step, lesson)
+    else:
+        step = lesson.steps[(_number(what, lesson) if what else current(found)) - 1]
+        _show_step(console, step, lesson)
+        if what is None:
+            _show_next(console, found[step.number - 1])
+
+
+def _number(word: str, lesson: Lesson) -> int:
+    if word.isdecimal() and 1 <= int(word) <= len(lesson.steps):
+        return int(word)
+    raise UsageError(
+        f"there is no step '{word}'",
+        remedy=f"guide 1 to guide {len(lesson.steps)}, guide list, or guide all.",
+    )
+
+
+def _show_list(console: Console, lesson: Lesson, found: tuple[str, ...]) -> None:
+    here = current(found)
+    for step in lesson.steps:
+        done = not found[step.number - 1]
+        mark = "x" if done else ">" if step.number == here else " "
+        style = "green" if done else "bold" if step.number == here else ""
+        console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
+    _show_next(console, found[here - 1])
+
+
+def _show_step(console: Console, step: Step, lesson: Lesson) -> None:
+    heading = f"Step {step.number} of {len(lesson.steps)}: {step.title}"
+    if console.is_terminal:
+        console.print(Rule(Text(heading, style="bold"), align="left"))
+    else:
+        console.print(Text(heading + "\n"))
+    _show_markdown(console, step.text)
+
+
+def _show_markdown(console: Console, text: str) -> None:
+    if not console.is_terminal:
+        console.print(Text(text + "\n"))
+        return
+    parts = CODE.split(text)
+    for prose, code in zip(parts[0::2], [*parts[1::2], ""]):
+        if prose.strip():
+            console.print(Markdown(prose))
+            console.print()
+        if code:  # not broken into lines by us: it is there to be copied
+            console.print(Text(code, style="bold cyan"), soft_wrap=True)
+
+
+def _show_next(console: Console, action: str) -> None:
+    console.print(Text.assemble(("Next: ", "bold green"), action), soft_wrap=True)

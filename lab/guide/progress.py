@@ -1,0 +1,190 @@
+"""How far a workspace is, told from its files and from this terminal; nothing else is remembered.
+
+Each step of the lesson has one function here. It returns the next thing to do, or "" if the step
+is done. It asks only whether the student can go on; whether it is right is what `check` tells.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections.abc import Callable
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.assignment import Assignment
+from grader.source.entry_points import from_setup_cfg
+from grader.source.entry_points import from_setup_py
+from grader.source.python import PythonFault
+from grader.source.python import parse_python
+from grader.source.setup_cfg import SetupCfgFault
+from grader.source.setup_cfg import read_setup_cfg
+from grader.source.setup_py import read_setup_py
+
+BUILD = "cd ~/ros2_ws && colcon build --symlink-install"
+MOST_BYTES = 200_000
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where to look: the workspace, what the exercise asks for, and this terminal's variables."""
+
+    workspace: Path
+    wanted: Assignment
+    environment: Mapping[str, str]
+
+    @property
+    def package(self) -> Path:
+        """The package's folder."""
+        return self.workspace / "src" / self.wanted.package
+
+    @property
+    def node(self) -> Path:
+        """The node's file."""
+        return self.package / self.wanted.package / self.wanted.node_file
+
+    def installed(self, path: str) -> bool:
+        """Whether a build has installed this, in a folder of the package's own or in a merged one."""
+        install = self.workspace / "install"
+        return any((place / path).exists() for place in (install / self.wanted.package, install))
+
+
+def progress(place: Place) -> tuple[str, ...]:
+    """Return for each step the next thing to do in it, "" where it is done."""
+    return tuple(step(place) for step in STEPS)
+
+
+def current(found: tuple[str, ...]) -> int:
+    """Return the number of the first step that is not done."""
+    return next(number for number, action in enumerate(found, start=1) if action)
+
+
+def _terminal(place: Place) -> str:
+    if place.environment.get("AMENT_PREFIX_PATH"):
+        return ""
+    distro = place.environment.get("ROS_DISTRO") or "jazzy"
+    return f"source /opt/ros/{distro}/setup.bash"
+
+
+def _workspace(place: Place) -> str:
+    return "" if (place.workspace / "src").is_dir() else "mkdir -p ~/ros2_ws/src"
+
+
+def _package(place: Place) -> str:
+    name = place.wanted.package
+    create = f"ros2 pkg create --build-type ament_python {name} --dependencies rclpy"
+    if (place.package / "package.xml").is_file() and (place.package / "setup.py").is_file():
+        return ""
+    if (place.package / "CMakeLists.txt").is_file():
+        return f"Delete ~/ros2_ws/src/{name} (it is a C++ package), then in ~/ros2_ws/src: {create}"
+    if place.package.exists():
+        return f"~/ros2_ws/src/{name} is not complete. Delete it, then in ~/ros2_ws/src: {create}"
+    return f"cd ~/ros2_ws/src && {create}"
+
+
+def _first_build(place: Place) -> str:
+    if place.installed(f"share/ament_index/resource_index/packages/{place.wanted.package}"):
+        return ""
+    if (place.workspace / "src" / "install").is_dir():
+        return f"You built in src. Delete build, install and log there, then: {BUILD}"
+    return BUILD
+
+
+def _file(place: Place) -> str:
+    shown = f"~/ros2_ws/src/{place.wanted.package}/{place.wanted.package}/{place.wanted.node_file}"
+    if not place.node.is_file():
+        return f"touch {shown} && chmod +x {shown}"
+    return "" if os.access(place.node, os.X_OK) else f"chmod +x {shown}"
+
+
+def _code(place: Place) -> str:
+    name = place.wanted.node_file
+    text = _read(place.node)
+    if not text.strip():
+        return f"Write the node in {name}."
+    try:
+        tree = parse_python(text).tree
+    except PythonFault as fault:
+        line = f" Look at line {fault.line}." if fault.line else ""
+        return f"Python cannot read {name}: {fault.text}.{line}"
+    if not text.startswith(b"#!"):
+        return f"The first line of {name} must say what runs it: #!/usr/bin/env python3"
+    calls = {_called(node) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    if not any(_is_node(each) for each in ast.walk(tree)):
+        return f"{name} has no class that inherits from Node yet (part 3)."
+    if "create_timer" not in calls:
+        return f"The node in {name} has no timer yet (part 3)."
+    if place.wanted.target.rpartition(":")[2] not in functions:
+        return f"{name} has no function main yet (part 5)."
+    if not any(call.startswith("spin") for call in calls):
+        return f"Nothing in {name} spins yet: the node would end at once (part 5)."
+    return ""
+
+
+def _entry_point(place: Place) -> str:
+    wanted = place.wanted
+    line = f"'{wanted.executable} = {wanted.target}',"
+    try:
+        found = from_setup_py(read_setup_py(_read(place.package / "setup.py")))
+        config = from_setup_cfg(read_setup_cfg(_read(place.package / "setup.cfg")))
+    except (PythonFault, SetupCfgFault) as fault:
+        return f"setup.py or setup.cfg cannot be read: {fault.text}"
+    entries = found.group("console_scripts") + config.group("console_scripts")
+    if not found.told and (place.package / "setup.py").is_file():
+        return ""  # (only the build can tell)
+    mine = [entry for entry in entries if entry.name == wanted.executable]
+    if not mine:
+        return f"Add this line to console_scripts in setup.py: {line}"
+    if not any(entry.target == wanted.target for entry in mine):
+        return f"The entry point leads to {mine[0].target}. Make it: {line}"
+    return ""
+
+
+def _second_build(place: Place) -> str:
+    name = place.wanted.package
+    return "" if place.installed(f"lib/{name}/{place.wanted.executable}") else BUILD
+
+
+def _overlay(place: Place) -> str:
+    install = (place.workspace / "install").resolve()
+    prefixes = place.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    if any(Path(prefix).resolve().is_relative_to(install) for prefix in prefixes if prefix):
+        return ""
+    return "cd ~/ros2_ws && source install/local_setup.bash"
+
+
+def _run(place: Place) -> str:
+    """Return what is left to do: that somebody has watched it cannot be told."""
+    return (
+        f"ros2 run {place.wanted.package} {place.wanted.executable}   "
+        "(count along, stop it with Ctrl+C; then run: check)"
+    )
+
+
+STEPS: tuple[Callable[[Place], str], ...] = (
+    *(_terminal, _workspace, _package, _first_build, _file),
+    *(_code, _entry_point, _second_build, _overlay, _run),
+)
+
+
+def _read(path: Path) -> bytes:
+    try:
+        with path.open("rb") as stream:
+            return stream.read(MOST_BYTES)
+    except OSError:
+        return b""
+
+
+def _called(call: ast.Call) -> str:
+    function = call.func
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ""
+
+
+def _is_node(tree: ast.AST) -> bool:
+    if not isinstance(tree, ast.ClassDef):
+        return False
+    return any(ast.unparse(base).rpartition(".")[2] == "Node" for base in tree.bases)

@@ -1,0 +1,29 @@
+# What every shell and every command of the lab starts with: ROS, and the lab's own commands.
+# The overlay is not sourced here. To see what it is for, one has to do it oneself.
+
+# A classroom's nodes must not meet: each stays on its own machine unless somebody says otherwise.
+if [ "$ROS_DISTRO" = humble ]; then
+  export ROS_LOCALHOST_ONLY="${ROS_LOCALHOST_ONLY:-1}"
+else
+  export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
+fi
+
+# in a function, since a sourced file would otherwise see the caller's arguments
+_lab_source_ros() { . "/opt/ros/$ROS_DISTRO/setup.bash"; }
+_lab_source_ros
+unset -f _lab_source_ros
+
+case ":$PATH:" in
+  *:/opt/ros2_teaching_lab/lab/shell/bin:*) ;;
+  *) export PATH="$PATH:/opt/ros2_teaching_lab/lab/shell/bin" ;;
+esac
+
+if [ -z "${EDITOR:-}" ]; then
+  for _lab_editor in nano vim vi; do
+    if type "$_lab_editor" > /dev/null 2>&1; then
+      export EDITOR="$_lab_editor"
+      break
+    fi
+  done
+  unset _lab_editor
+fi

@@ -1,0 +1,71 @@
+"""One visit to the lab: what both kinds of lab show alike, the paths, the environment, the words."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from grader.ros.distro import Distro
+from grader.sandbox.base import HOME
+from grader.sandbox.base import PATH
+from lab.workspace import Student
+from lab.workspace import Workspace
+
+WORKSPACE = f"{HOME}/ros2_ws"
+ROOM = "/opt/ros2_teaching_lab"
+SHELL_FILES = f"{ROOM}/lab/shell"
+BASHRC = f"{SHELL_FILES}/bashrc"
+PROXIES = ("HTTP_PROXY", "HTTPS_PROXY", "FTP_PROXY", "ALL_PROXY", "NO_PROXY")
+KEPT = (
+    *("TERM", "COLORTERM", "NO_COLOR", "TZ"),
+    *("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_STATIC_PEERS"),
+    *("PIP_INDEX_URL", *PROXIES, *(name.lower() for name in PROXIES)),
+)
+"""The variables of the calling terminal that the lab takes over; the rest stays outside."""
+
+
+@dataclass(frozen=True)
+class Visit:
+    """What was asked for; an empty `command` is an interactive shell."""
+
+    distro: Distro
+    workspace: Workspace
+    command: tuple[str, ...] = ()
+
+    @property
+    def hostname(self) -> str:
+        """The lab's name, which the prompt shows."""
+        return f"lab-{self.distro.name}"
+
+    @property
+    def words(self) -> list[str]:
+        """The command line to start inside. Only a shell on a terminal reads ~/.bashrc by itself."""
+        if not self.command and sys.stdin.isatty():
+            return ["bash"]
+        script = f'. {SHELL_FILES}/environment.bash; exec "$@"'
+        return ["bash", "--norc", "-c", script, "lab", *(self.command or ("bash", "--norc"))]
+
+    def environment(self, caller: Mapping[str, str]) -> dict[str, str]:
+        """Return the environment inside: this list, and what the list above takes over."""
+        own = {
+            "HOME": HOME,
+            "USER": "student",
+            "LOGNAME": "student",
+            "SHELL": "/bin/bash",
+            "PATH": PATH,
+            "LANG": "C.UTF-8",
+            "TERM": "xterm-256color",
+            "ROS_DISTRO": self.distro.name,
+            "LAB_WORKSPACE": str(self.workspace.path),
+        }
+        return own | {name: caller[name] for name in KEPT if caller.get(name)}
+
+
+def accounts(owner: Student) -> dict[str, str]:
+    """Return /etc/passwd and /etc/group of a lab in which the student has the host's ids."""
+    users = ["root:x:0:0:root:/root:/bin/sh"]
+    users += [f"student:x:{owner.uid}:{owner.gid}:student:{HOME}:/bin/bash"]
+    users += ["nobody:x:65534:65534:nobody:/nonexistent:/usr/sbin/nologin"]
+    groups = ["root:x:0:", f"student:x:{owner.gid}:", "nogroup:x:65534:"]
+    return {"passwd": "\n".join(users) + "\n", "group": "\n".join(groups) + "\n"}

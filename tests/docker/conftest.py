@@ -1,0 +1,45 @@
+"""Fixtures of the tests that need the Docker daemon."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Iterator
+
+import pytest
+from docker import DockerClient
+
+from grader.limits import Limits
+from grader.ros import images
+from grader.ros.distro import find_distro
+from grader.sandbox.base import Sandbox
+from grader.sandbox.containers import Containers
+from tests import engine
+
+
+@pytest.fixture(autouse=True)
+def own_images(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The images of the tests, and nobody else's."""
+    monkeypatch.setenv(images.REPOSITORY_VARIABLE, engine.REPOSITORY)
+
+
+@pytest.fixture
+def client() -> Iterator[DockerClient]:
+    """A connection to the daemon."""
+    opened = images.connect()
+    yield opened
+    opened.close()
+
+
+@pytest.fixture
+def make_sandbox() -> Callable[[Limits], Sandbox]:
+    """What makes a `docker` sandbox on jazzy with these limits."""
+    jazzy = find_distro("jazzy")
+
+    def make(limits: Limits) -> Sandbox:
+        opened = images.connect()
+        image = images.find_image(opened, jazzy)
+        if image is None:
+            pytest.fail("the tests' images are not here: python -m tests.engine up")
+        return Containers(opened, image, jazzy, limits)
+
+    return make

@@ -1,0 +1,168 @@
+"""The compose and the bake file say what distros.toml says, and compose opens the lab."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from docker import DockerClient
+
+from grader.ros import image_files
+from grader.ros.distro import Distro
+from grader.ros.distro import distros
+from grader.ros.images import table
+from tests import engine
+from tests import stage
+from tests.docker import checkout
+
+pytestmark = pytest.mark.docker
+COMPOSE = "docker/compose.yaml"
+PROJECT = f"h{os.getpid()}"
+BAKE: dict[str, Any] = json.loads(image_files.BAKE.read_text())
+TARGETS: dict[str, Any] = BAKE["target"]
+STAGE = re.compile(r"^FROM .* AS (\w+)$", re.MULTILINE)
+ARGUMENT = re.compile(r"^ARG (\w+)", re.MULTILINE)
+
+
+def compose(
+    *words: str, folder: Path = stage.ROOT, env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run the real docker-compose on a checkout's file."""
+    command = ["docker-compose", "-p", PROJECT, "-f", str(folder / COMPOSE), *words]
+    return stage.run(command, cwd=folder, env=env, timeout=600)
+
+
+def service(env: dict[str, str]) -> dict[str, Any]:
+    """Return the service `lab` as docker-compose reads it."""
+    done = compose("config", env=env)
+    assert done.returncode == 0, done.stderr
+    found: dict[str, Any] = yaml.safe_load(done.stdout)["services"]["lab"]
+    return found
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    """A workspace of the student's."""
+    folder = tmp_path / "a workspace"
+    folder.mkdir()
+    os.chown(folder, 1000, 1000)
+    return folder
+
+
+@pytest.mark.parametrize("name", distros())
+def test_compose_builds_and_runs_the_lab_of_each_distro(name: str) -> None:
+    lab = service({"DISTRO": name, "WORKSPACE": "/tmp/ws", "GRADER_IMAGES": "some"})
+    assert lab["image"] == f"some:lab-{name}"
+    assert lab["build"]["args"]["DISTRO"] == name
+    assert lab["build"]["target"] == "lab"
+    assert lab["volumes"] == ["/tmp/ws:/home/student/ros2_ws:rw"]
+
+
+def test_compose_keeps_the_workspace_in_the_home_folder_unless_told() -> None:
+    lab = service({"HOME": "/home/ann", "WORKSPACE": ""})
+    assert lab["volumes"] == ["/home/ann/ros2_ws:/home/student/ros2_ws:rw"]
+
+
+def test_compose_gives_the_lab_no_rights() -> None:
+    lab = service({})
+    assert lab["cap_drop"] == ["ALL"]
+    assert lab["security_opt"] == ["no-new-privileges"]
+    assert "privileged" not in lab
+
+
+def test_a_file_made_in_composes_lab_is_the_students_and_nothing_else_is_left(
+    client: DockerClient, workspace: Path
+) -> None:
+    networks = {network.id for network in client.networks.list()}
+    script = ". /opt/ros/jazzy/setup.bash && ros2 pkg create --build-type ament_python hello"
+    done = compose(
+        *("run", "--rm", "-T", "lab", "bash", "-c", script), env={"WORKSPACE": str(workspace)}
+    )
+    assert done.returncode == 0, done.stderr
+    made = workspace / "hello" / "setup.py"
+    assert (made.stat().st_uid, made.stat().st_gid) == (1000, 1000)
+    mine = {"label": f"com.docker.compose.project={PROJECT}"}
+    assert client.api.containers(all=True, filters=mine) == []
+    assert client.api.networks(filters=mine) == []
+    assert {network.id for network in client.networks.list()} <= networks
+    assert client.volumes.list(filters=mine) == []
+
+
+def test_a_user_with_another_id_has_composes_lab_too(tmp_path: Path) -> None:
+    os.chown(tmp_path, 1234, 1234)
+    script = ". /opt/ros/jazzy/setup.bash && ros2 pkg create hello && touch ~/mine && echo $HOME"
+    env = {"WORKSPACE": str(tmp_path), "LAB_UID": "1234", "LAB_GID": "1234"}
+    done = compose("run", "--rm", "-T", "lab", "bash", "-c", script, env=env)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == "/home/student"
+    assert (tmp_path / "hello" / "package.xml").stat().st_uid == 1234
+
+
+@pytest.fixture
+def built(client: DockerClient) -> Iterator[str]:
+    """The repository for what a test builds, cleared away after it."""
+    repository = f"{engine.REPOSITORY}-{PROJECT}"
+    yield repository
+    for image in client.images.list(repository):
+        for tag in image.tags:
+            if tag.startswith(f"{repository}:"):
+                client.images.remove(tag)
+
+
+def test_compose_builds_the_lab(client: DockerClient, built: str, tmp_path: Path) -> None:
+    folder = checkout.copy_to(tmp_path / "checkout")
+    base = {"services": {"lab": {"build": {"args": checkout.ARGUMENTS}}}}
+    (folder / "docker" / "base.yaml").write_text(yaml.safe_dump(base))
+    words = ("-f", str(folder / "docker" / "base.yaml"), "build", "lab")
+    done = compose(*words, folder=folder, env={"GRADER_IMAGES": built})
+    assert done.returncode == 0, done.stdout + done.stderr
+    image = client.images.get(f"{built}:lab-jazzy")
+    assert image.labels["ros2-teaching-lab.stage"] == "lab"
+    assert image.labels["ros2-teaching-lab.distro"] == "jazzy"
+
+
+def test_the_bake_file_is_what_distros_toml_says() -> None:
+    assert image_files.BAKE.read_text(encoding="utf-8") == image_files.bake_file()
+
+
+def test_a_row_of_distros_toml_is_all_that_a_new_distro_needs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    row = Distro("maritime", "28.04", "future", "3.15", "90.0", "ros:maritime-ros-base")
+    monkeypatch.setattr(image_files, "distros", lambda: {"maritime": row})
+    targets = json.loads(image_files.bake_file())["target"]
+    assert set(targets) == {"grade-maritime", "lab-maritime"}
+    assert targets["lab-maritime"]["args"]["BASE"] == "ros:maritime-ros-base"
+
+
+def test_bake_makes_the_images_that_the_grader_looks_for(
+    client: DockerClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("GRADER_IMAGES")
+    tags = {tag for target in TARGETS.values() for tag in target["tags"]}
+    looked_for = {row.name for row in table(client)}
+    assert looked_for <= tags
+    assert {tag for tag in tags - looked_for if ":base-" not in tag} == set()
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_a_bake_target_fits_its_dockerfile(name: str) -> None:
+    target = TARGETS[name]
+    text = (stage.ROOT / target["dockerfile"]).read_text()
+    assert target["target"] in STAGE.findall(text)
+    assert set(target["args"]) <= set(ARGUMENT.findall(text))
+    for context, other in target.get("contexts", {}).items():
+        assert target["args"]["BASE"] == context
+        assert other.removeprefix("target:") in TARGETS
+
+
+@pytest.mark.parametrize("name", BAKE["group"])
+def test_a_bake_group_names_targets_that_are_there(name: str) -> None:
+    assert set(BAKE["group"][name]["targets"]) <= set(TARGETS)

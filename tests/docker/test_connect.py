@@ -1,0 +1,107 @@
+"""A Docker daemon that cannot be used is said in words, with what to do, and soon."""
+
+from __future__ import annotations
+
+import json
+import socket
+import threading
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler
+from http.server import HTTPServer
+from pathlib import Path
+
+import docker.errors
+import pytest
+
+from grader.errors import SurroundingsError
+from grader.ros import images
+from grader.sandbox.execs import docker_errors
+from tests import stage
+
+pytestmark = [pytest.mark.docker]
+
+
+class OldDaemon(BaseHTTPRequestHandler):
+    """Answers as Docker 18.09 does."""
+
+    def do_GET(self) -> None:
+        """Answer `GET /version`."""
+        body = json.dumps({"Version": "18.09.9", "ApiVersion": "1.39"}).encode()
+        self.send_response(200)
+        self.send_header("Content-Type", "application/json")
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def log_message(self, format: str, *args: object) -> None:
+        """Say nothing."""
+
+
+@pytest.fixture
+def old_daemon() -> Iterator[str]:
+    """The address of a daemon that is too old."""
+    server = HTTPServer(("127.0.0.1", 0), OldDaemon)
+    thread = threading.Thread(target=server.serve_forever)
+    thread.start()
+    yield f"tcp://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    thread.join()
+    server.server_close()
+
+
+def test_a_daemon_that_is_too_old_is_said(old_daemon: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DOCKER_HOST", old_daemon)
+    with pytest.raises(SurroundingsError) as caught:
+        images.connect()
+    assert "too old (API 1.39" in caught.value.message
+    assert "19.03" in caught.value.remedy
+
+
+def test_a_daemon_that_hangs_is_not_waited_for_long(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(images, "FIRST_ANSWER_SECONDS", 1.0)
+    monkeypatch.setenv("DOCKER_HOST", f"unix://{tmp_path}/docker.sock")
+    with socket.socket(socket.AF_UNIX) as deaf:
+        deaf.bind(f"{tmp_path}/docker.sock")
+        deaf.listen()
+        with pytest.raises(SurroundingsError, match="no Docker daemon answers"):
+            images.connect()
+
+
+def test_a_connection_waits_long_enough_for_slow_answers() -> None:
+    client = images.connect()
+    try:
+        assert client.api.timeout == images.ANSWER_SECONDS
+    finally:
+        client.close()
+
+
+def test_no_daemon_is_said_with_what_to_do() -> None:
+    solution = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+    command = stage.grader("grade", solution, "--sandbox", "docker")
+    done = stage.run(command, env={"DOCKER_HOST": "unix:///nonexistent/docker.sock"})
+    assert done.returncode == 3
+    assert "no Docker daemon answers at unix:///nonexistent/docker.sock" in done.stderr
+    assert "SANDBOX=bubblewrap" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_closed_socket_is_said_with_what_to_do() -> None:
+    command = stage.as_user(stage.grader("images"))
+    done = stage.run(command, cwd=Path("/"))
+    assert done.returncode == 3, done.stdout + done.stderr
+    assert "closed to this user" in done.stderr
+    assert "docker" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_full_disk_is_said_with_what_to_do() -> None:
+    said = "write /var/lib/docker/tmp/x: no space left on device"
+    with (
+        pytest.raises(SurroundingsError) as caught,
+        docker_errors("opening the sandbox"),
+    ):
+        raise docker.errors.APIError("500 Server Error", explanation=said)
+    assert "no space left" in caught.value.message
+    assert "docker system df" in caught.value.remedy

@@ -1,0 +1,129 @@
+"""Verdicts in containers are those of bubblewrap; many of them leave nothing behind."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from docker import DockerClient
+
+from grader.report.model import Report
+from grader.sandbox import orphans
+from tests import engine
+from tests import stage
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import write
+from tests.corpus.hostile import HOSTILE
+from tests.corpus.model import Package
+from tests.corpus.right import RIGHT
+from tests.docker.test_containers import made_by
+from tests.test_verdicts import mark
+from tests.test_verdicts import told
+from tests.test_verdicts import verdict_is
+
+pytestmark = [pytest.mark.docker]
+VERDICTS = 50
+
+
+def some(corpus: tuple[Package, ...], each: int) -> list[object]:
+    return [pytest.param(package, id=package.name) for package in corpus[::each]]
+
+
+@pytest.mark.parametrize("package", some(RIGHT, 10))
+def test_a_right_variant_gets_full_marks_in_containers(package: Package, tmp_path: Path) -> None:
+    report = mark(write(package, tmp_path), sandbox="docker")
+    assert report.score == report.max_score == 100, told(report)
+    assert report.environment.sandbox == "docker"
+    assert report.observed.clock == ("wall" if package.wall_clock else "virtual")
+
+
+@pytest.mark.parametrize("package", some(BROKEN, 9))
+def test_a_broken_package_fails_alike_in_containers(package: Package, tmp_path: Path) -> None:
+    verdict_is(package, mark(write(package, tmp_path), sandbox="docker"))
+
+
+@pytest.mark.parametrize("package", some(HOSTILE, 4))
+def test_a_hostile_package_harms_nothing_in_containers(
+    package: Package, tmp_path: Path, client: DockerClient
+) -> None:
+    report = mark(write(package, tmp_path), sandbox="docker")
+    verdict_is(package, report)
+    assert made_by(client, os.getpid()) == []
+
+
+def test_the_report_names_the_image_and_what_is_in_it(tmp_path: Path) -> None:
+    report = mark(write(RIGHT[0], tmp_path), sandbox="docker")
+    found = report.environment
+    assert found.ros == "image"
+    assert found.image.startswith(f"{engine.REPOSITORY}:grade-jazzy@sha256:")
+    assert found.rclpy.startswith("7.1.")  # as REP 2000 has it for jazzy
+    assert found.colcon
+    assert found.python.startswith("3.")
+    assert found.limits["memory"].held_by == found.limits["cpus"].held_by == "cgroup"
+
+
+def test_several_distros_give_a_matrix(tmp_path: Path) -> None:
+    root = write(RIGHT[0], tmp_path / "in")
+    command = stage.grader("grade", root, "--sandbox", "docker", "--distro", "jazzy,kilted")
+    done = stage.run([*command, "--out", tmp_path / "out"])
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "jazzy" in done.stdout
+    assert "kilted" in done.stdout
+    (matrix,) = (tmp_path / "out").rglob("matrix.json")
+    assert json.loads(matrix.read_text())
+    reports = [
+        Report.model_validate(json.loads(path.read_text()))
+        for path in (tmp_path / "out").rglob("report.json")
+    ]
+    assert {report.environment.ros for report in reports} == {"image", "wheels"}
+
+
+@pytest.mark.full
+def test_fifty_verdicts_leave_the_daemon_as_it_was(client: DockerClient, tmp_path: Path) -> None:
+    before = everything(client)
+    root = write(RIGHT[0], tmp_path)
+    code = (
+        "import sys; from pathlib import Path; from tests.test_verdicts import mark\n"
+        f"scores = [mark(Path(sys.argv[1]), sandbox='docker').score for _ in range({VERDICTS})]\n"
+        "print(scores.count(100.0))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, root],
+        cwd=stage.ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=900,
+    )
+    assert done.stdout.strip() == str(VERDICTS), done.stderr
+    assert {left for left in everything(client) - before if not is_anothers(left)} == set()
+
+
+def everything(client: DockerClient) -> set[tuple[str, str, str]]:
+    """Return every container, network and volume: what it is, its id, and whose it is."""
+    containers = {
+        ("container", str(each["Id"]), owner(each["Labels"]))
+        for each in client.api.containers(all=True)
+    }
+    networks = {("network", str(each["Id"]), "") for each in client.api.networks()}
+    volumes = {
+        ("volume", str(each["Name"]), owner(each["Labels"]))
+        for each in client.api.volumes()["Volumes"] or ()
+    }
+    return containers | networks | volumes
+
+
+def owner(labels: dict[str, str] | None) -> str:
+    return json.dumps(labels or {})
+
+
+def is_anothers(left: tuple[str, str, str]) -> bool:
+    """Whether it is of a test that runs beside this one: a living grader's, or a lab's."""
+    labels = json.loads(left[2] or "{}")
+    if orphans.OWNER in labels:
+        return not orphans.is_orphan(labels)
+    return any(name.startswith("ros2-teaching-lab.lab") or "somebody" in name for name in labels)

@@ -1,0 +1,204 @@
+"""The `docker` sandbox holds what every sandbox must, and leaves nothing behind."""
+
+from __future__ import annotations
+
+import json
+import os
+import secrets
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+import docker.errors
+import pytest
+from docker import DockerClient
+
+from grader.limits import Limits
+from grader.sandbox import orphans
+from grader.sandbox.base import Sandbox
+from tests import engine
+from tests import stage
+from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
+from tests.sandbox_contract import shell
+
+pytestmark = [pytest.mark.docker]
+GONE_SECONDS = 15.0
+SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+
+
+def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
+    """Return the containers and volumes that a process has made and that are still there."""
+
+    def is_its(labels: dict[str, str] | None) -> bool:
+        return (labels or {}).get(orphans.OWNER, "").split()[1:2] == [str(pid)]
+
+    containers = client.api.containers(all=True, filters={"label": orphans.OWNER})
+    volumes = client.api.volumes(filters={"label": orphans.OWNER})["Volumes"] or ()
+    found = [
+        str(each["Names"])
+        for each in containers
+        if is_its(each["Labels"]) and state in ("", each["State"])
+    ]
+    if state:
+        return found
+    return found + [str(each["Name"]) for each in volumes if is_its(each["Labels"])]
+
+
+def wait_until_gone(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
+    deadline = time.monotonic() + GONE_SECONDS
+    while (left := made_by(client, pid, state=state)) and time.monotonic() < deadline:
+        time.sleep(0.05)  # the daemon removes them by itself
+    return left
+
+
+def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> None:
+    shell(sandbox, "true")
+    mine = client.containers.list(
+        filters={"label": f"{orphans.OWNER}={orphans.labels(0)[orphans.OWNER]}"}
+    )
+    assert len(mine) >= 2
+    for container in mine:
+        container.reload()
+        host = container.attrs["HostConfig"]
+        assert host["ReadonlyRootfs"] is True
+        assert host["CapDrop"] == ["ALL"]
+        assert not host["CapAdd"]
+        assert not host["Binds"]
+        assert host["Privileged"] is False
+        assert host["NetworkMode"].split(":")[0] in ("none", "container")
+        assert host["SecurityOpt"] == ["no-new-privileges"]  # and Docker's own seccomp filter
+        assert host["Memory"] == host["MemorySwap"] == Limits().memory
+        assert host["PidsLimit"] == Limits().processes
+        assert host["NanoCpus"] > 0
+        assert host["Init"] is True
+        assert host["AutoRemove"] is True
+        assert container.attrs["Config"]["User"].split(":")[0] not in ("", "0", "root")
+    _, said = shell(sandbox, "grep Seccomp: /proc/self/status; grep -c . /proc/self/mountinfo")
+    assert said.split()[1] == "2"
+
+
+def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -> None:
+    keeper = "ls -l /proc/[0-9]*/exe 2> /dev/null; grep -l timeout /proc/[0-9]*/comm"
+    _, before = shell(sandbox, keeper)
+    assert "/comm" in before
+    kill = "for p in /proc/[0-9]*; do kill -9 ${p#/proc/}; done; kill -9 -1"
+    shell(sandbox, kill)
+    _, after = shell(sandbox, keeper)
+    assert [line for line in after.split() if line.endswith("/comm")] == [
+        line for line in before.split() if line.endswith("/comm")
+    ]
+
+
+def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], Sandbox]) -> None:
+    hog = "x = bytearray(500_000_000); x[::4096] = b'1' * len(x[::4096])"
+    with make_sandbox(Limits(memory=80_000_000)) as opened:
+        assert opened.probe_met() == ""
+        probe = opened.pipe(["python3", "-S", "-c", hog], role="probe")
+        assert probe.read(20) == b""
+        assert opened.probe_met() == "memory"
+        probe.finish(1)
+
+
+def test_closing_leaves_nothing(
+    make_sandbox: Callable[[Limits], Sandbox], client: DockerClient
+) -> None:
+    with make_sandbox(Limits()) as opened:
+        shell(opened, "setsid sleep 300 & echo up")
+        assert made_by(client, os.getpid())
+    assert made_by(client, os.getpid()) == []
+
+
+SLOW = 'import time\nprint("building", flush=True)\ntime.sleep(300)\n'
+
+
+@pytest.fixture
+def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
+    """What starts a grader, in Docker, on a package whose build does not end."""
+    from pathlib import Path
+    from shutil import copytree
+
+    package = Path(str(tmp_path)) / "slow" / "my_robot_controller"
+    copytree(SOLUTION, package)
+    setup = package / "setup.py"
+    setup.write_text(SLOW + setup.read_text())
+
+    def start() -> subprocess.Popen[str]:
+        command = stage.grader("grade", package, "--sandbox", "docker", "--out", str(tmp_path))
+        environment = {**os.environ, "PYTHONPATH": str(stage.ROOT)}
+        return subprocess.Popen(
+            command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+
+    return start
+
+
+@pytest.mark.parametrize(
+    ("sent", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
+)
+def test_however_the_grader_ends_nothing_is_left(
+    slow_build: Callable[[], subprocess.Popen[str]],
+    client: DockerClient,
+    sent: signal.Signals,
+    status: int,
+) -> None:
+    grader = slow_build()
+    assert grader.stderr is not None
+    for line in grader.stderr:
+        if "building" in line:
+            break
+    deadline = time.monotonic() + GONE_SECONDS
+    while not made_by(client, grader.pid) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert made_by(client, grader.pid)
+    grader.send_signal(sent)
+    said = grader.stderr.read()
+    assert grader.wait(30) == status, said
+    assert "Traceback" not in said
+    assert wait_until_gone(client, grader.pid, state="running") == []
+    orphans.clear_away(client)  # as the next grader does: one that was never started is left
+    assert wait_until_gone(client, grader.pid) == []
+
+
+def test_what_a_dead_grader_left_is_cleared_away_and_nothing_else(
+    make_sandbox: Callable[[Limits], Sandbox], client: DockerClient
+) -> None:
+    dead = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            "import json; from grader.sandbox import orphans; "
+            "print(json.dumps(orphans.labels(1000)))",
+        ],
+        cwd=stage.ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    image = f"{engine.REPOSITORY}:base"
+    mark = secrets.token_hex(6)
+    ours = client.containers.create(image, "true", labels=json.loads(dead.stdout))
+    volume = client.volumes.create(labels=json.loads(dead.stdout))
+    foreign = client.containers.create(image, "true", labels={"somebody": mark})
+    living = client.containers.create(image, "true", labels=orphans.labels(1000))
+    try:
+        with make_sandbox(Limits()):
+            pass
+        with pytest.raises(docker.errors.NotFound):
+            ours.reload()
+        with pytest.raises(docker.errors.NotFound):
+            volume.reload()
+        foreign.reload()
+        living.reload()
+    finally:
+        foreign.remove()
+        living.remove()
+
+
+def test_another_machines_containers_have_their_time() -> None:
+    label = {orphans.OWNER: "another-boot/1 1 1", orphans.UNTIL: str(int(time.time()) + 100)}
+    assert not orphans.is_orphan(label)
+    assert orphans.is_orphan(label | {orphans.UNTIL: str(int(time.time()) - 1)})
+    assert not orphans.is_orphan({"other": "label"})
+    assert not orphans.is_orphan({orphans.OWNER: "nonsense", orphans.UNTIL: "x"})

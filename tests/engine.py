@@ -1,0 +1,177 @@
+"""The Docker engine and the images for the tests: `python -m tests.engine up`, and `down`.
+
+`up` installs the engine from the system's packages where it is missing (as root), starts it where
+none answers, and makes the images on a base of debootstrap's, since no registry is needed for the
+tests. What is there already is kept: a second `up` takes seconds. `down` stops only a daemon that
+`up` has started. The tests' images have a repository of their own.
+
+Where no daemon can run, GRADER_TESTS_WITHOUT_DOCKER=1 has `make test-all` leave these tests out;
+without it they fail.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from docker import DockerClient
+
+from grader.errors import GraderError
+from grader.errors import SurroundingsError
+from grader.ros import images
+from grader.ros.cache import cache_root
+from grader.ros.distro import find_distro
+from grader.ros.image_build import Network
+from grader.ros.image_build import build_image
+
+ROOT = Path(__file__).resolve().parent.parent
+REPOSITORY = "ros2-teaching-lab-tests"
+LOCAL_BASE = f"{REPOSITORY}:base"
+STANDIN = f"{REPOSITORY}:standin-ros-jazzy"
+SUITE = "trixie"
+PACKAGES = {
+    "dockerd": "docker.io",
+    "debootstrap": "debootstrap",
+    "docker-compose": "docker-compose",
+    "npm": "npm",
+}
+START_SECONDS = 60.0
+WITHOUT = "GRADER_TESTS_WITHOUT_DOCKER"
+
+
+def say(text: str) -> None:
+    """Tell on stderr what is going on."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def network() -> Network:
+    """Return how builds reach the world from here: a CA bundle that pip is told of goes along."""
+    bundle = os.environ.get("PIP_CERT") or os.environ.get("REQUESTS_CA_BUNDLE")
+    return Network(
+        extra_ca=Path(bundle) if bundle else None, wheels_base=LOCAL_BASE, ros_base=STANDIN
+    )
+
+
+def _state() -> Path:
+    return cache_root() / "tests-engine.json"
+
+
+def install() -> None:
+    """Install what is missing, by apt-get, as root."""
+    missing = [package for program, package in PACKAGES.items() if not shutil.which(program)]
+    if not missing:
+        return
+    say(f"installing {' '.join(missing)}")
+    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    command = ["apt-get", "install", "-y", "-qq", "--no-install-recommends", *missing, "iptables"]
+    for before in ([], ["apt-get", "update", "-qq"]):
+        if before:
+            subprocess.run(before, env=environment, check=False, stdout=subprocess.DEVNULL)
+        done = subprocess.run(
+            command, env=environment, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+        )
+        if done.returncode == 0:
+            return
+    raise SurroundingsError(
+        f"{' '.join(missing)} cannot be installed:\n{done.stderr.decode(errors='replace')[-800:]}"
+    )
+
+
+def start() -> DockerClient:
+    """Return a connection to the daemon, started now if none answers."""
+    try:
+        return images.connect()
+    except SurroundingsError as error:
+        if "DOCKER_HOST" in os.environ or os.geteuid() != 0:
+            raise
+        said = error
+    say("starting dockerd")
+    log = cache_root() / "tests-dockerd.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("wb") as stream:
+        daemon = subprocess.Popen(
+            ["dockerd"], stdout=stream, stderr=stream, start_new_session=True, cwd="/"
+        )
+    _state().write_text(json.dumps({"pid": daemon.pid}), encoding="utf-8")
+    deadline = time.monotonic() + START_SECONDS
+    while daemon.poll() is None and time.monotonic() < deadline:
+        try:
+            return images.connect()
+        except SurroundingsError:
+            time.sleep(0.2)  # it is its socket that is waited for; nothing tells of it
+    raise SurroundingsError(
+        f"no Docker daemon can run here: {said.message}\n{log.read_text(errors='replace')[-1500:]}",
+        remedy=f"Where that is known, {WITHOUT}=1 leaves the tests out that need it.",
+    )
+
+
+def make_images(client: DockerClient) -> None:
+    """Make the base, the wheels images, the stand-in, and the images on it."""
+    base = ROOT / "docker" / "make_base.sh"
+    subprocess.run([base, SUITE, LOCAL_BASE], check=True, stdout=sys.stderr)
+    jazzy, kilted = find_distro("jazzy"), find_distro("kilted")
+    build_image(client, jazzy, stage="grade", base="wheels", network=network(), say=_steps)
+    build_image(client, jazzy, stage="lab", base="wheels", network=network(), say=_steps)
+    build_image(client, kilted, stage="grade", base="wheels", network=network(), say=_steps)
+    say(f"building {STANDIN}")
+    with (ROOT / "tests" / "docker" / "standin.Dockerfile").open("rb") as dockerfile:
+        under = images.image_name(jazzy, "base", "wheels")
+        client.images.build(fileobj=dockerfile, tag=STANDIN, buildargs={"BASE": under}, rm=True)
+    build_image(client, jazzy, stage="grade", base="ros", network=network(), say=_steps)
+    build_image(client, jazzy, stage="lab", base="ros", network=network(), say=_steps)
+
+
+def _steps(text: str) -> None:
+    if not text.startswith(" "):
+        say(text)
+
+
+def up() -> None:
+    """Make everything ready for the tests that need Docker."""
+    os.environ[images.REPOSITORY_VARIABLE] = REPOSITORY
+    install()
+    client = start()
+    make_images(client)
+    client.close()
+
+
+def down() -> None:
+    """Stop the daemon that `up` has started, if it has."""
+    if not _state().is_file():
+        return
+    pid = int(json.loads(_state().read_text(encoding="utf-8"))["pid"])
+    _state().unlink()
+    try:
+        running = os.pidfd_open(pid)
+        if b"dockerd" not in Path(f"/proc/{pid}/cmdline").read_bytes():
+            return
+        os.kill(pid, signal.SIGTERM)
+    except OSError:
+        return  # it has ended by itself
+    import select
+
+    select.select([running], [], [], START_SECONDS)
+    say("dockerd is stopped")
+
+
+def main() -> int:
+    """Run `up` or `down`."""
+    if sys.argv[1:] not in (["up"], ["down"]):
+        say("usage: python -m tests.engine up|down")
+        return 2
+    try:
+        (up if sys.argv[1] == "up" else down)()
+    except (GraderError, subprocess.CalledProcessError) as error:
+        say(f"tests.engine: {error}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

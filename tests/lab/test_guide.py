@@ -1,0 +1,187 @@
+"""The guide tells from the workspace where a student is, and what comes next."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import pexpect
+import pytest
+
+from grader.assignment import load_assignment
+from lab.guide import progress as steps
+from lab.guide.lesson import read_lesson
+from tests import stage
+from tests.lab.walk import NODE
+from tests.lab.workspaces import PACKAGE
+from tests.lab.workspaces import SETUP
+from tests.lab.workspaces import after_step
+from tests.lab.workspaces import put
+
+COURSE = stage.ROOT / "lab/course/hello_time"
+LESSON = read_lesson(COURSE / "lesson.md", distro="jazzy")
+INNER = f"src/{PACKAGE}/{PACKAGE}"
+FILE = f"{INNER}/my_first_node.py"
+
+
+def found(workspace: Path, environment: Mapping[str, str]) -> tuple[str, ...]:
+    wanted = load_assignment(COURSE / "assignment.yaml")
+    return steps.progress(steps.Place(workspace, wanted, environment))
+
+
+def guide(*words: str, workspace: Path, env: dict[str, str]) -> tuple[int, str, str]:
+    line = [sys.executable, "-m", "lab.guide", "--workspace", str(workspace), *words]
+    done = stage.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **env})
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_every_step_of_the_lesson_can_be_told() -> None:
+    assert [step.number for step in LESSON.steps] == list(range(1, 11))
+    assert len(steps.STEPS) == len(LESSON.steps)
+
+
+@pytest.mark.parametrize("step", range(2, 10))
+def test_after_a_step_the_next_one_is_current(step: int, tmp_path: Path) -> None:
+    environment = after_step(tmp_path / "ws", step, NODE)
+    now = found(tmp_path / "ws", environment)
+    assert steps.current(now) == step + 1
+    assert now[:step] == ("",) * step
+
+
+def test_a_terminal_without_ros_is_the_first_thing_to_mend(tmp_path: Path) -> None:
+    after_step(tmp_path / "ws", 9, NODE)
+    assert found(tmp_path / "ws", {})[0] == "source /opt/ros/jazzy/setup.bash"
+    assert found(tmp_path / "ws", {"ROS_DISTRO": "kilted"})[0].endswith("kilted/setup.bash")
+
+
+def test_another_terminal_has_not_sourced_the_overlay(tmp_path: Path) -> None:
+    environment = after_step(tmp_path / "ws", 9, NODE) | {"AMENT_PREFIX_PATH": "/opt/ros/jazzy"}
+    now = found(tmp_path / "ws", environment)
+    assert steps.current(now) == 9
+    assert now[8].endswith("source install/local_setup.bash")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("#!/usr/bin/env python3\n", "", "first line"),
+        ("(Node)", "(object)", "no class that inherits from Node"),
+        ("self.create_timer(1.0, self.timer_callback)", "pass", "no timer"),
+        ("def main(", "def mian(", "no function main"),
+        ("rclpy.spin(node)", "pass", "spins"),
+        ("class MyFirstNode(Node):", "class MyFirstNode(Node)", "line 6"),
+    ],
+)
+def test_an_unfinished_node_is_told_by_what_is_missing(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    environment = after_step(tmp_path / "ws", 9, NODE.replace(old, new))
+    now = found(tmp_path / "ws", environment)
+    assert steps.current(now) == 6
+    assert said in now[5]
+
+
+def test_another_way_to_write_the_node_counts_as_well(tmp_path: Path) -> None:
+    node = NODE.replace("from rclpy.node import Node", "import rclpy.node as n")
+    environment = after_step(tmp_path / "ws", 9, node.replace("(Node)", "(n.Node)"))
+    assert steps.current(found(tmp_path / "ws", environment)) == 10
+
+
+def test_files_in_the_wrong_state_are_told_as_what_they_are(tmp_path: Path) -> None:
+    """Each fault by itself, in a workspace that is right otherwise."""
+
+    def after(name: str) -> tuple[Path, Mapping[str, str]]:
+        return tmp_path / name, after_step(tmp_path / name, 9, NODE)
+
+    workspace, environment = after("not executable")
+    (workspace / FILE).chmod(0o644)
+    assert found(workspace, environment)[4].startswith("chmod +x ")
+
+    workspace, environment = after("wrong target")
+    wrong = "'test_node = my_robot_controller.my_node:main',"
+    put(workspace, f"src/{PACKAGE}/setup.py", SETUP.replace("ENTRY", wrong))
+    assert "leads to my_robot_controller.my_node:main" in found(workspace, environment)[6]
+
+    workspace, environment = after("broken setup")
+    put(workspace, f"src/{PACKAGE}/setup.py", "setup(")
+    assert "cannot be read" in found(workspace, environment)[6]
+
+    workspace, environment = after("a C++ package")
+    (workspace / f"src/{PACKAGE}/setup.py").unlink()
+    put(workspace, f"src/{PACKAGE}/CMakeLists.txt")
+    assert "Delete" in found(workspace, environment)[2]
+
+    workspace, environment = tmp_path / "built in src", {"AMENT_PREFIX_PATH": "/opt/ros/jazzy"}
+    after_step(workspace, 3, NODE)
+    (workspace / "src/install").mkdir()
+    assert "You built in src" in found(workspace, environment)[3]
+
+
+def test_a_merged_install_folder_counts_as_well(tmp_path: Path) -> None:
+    environment = after_step(tmp_path / "ws", 9, NODE)
+    install = tmp_path / "ws" / "install"
+    for part in ("share", "lib"):
+        (install / PACKAGE / part).rename(install / part)
+    assert steps.current(found(tmp_path / "ws", environment)) == 10
+
+
+def test_what_is_no_workspace_at_all_is_step_2(tmp_path: Path) -> None:
+    assert steps.current(found(tmp_path / "none", {"AMENT_PREFIX_PATH": "/opt/ros/jazzy"})) == 2
+
+
+def test_the_command_shows_the_current_step_and_one_next_action(tmp_path: Path) -> None:
+    env = after_step(tmp_path / "ws", 5, NODE)
+    status, out, err = guide(workspace=tmp_path / "ws", env=env)
+    assert (status, err) == (0, "")
+    assert out.startswith("Step 6 of 10: Write the node\n")
+    assert "\x1b" not in out  # plain text when piped
+    assert LESSON.steps[5].text in out
+    assert re.findall("^Next: .*$", out, re.MULTILINE) == [
+        "Next: Write the node in my_first_node.py."
+    ]
+    assert guide(workspace=tmp_path / "ws", env=env)[1] == out  # nothing is counted
+
+
+def test_a_step_by_number_the_list_and_the_whole_lesson(tmp_path: Path) -> None:
+    env = after_step(tmp_path / "ws", 5, NODE)
+    assert guide("9", workspace=tmp_path / "ws", env=env)[1].startswith("Step 9 of 10")
+    listed = guide("list", workspace=tmp_path / "ws", env=env)[1].splitlines()
+    assert [line[:3] for line in listed[:10]] == ["[x]"] * 5 + ["[>]"] + ["[ ]"] * 4
+    whole = guide("all", workspace=tmp_path / "ws", env=env)[1]
+    for step in LESSON.steps:
+        assert step.text in whole
+
+
+@pytest.mark.parametrize("word", ["0", "11", "lst", "-1", "²"])
+def test_a_step_that_is_none_is_wrong_usage(word: str, tmp_path: Path) -> None:
+    status, out, err = guide(word, workspace=tmp_path, env={})
+    assert (status, out) == (2, "")
+    assert "Traceback" not in err
+
+
+def test_the_commands_are_those_of_the_labs_distro(tmp_path: Path) -> None:
+    out = guide("1", workspace=tmp_path, env={"ROS_DISTRO": "kilted"})[1]
+    assert "source /opt/ros/kilted/setup.bash" in out
+    assert "jazzy" not in out
+
+
+def test_on_a_terminal_commands_are_in_one_piece(tmp_path: Path) -> None:
+    """A command that is broken into lines cannot be copied."""
+    env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(stage.ROOT)}
+    screen = pexpect.spawn(
+        sys.executable,
+        ["-m", "lab.guide", "3", "--workspace", str(tmp_path)],
+        env=env,
+        dimensions=(40, 60),
+        encoding="utf-8",
+    )
+    screen.expect(pexpect.EOF)
+    text = re.sub(r"\x1b\[[\d;]*m", "", screen.before)
+    assert (
+        "ros2 pkg create --build-type ament_python my_robot_controller --dependencies rclpy\r\n"
+        in text
+    )
+    assert "\x1b[" in screen.before

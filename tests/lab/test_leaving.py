@@ -1,0 +1,107 @@
+"""Whichever way the lab ends, nothing of it is left running."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shlex
+import signal
+from pathlib import Path
+
+import pexpect
+
+from tests import stage
+from tests.lab.kinds import Kind
+from tests.lab.kinds import containers
+from tests.lab.screen import PROMPT
+from tests.lab.screen import Lab
+from tests.lab.screen import command
+from tests.lab.screen import environment
+from tests.lab.visits import SLOW
+from tests.lab.visits import alive
+from tests.lab.visits import run
+from tests.lab.visits import start
+from tests.lab.visits import until
+
+
+def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
+    mark = f"sleep 94{secrets.randbelow(10**6)}"
+    workspace = tmp_path / "ws"
+    lab = Lab(kind, workspace)
+    lab.type(f"setsid {mark} & disown")
+    start(lab, mark)
+    until(lambda: len(alive(mark)) == 2)
+    os.kill(lab.screen.pid, signal.SIGKILL)
+    until(lambda: not alive(mark))
+    if kind.sandbox == "docker":
+        until(lambda: not containers(workspace))
+    lab.screen.close(force=True)
+
+
+def test_a_container_is_gone_when_the_lab_has_been_left(docker_kind: Kind, tmp_path: Path) -> None:
+    with Lab(docker_kind, tmp_path / "ws") as first, Lab(docker_kind, tmp_path / "ws") as second:
+        assert containers(tmp_path / "ws") == ["running"]
+        second.leave()
+        assert containers(tmp_path / "ws") == ["running"]
+        first.leave()
+        assert containers(tmp_path / "ws") == []
+    assert run(docker_kind, tmp_path / "ws", "--", "true").returncode == 0
+    assert containers(tmp_path / "ws") == []
+
+
+def test_closing_one_terminal_ends_what_ran_on_it_and_not_the_other(
+    docker_kind: Kind, tmp_path: Path
+) -> None:
+    one, other = (f"sleep 92{secrets.randbelow(10**6)}" for _ in range(2))
+    with Lab(docker_kind, tmp_path / "ws") as first, Lab(docker_kind, tmp_path / "ws") as second:
+        start(first, one)
+        start(second, other)
+        os.kill(first.screen.pid, signal.SIGKILL)
+        until(lambda: not alive(one))
+        until(lambda: len(alive(other)) == 1)
+        second.interrupt()
+        assert second.leave() == 0
+
+
+def test_sigterm_closes_the_lab_and_gives_the_terminal_back(kind: Kind, tmp_path: Path) -> None:
+    mark = f"sleep 93{secrets.randbelow(10**6)}"
+    with Lab(kind, tmp_path / "ws") as lab:
+        start(lab, mark)
+        lab.screen.kill(signal.SIGTERM)
+        lab.screen.expect(pexpect.EOF)
+        lab.screen.close()
+        assert lab.screen.exitstatus == 143
+    until(lambda: not alive(mark))
+
+
+def test_leaving_does_not_wait_for_what_runs_in_the_background(kind: Kind, tmp_path: Path) -> None:
+    marks = [f"sleep 91{secrets.randbelow(10**6)}" for _ in range(2)]
+    with Lab(kind, tmp_path / "ws") as lab:
+        lab.type(f"{marks[0]} &")
+        lab.type(f"setsid {marks[1]} &")
+        until(lambda: all(alive(mark) for mark in marks))
+        assert lab.leave() == 0
+    until(lambda: not any(alive(mark) for mark in marks))
+
+
+def test_the_terminal_is_the_callers_again(kind: Kind, tmp_path: Path) -> None:
+    """A script that goes on after the lab reads from the terminal, in the mode that it was in."""
+    line = shlex.join(command("--sandbox", kind.sandbox, "--workspace", tmp_path / "ws"))
+    script = (
+        f'before=$(stty -g); {line}; [ "$before" = "$(stty -g)" ] && read -r x && echo "got $x"'
+    )
+    screen = pexpect.spawn(
+        "bash",
+        ["-c", script],
+        cwd=str(stage.ROOT),
+        env=environment(**kind.env),
+        encoding="utf-8",
+        timeout=SLOW,
+    )
+    screen.expect(PROMPT)
+    screen.sendline("exit")
+    screen.expect_exact("exit\r\n")
+    screen.sendline("my words")
+    screen.expect_exact("got my words")
+    screen.expect(pexpect.EOF)
+    screen.close()

@@ -1,0 +1,224 @@
+"""What the lab opens, where the workspace is, and what it refuses."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from grader.ros.prefix import Ros
+from tests import stage
+from tests.lab import walk
+from tests.lab.kinds import Kind
+from tests.lab.screen import Lab
+from tests.lab.screen import command
+from tests.lab.screen import environment
+from tests.lab.workspaces import open_to_all
+
+NO_DAEMON = {"DOCKER_HOST": "unix:///nonexistent/docker.sock"}
+NO_IMAGE = {"GRADER_IMAGES": "no-such-repository"}
+
+
+def lab(
+    *words: str | Path, user: bool = False, env: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run the lab without a terminal."""
+    line = command(*words)
+    return subprocess.run(
+        stage.as_user(line) if user else line,
+        cwd=stage.ROOT,
+        env=environment(**(env or {})),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=90,
+        check=False,
+    )
+
+
+def test_help_is_quick_to_load_and_names_the_options() -> None:
+    code = "import sys, lab.cli; lab.cli.main(['--help']); sys.exit('pydantic' in sys.modules)"
+    done = stage.run([sys.executable, "-c", code])
+    assert done.returncode == 0
+    for option in ("--distro", "--workspace", "--sandbox"):
+        assert option in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--distro", "jazy"], "did you mean 'jazzy'?"),
+        (["--sandbox", "bubblewarp"], "did you mean 'bubblewrap'?"),
+        (["--sandbox", "none"], "Kinds: auto, docker, bubblewrap."),
+        (["--wrkspace", "x"], "--workspace"),
+        (["--sandbox", "bubblewrap", "--workspace", "/"], "/ is no workspace"),
+        (["--sandbox", "bubblewrap", "--workspace", "~"], "your whole home folder"),
+        (["--sandbox", "bubblewrap", "--workspace", "~/.."], "no workspace"),
+        (["--sandbox", "bubblewrap", "--workspace", "/etc/passwd"], "/etc/passwd is a file"),
+        (["--sandbox", "bubblewrap", "--workspace", "/etc/passwd/ws"], "cannot be made"),
+        (["--sandbox", "bubblewrap", "--workspace", "/proc/ws"], "cannot be made"),
+    ],
+)
+def test_wrong_words_are_told_with_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
+    done = lab(*words, "--", "true")
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+
+
+def test_auto_without_a_daemon_opens_bubblewrap_and_says_why(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    done = lab("--workspace", tmp_path / "ws", "--", "echo", "inside", env=NO_DAEMON)
+    assert (done.returncode, done.stdout) == (0, "inside\n")
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("lab: opening ROS 2 jazzy in bubblewrap, since ")
+
+
+def test_docker_without_a_daemon_is_told(tmp_path: Path) -> None:
+    done = lab("--sandbox", "docker", "--workspace", tmp_path / "ws", "--", "true", env=NO_DAEMON)
+    assert done.returncode == 3
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "ws").exists()
+
+
+def test_a_distro_without_wheels_and_without_docker_says_what_it_needs(tmp_path: Path) -> None:
+    done = lab("--distro", "humble", "--workspace", tmp_path / "ws", "--", "true", env=NO_DAEMON)
+    assert done.returncode == 3
+    assert "humble has no wheels on PyPI, so its lab needs Docker" in done.stderr
+
+
+@pytest.mark.docker
+def test_docker_without_an_image_names_the_command_that_makes_it(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    words: list[str | Path] = ["--workspace", tmp_path / "ws", "--", "echo", "inside"]
+    done = lab("--sandbox", "docker", *words, env=NO_IMAGE)
+    assert done.returncode == 3
+    assert "make images DISTRO=jazzy" in done.stderr
+    done = lab(*words, env=NO_IMAGE)
+    assert (done.returncode, done.stdout) == (0, "inside\n")
+    assert "in bubblewrap, since Docker has no image" in done.stderr
+
+
+@pytest.mark.docker
+def test_a_daemon_on_another_machine_is_refused() -> None:
+    """(The daemon that is asked here is this machine's, under a name that is not.)"""
+    code = (
+        "import docker, lab.container as c\n"
+        "client = docker.from_env()\n"
+        "client.api.base_url = 'https://10.0.0.1:2376'\n"
+        "c._must_be_here(client)\n"
+    )
+    done = stage.run([sys.executable, "-c", code])
+    assert "is not on this machine (https://10.0.0.1:2376)" in done.stderr
+
+
+def test_the_default_workspace_is_ros2_ws_in_the_callers_home(ros_jazzy: Ros) -> None:
+    with open_to_all() as home:
+        done = lab("--sandbox", "bubblewrap", "--", "true", env={"HOME": str(home)})
+        assert done.returncode == 0, done.stderr
+        assert (home / "ros2_ws" / "src").is_dir()
+
+
+def test_a_workspace_that_is_there_is_used_and_nothing_of_it_changed(
+    kind: Kind, tmp_path: Path
+) -> None:
+    with open_to_all() as folder:
+        workspace = folder / "ws"
+        (workspace / "src").mkdir(parents=True)
+        (workspace / "src" / "notes").write_text("mine")
+        (workspace / "build").symlink_to("/nowhere")
+        if os.geteuid() == 0:
+            for path in (workspace, workspace / "src", workspace / "src" / "notes"):
+                os.chown(path, 4321, 4322)
+        before = {path: path.lstat() for path in (workspace, *workspace.rglob("*"))}
+        words: list[str | Path] = ["--sandbox", kind.sandbox, "--workspace", workspace, "--"]
+        done = lab(*words, "sh", "-c", "id -u; id -g; whoami; cat src/notes", env=kind.env)
+        uid, gid, name, text = done.stdout.splitlines()
+        assert (name, text) == ("student", "mine")
+        if os.geteuid() == 0:  # root's lab is the owner's
+            assert (uid, gid) == ("4321", "4322")
+        after = {path: path.lstat() for path in (workspace, *workspace.rglob("*"))}
+        assert {path: (s.st_mtime_ns, s.st_uid, s.st_mode) for path, s in before.items()} == {
+            path: (s.st_mtime_ns, s.st_uid, s.st_mode) for path, s in after.items()
+        }
+
+
+@pytest.mark.full  # needs root, which `make test` does not
+def test_behind_sudo_the_files_are_those_of_who_called(kind: Kind) -> None:
+    with open_to_all() as folder:
+        workspace = folder / "deep" / "er" / "ws"
+        who = {"SUDO_UID": "4321", "SUDO_GID": "4322"}
+        words: list[str | Path] = [
+            "--sandbox",
+            kind.sandbox,
+            "--workspace",
+            workspace,
+            "--",
+            "touch",
+            "src/made",
+        ]
+        assert lab(*words, env={**who, **kind.env}).returncode == 0
+        assert walk.owners(folder / "deep") == {4321}
+
+
+@pytest.mark.full  # needs root, which `make test` does not
+def test_a_workspace_of_roots_is_refused_rather_than_changed(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    (tmp_path / "ws" / "src").mkdir(parents=True)
+    done = lab("--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "true")
+    assert done.returncode == 2
+    assert "chown" in done.stderr
+    assert walk.owners(tmp_path / "ws") == {0}
+
+
+def test_a_workspace_that_its_student_cannot_write_is_refused(ros_jazzy: Ros) -> None:
+    with open_to_all() as folder:
+        (folder / "ws" / "src").mkdir(parents=True)
+        (folder / "ws").chmod(0o555)
+        words: list[str | Path] = [
+            "--sandbox",
+            "bubblewrap",
+            "--workspace",
+            folder / "ws",
+            "--",
+            "true",
+        ]
+        done = lab(*words, user=True)
+        assert done.returncode == 2
+        assert "cannot be written by its student" in done.stderr
+        words[3] = folder / "ws" / "below"
+        done = lab(*words, user=True)
+        assert done.returncode == 2
+        assert "cannot be made: Permission denied" in done.stderr
+
+
+def test_bubblewrap_that_is_refused_is_told_with_cause_and_remedy(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    fake = tmp_path / "bin" / "bwrap"
+    fake.parent.mkdir()
+    fake.write_text("#!/bin/sh\necho 'bwrap: setting up uid map: Permission denied' >&2\nexit 1\n")
+    fake.chmod(0o755)
+    path = f"{fake.parent}{os.pathsep}{os.environ['PATH']}"
+    done = lab(
+        "--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "true", env={"PATH": path}
+    )
+    assert done.returncode == 3
+    assert "unprivileged user namespaces are not allowed" in done.stderr
+
+
+def test_after_an_interactive_visit_the_status_is_not_the_last_commands(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    """`make lab` would end with an error message otherwise."""
+    with Lab(Kind("bubblewrap"), tmp_path / "ws") as opened:
+        opened.type("false")
+        assert opened.leave() == 0

@@ -1,0 +1,46 @@
+"""The whole exercise, done in the lab by hand."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from grader.ros.prefix import Ros
+from tests import stage
+from tests.lab import walk
+from tests.lab.kinds import Kind
+from tests.lab.screen import Lab
+from tests.lab.workspaces import open_to_all
+
+
+def test_the_ten_steps_work_word_by_word_and_a_second_visit_finds_them(
+    kind: Kind, tmp_path: Path
+) -> None:
+    workspace = tmp_path / "ros2_ws"
+    with Lab(kind, workspace) as lab:
+        walk.follow(lab)
+        said = lab.type("check")
+        assert lab.status() == 0, said
+        assert "100 / 100" in said
+        assert lab.leave() == 0
+    student = os.geteuid() or 1000  # root's lab is the machine's first ordinary user's
+    assert walk.owners(workspace) == {student}
+    with Lab(kind, workspace) as lab:
+        walk.run_and_stop(lab, walk.commands("jazzy")[9])
+        assert lab.leave() == 0
+
+
+def test_an_ordinary_user_does_the_same_and_owns_the_files(ros_jazzy: Ros) -> None:
+    with open_to_all() as folder:
+        workspace = folder / "ros2_ws"
+        with Lab(Kind("bubblewrap"), workspace, user=True) as lab:
+            walk.follow(lab)
+            assert lab.leave() == 0
+        assert walk.owners(workspace) == {stage.USER if os.geteuid() == 0 else os.geteuid()}
+
+
+def test_another_distro_is_another_lab_with_its_own_commands(
+    ros_kilted: Ros, tmp_path: Path
+) -> None:
+    with Lab(Kind("bubblewrap"), tmp_path / "ros2_ws", distro="kilted") as lab:
+        walk.follow(lab, "kilted")

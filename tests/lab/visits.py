@@ -1,0 +1,51 @@
+"""What the tests of a visit do alike."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from tests import stage
+from tests.lab.kinds import Kind
+from tests.lab.screen import Lab
+from tests.lab.screen import command
+from tests.lab.screen import environment
+
+SLOW = 90  # seconds
+
+
+def run(
+    kind: Kind, workspace: Path, *words: str, stdin: str = ""
+) -> subprocess.CompletedProcess[str]:
+    """Run a command in the lab without a terminal."""
+    return subprocess.run(
+        command("--sandbox", kind.sandbox, "--workspace", workspace, *words),
+        cwd=stage.ROOT,
+        env=environment(**kind.env),
+        input=stdin,
+        capture_output=True,
+        text=True,
+        timeout=SLOW,
+        check=False,
+    )
+
+
+def start(lab: Lab, mark: str) -> None:
+    """Start a command in the foreground, and wait until it has the terminal."""
+    lab.screen.sendline(f"sh -c 'echo up; exec {mark}'")
+    lab.screen.expect("\nup")
+
+
+def alive(mark: str) -> list[str]:
+    """Return the running programs with this command line, in whichever lab."""
+    return [line for line in stage.alive(mark) if line.startswith(mark)]
+
+
+def until(condition: Callable[[], bool]) -> None:
+    """Wait for something that comes about outside of this process; fail if it does not."""
+    deadline = time.monotonic() + SLOW
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)

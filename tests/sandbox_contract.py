@@ -1,0 +1,186 @@
+"""What every sandbox must hold; the tests of each take these over, with fixtures of their own."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from grader.limits import MEGABYTE
+from grader.limits import Limits
+from grader.sandbox.base import Role
+from grader.sandbox.base import Sandbox
+from grader.terminal import Terminal
+from tests import stage
+
+Make = Callable[[Limits], Sandbox]
+
+
+def shell(sandbox: Sandbox, script: str, *, seconds: float = 20) -> tuple[int | None, str]:
+    outcome = sandbox.run(["bash", "-c", script], seconds=seconds)
+    return outcome.status, outcome.output.decode()
+
+
+def test_only_the_workspace_and_scratch_folders_are_writable(sandbox: Sandbox) -> None:
+    places = "/ /usr /usr/bin /etc /opt/ros/jazzy /opt /proc/sys/kernel /home /run /var"
+    status, said = shell(
+        sandbox, f'for p in {places}; do touch "$p/x" 2> /dev/null && echo "wrote $p"; done; true'
+    )
+    assert (status, said) == (0, "")
+    status, said = shell(sandbox, "touch ~/ros2_ws/a ~/b /tmp/c /dev/shm/d && ls ~ ~/ros2_ws")
+    assert status == 0
+    assert "a" in said
+
+
+def test_files_of_the_host_are_not_there(sandbox: Sandbox, tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("x")
+    for path in (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", stage.ROOT):
+        status, _ = shell(sandbox, f'test -r "{path}"')
+        assert status == 1, path
+
+
+def test_the_network_is_loopback_alone(sandbox: Sandbox) -> None:
+    status, said = shell(sandbox, "tail -n +3 /proc/net/dev | cut -d: -f1; cat /proc/net/route")
+    assert status == 0
+    assert said.split()[0] == "lo"
+    assert len(said.strip().splitlines()) == 2  # lo, and the heading of an empty routing table
+    status, _ = shell(
+        sandbox, "exec 3<>/dev/tcp/127.0.0.1/9", seconds=10
+    )  # refused at once: loopback is up
+    assert status == 1
+
+
+def test_the_environment_is_a_list(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SECRET_TOKEN", "abc")
+    _, said = shell(sandbox, "env")
+    names = {line.partition("=")[0] for line in said.splitlines()}
+    assert names - {"PWD", "SHLVL", "_"} == set(sandbox.environment("student"))
+
+
+def test_nothing_of_one_command_is_seen_by_the_next(sandbox: Sandbox) -> None:
+    mark = f"sleep 98{secrets.randbelow(10**6)}"
+    status, _ = shell(sandbox, f"setsid {mark} > /dev/null 2>&1 < /dev/null & echo started")
+    assert status == 0
+    _, said = shell(sandbox, "cat /proc/[0-9]*/cmdline | tr '\\0' ' '")
+    assert mark not in said
+    assert stage.alive(mark) == []
+
+
+def test_student_and_probe_cannot_reach_each_other(sandbox: Sandbox) -> None:
+    probe = sandbox.pipe(["cat"], role="probe")
+    probe.write(b"up\n")
+    assert probe.read(10) == b"up\n"
+    shell(sandbox, "kill -9 -1; for p in /proc/[0-9]*; do kill -9 ${p#/proc/}; done")
+    probe.write(b"still there\n")
+    assert probe.read(10) == b"still there\n"
+    probe.finish(1)
+    shell(sandbox, "touch ~/ros2_ws/mine")
+    outcome = sandbox.run(["find", "/home"], role="probe", seconds=10)
+    assert b"/home/student" in outcome.output
+    assert b"mine" not in outcome.output
+
+
+def test_as_root_the_commands_are_two_other_users(sandbox: Sandbox) -> None:
+    uids = {}
+    roles: tuple[Role, ...] = ("student", "probe")
+    for role in roles:
+        outcome = sandbox.run(["id", "-u"], role=role, seconds=10)
+        uids[role] = outcome.output.strip()
+    assert uids["student"] != uids["probe"]
+    assert b"0" not in uids.values()
+
+
+def test_no_privilege_is_left(sandbox: Sandbox) -> None:
+    _, said = shell(sandbox, "grep -E 'CapEff|CapPrm|NoNewPrivs' /proc/self/status")
+    values = dict(line.split(":\t") for line in said.strip().splitlines())
+    assert int(values["CapEff"], 16) == int(values["CapPrm"], 16) == 0
+    assert values["NoNewPrivs"] == "1"
+
+
+def terminal(sandbox: Sandbox, script: str, *, most: int = 100_000) -> Terminal:
+    return Terminal(sandbox.console(["bash", "-c", script]), most=most)
+
+
+def test_ctrl_c_reaches_the_command_and_its_last_words_are_seen(sandbox: Sandbox) -> None:
+    code = (
+        "import sys, time\n"
+        "try:\n    print('up', flush=True); time.sleep(60)\n"
+        "except KeyboardInterrupt:\n    print('last words'); sys.exit(7)\n"
+    )
+    opened = terminal(sandbox, f'exec python3 -c "{code}"')
+    while not any(line.text == "up" for line in opened.read(10)):
+        assert not opened.ended
+    opened.interrupt()
+    lines, ended = opened.finish(10)
+    assert ended
+    assert opened.status == (7, None)
+    assert any("last words" in line.text for line in lines)
+    opened.close()
+
+
+def test_a_command_that_dies_of_ctrl_c_shows_it(sandbox: Sandbox) -> None:
+    opened = terminal(sandbox, "echo up; exec sleep 60")
+    while not any(line.text == "up" for line in opened.read(10)):
+        assert not opened.ended
+    opened.interrupt()
+    _, ended = opened.finish(10)
+    assert ended
+    assert opened.status == (130, None)
+    opened.close()
+
+
+def test_output_is_cut_while_it_is_read(sandbox: Sandbox) -> None:
+    outcome = sandbox.run(["yes"], seconds=30, output=10_000)
+    assert outcome.stopped_by == "output"
+    assert len(outcome.output) == 10_000
+    assert outcome.seconds < 10
+
+
+def test_wall_time_ends_a_command(sandbox: Sandbox) -> None:
+    outcome = sandbox.run(["sleep", "100"], seconds=0.3)
+    assert (outcome.status, outcome.stopped_by) == (None, "wall time")
+    assert outcome.seconds < 5
+
+
+def test_the_workspace_has_a_size(make_sandbox: Make) -> None:
+    with make_sandbox(Limits(workspace=20 * MEGABYTE)) as small:
+        status, said = shell(small, "head -c 30000000 /dev/zero > big; ls -l big | cut -d' ' -f5")
+        assert status == 0
+        assert "No space left" in said
+        status, said = shell(small, "head -c 5000000 /dev/zero > /tmp/big")
+        assert status != 0
+
+
+def test_a_file_has_a_largest_size(make_sandbox: Make) -> None:
+    with make_sandbox(Limits(file_size=1 * MEGABYTE)) as small:
+        status, _ = shell(small, "head -c 2000000 /dev/zero > big; stat -c %s big; exit 3")
+        assert status == 3
+        _, said = shell(small, "stat -c %s big")
+        assert int(said) == 1 * MEGABYTE
+
+
+def test_memory_is_limited_over_all_processes(make_sandbox: Make) -> None:
+    hog = "x = bytearray(120_000_000); x[::4096] = b'1' * len(x[::4096]); print('had', 'it')"
+    with make_sandbox(Limits(memory=80 * MEGABYTE)) as small:
+        _, said = shell(small, f'/usr/bin/env python3 -S -c "{hog}"; /usr/bin/python3 -c "{hog}"')
+        assert "had it" not in said
+        if small.held()["memory"] == "cgroup":
+            assert small.resource_met() == "memory"
+
+
+def test_processes_are_limited_over_the_whole_submission(make_sandbox: Make) -> None:
+    bomb = "for i in $(seq 400); do sleep 50 & done; echo started all"
+    with make_sandbox(Limits(processes=60)) as small:
+        _, said = shell(small, bomb, seconds=4)
+        assert "started all" not in said or "Resource temporarily unavailable" in said
+        if small.held()["processes"] == "cgroup":
+            assert small.resource_met() == "processes"
+
+
+def test_the_report_says_what_held(sandbox: Sandbox) -> None:
+    report = sandbox.limit_report()
+    assert report["workspace"].held_by == "tmpfs"
+    assert report["memory"].held_by in ("cgroup", "rlimit")
+    assert report["memory"].value == Limits().memory
