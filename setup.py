@@ -19,7 +19,7 @@ setup(
     version="0.1.0",
     packages=find_namespace_packages(include=["grader", "grader.*"]),
     include_package_data=True,
-    package_data={"": ["*.toml", "*.json", "*.txt", "*.in", "*.yaml"]},
+    package_data={"": ["*.toml", "*.json", "*.txt", "*.in", "*.yaml", "*.mo"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),

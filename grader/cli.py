@@ -4,6 +4,7 @@ usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated.
 
 from __future__ import annotations
 
+import os
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +14,10 @@ import click
 
 import grader
 from grader.entry import run
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import chosen_language
+from grader.locale.speaker import errors_in
 
 if TYPE_CHECKING:
     from grader.report.model import Report
@@ -68,6 +73,11 @@ _out = click.option(
     show_default=True,
     help="The folder that reports are written to.",
 )
+_lang = click.option(
+    "--lang",
+    type=click.Choice(["en", "ko"]),
+    help="The language of the texts (default: what LC_ALL, LANG and LANGUAGE ask for).",
+)
 _verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence of every check.")
 
 
@@ -79,6 +89,7 @@ _verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence
 @click.option("--name", help="The student's name in the report (default: the folder's).")
 @_limit
 @_out
+@_lang
 @_verbose
 def grade(
     path: Path,
@@ -88,13 +99,15 @@ def grade(
     name: str | None,
     limits: tuple[str, ...],
     out: Path,
+    lang: str | None,
     verbose: bool,
 ) -> int:
     """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
     from grader.ordering import make_orders  # noqa: PLC0415 - --help must not pay for it
 
-    orders = make_orders(path, assignment, distro, sandbox, limits, name=name)
-    return _mark(orders, out, verbose=verbose, show_hidden=True)
+    with errors_in(lang):
+        orders = make_orders(path, assignment, distro, sandbox, limits, name=name, lang=lang)
+        return _mark(orders, out, verbose=verbose, show_hidden=True)
 
 
 @commands.command()
@@ -103,6 +116,7 @@ def grade(
 @_distro
 @_sandbox
 @_limit
+@_lang
 @_verbose
 def check(
     path: Path | None,
@@ -110,6 +124,7 @@ def check(
     distro: str,
     sandbox: str,
     limits: tuple[str, ...],
+    lang: str | None,
     verbose: bool,
 ) -> int:
     """Check your own package before handing it in: the same verdict, with the visible checks.
@@ -119,12 +134,136 @@ def check(
     """
     from grader.ordering import make_orders  # noqa: PLC0415
 
+    named = path is not None
     if path is None:
         workspace = Path.home() / "ros2_ws"
         path = workspace if workspace.is_dir() else Path.cwd()
-        click.echo(f"checking {path}", err=True)
+    with errors_in(lang):
+        orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True, lang=lang)
+        if not named:
+            click.echo(Speaker(orders[0].lang)(say("checking {path}", path=str(path))), err=True)
+        return _mark(orders, None, verbose=verbose, show_hidden=False)
+
+
+@commands.command()
+@click.argument("mistake", metavar="[MISTAKE-ID | -]", required=False)
+@_lang
+def explain(mistake: str | None, lang: str | None) -> int:
+    """Explain a mistake of the catalogue, or what a terminal shows (-: read from standard input).
+
+    For example: ros2 run my_robot_controller test_node 2>&1 | grader explain -
+    """
+    from grader.mistakes import explain as texts  # noqa: PLC0415
+
+    lang = lang or chosen_language(os.environ)
+    if mistake is None:
+        texts.print_list(file=sys.stdout, lang=lang)
+        return 0
+    if mistake == "-":
+        text = sys.stdin.buffer.read(texts.MOST_BYTES).decode("utf-8", "replace")
+        return 0 if texts.print_recognised(text, file=sys.stdout, lang=lang) else 1
+    texts.print_entry(mistake, file=sys.stdout, lang=lang)
+    return 0
+
+
+@commands.command()
+@click.argument("path", type=click.Path(path_type=Path))
+@click.option(
+    "--dry-run/--apply",
+    "dry_run",
+    default=True,
+    help="Show the change as a diff (the default), or write it; the old files are kept.",
+)
+@_assignment
+@_distro
+@_sandbox
+@click.option("--check", "only", default="", metavar="ID", help="Mend this check only.")
+@click.option(
+    "--no-run", is_flag=True, help="Look at the files only: build nothing and run nothing."
+)
+@_limit
+def fix(
+    path: Path,
+    dry_run: bool,
+    assignment: str,
+    distro: str,
+    sandbox: str,
+    only: str,
+    no_run: bool,
+    limits: tuple[str, ...],
+) -> int:
+    """Mend your own package where only one mend is possible, as a diff that is shown first.
+
+    PATH is your package or workspace. Exit status: 0 nothing is wrong any more, 1 something is left
+    that cannot be mended by itself (it is named).
+    """
+    from grader.fix.command import Wish  # noqa: PLC0415
+    from grader.fix.command import fix as mend  # noqa: PLC0415
+    from grader.ordering import make_orders  # noqa: PLC0415
+
     orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True)
-    return _mark(orders, None, verbose=verbose, show_hidden=False)
+    if len(orders) > 1:
+        raise click.UsageError("fix runs the node on one distro: name one")
+    wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
+    return mend(wish, say=lambda text: click.echo(text, err=True))
+
+
+@commands.command()
+@click.argument("assignment", metavar="ASSIGNMENT")
+@click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
+@click.option("--jobs", type=click.IntRange(1), help="How many are run at once (default: cores + 1).")
+@click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
+@click.option(
+    "--json",
+    "json_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write the matrix to this file as well.",
+)
+@click.option(
+    "--keys",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="The folder with the solution and mutants.yaml (default: the grader's own).",
+)
+@_distro
+@_sandbox
+@_limit
+def validate(
+    assignment: str,
+    static: bool,
+    jobs: int | None,
+    only: str,
+    json_file: Path | None,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    limits: tuple[str, ...],
+) -> int:
+    """Mark an assignment's own solution, starter and mutants: does it mark what it claims to?
+
+    Exit status: 0 everything is as expected, 1 something is not.
+    """
+    from grader.ordering import make_orders  # noqa: PLC0415
+    from grader.validate import command  # noqa: PLC0415
+    from grader.validate import matrix  # noqa: PLC0415
+
+    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, lang="en")
+    if others:
+        raise click.UsageError("validate marks on one distro: name one")
+    wish = command.Wish(
+        order=order,
+        keys=keys or command.KEYS / order.assignment.id,
+        starter=command.starter_of(assignment),
+        static=static,
+        jobs=jobs or 0,
+        only=only,
+    )
+    found = command.validate(wish, say=lambda text: click.echo(text, err=True))
+    click.echo(matrix.table(found))
+    click.echo()
+    click.echo(matrix.summary(found))
+    if json_file is not None:
+        command.write_json(found, json_file)
+    return 1 if found.faults else 0
 
 
 @commands.command()
@@ -195,10 +334,10 @@ def images(
 
 def _hidden(count: int) -> str:
     if count == 0:
-        return "There are no hidden checks: your instructor's side asks the same."
-    return (
-        f"{count} hidden check{'s' if count > 1 else ''} will be asked on your instructor's side."
-    )
+        return say("There are no hidden checks: your instructor's side asks the same.")
+    if count == 1:
+        return say("1 hidden check will be asked on your instructor's side.")
+    return say("{count} hidden checks will be asked on your instructor's side.", count=count)
 
 
 def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:
@@ -206,9 +345,10 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
     from grader.report import terminal  # noqa: PLC0415
     from grader.runner import grade as mark  # noqa: PLC0415
 
+    speak = Speaker(orders[0].lang)
     reports: list[Report] = []
     for order in orders:
-        with terminal.LiveProgress(sys.stderr) as progress:
+        with terminal.LiveProgress(sys.stderr, lang=order.lang) as progress:
             report = mark(order, progress)
         reports.append(report)
         if out is not None:
@@ -222,9 +362,10 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
                 path=written if out is not None else None,
             )
         if report.environment.sandbox == "none":
-            click.echo("No sandbox was used: the package ran as you, with your files.", err=True)
+            bare = say("No sandbox was used: the package ran as you, with your files.")
+            click.echo(speak(bare), err=True)
     if not show_hidden:
-        click.echo(_hidden(orders[0].assignment.hidden_checks))
+        click.echo(speak(_hidden(orders[0].assignment.hidden_checks)))
     if len(orders) > 1:
         if out is not None:
             matrix = files.write_matrix(reports, out, reports[0].submission.name)

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from grader.assignment import Output
+from grader.locale.message import say
 from grader.observer import SECOND
 from grader.observer import Event
 from grader.observer import Observer
@@ -53,7 +54,7 @@ class VirtualClock:
         if not self._settle(watch):
             if self._over():
                 return
-            watch.note = "the node does not answer: it is not spinning"
+            watch.note = say("the node does not answer: it is not spinning")
             self._watch_wall(watch, tell)
             if watch.counted or not self._settle(watch):
                 return
@@ -173,7 +174,7 @@ class VirtualClock:
             still += self._observer.take(self._observer.probe.ask("wait", seconds=0.1))
         watch.events += still
         if any(event.n is not None for event in still) or (still and not watch.dues):
-            watch.note = "lines came while the ROS clock stood still"
+            watch.note = say("lines came while the ROS clock stood still")
             watch.period = None
             self._watch_wall(watch, tell)
 

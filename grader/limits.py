@@ -13,6 +13,8 @@ from dataclasses import fields
 from dataclasses import replace
 
 from grader.errors import UsageError
+from grader.locale.message import joined
+from grader.locale.message import say
 
 MEGABYTE = 1_000_000
 
@@ -49,12 +51,16 @@ class Limits:
         for name, value in values.items():
             if name not in UNITS:
                 close = difflib.get_close_matches(name, UNITS, n=1)
-                hint = f"did you mean '{close[0]}'? " if close else ""
+                hint = say("did you mean '{word}'?", word=close[0]) if close else ""
                 raise UsageError(
-                    f"there is no limit '{name}'", remedy=f"{hint}Limits: {', '.join(UNITS)}."
+                    say("there is no limit '{name}'", name=name),
+                    remedy=joined(hint, say("Limits: {names}.", names=", ".join(UNITS))),
                 )
             if not value > 0:
-                raise UsageError(f"the limit {name} must be above 0, not {value:g}")
+                number = f"{value:g}"
+                raise UsageError(
+                    say("the limit {name} must be above 0, not {value}", name=name, value=number)
+                )
         return replace(self, **values)
 
 

@@ -9,6 +9,8 @@ from grader.assignment import load_assignment
 from grader.errors import UsageError
 from grader.limits import UNITS
 from grader.limits import Limits
+from grader.locale.message import say
+from grader.locale.speaker import chosen_language
 from grader.ros.distro import find_distro
 from grader.runner import Order
 from grader.sandbox.choose import check_name
@@ -25,12 +27,13 @@ def make_orders(
     *,
     name: str | None = None,
     own_code: bool = False,
+    lang: str | None = None,
 ) -> list[Order]:
     """Check every word of the command line before anything is run."""
     check_name(sandbox)
     distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
     if not distros:
-        raise UsageError("no distro was named", remedy="For example: --distro jazzy")
+        raise UsageError(say("no distro was named"), remedy=say("For example: --distro jazzy"))
     given = _limit_values(limits)
     file, hidden = _assignment_files(assignment)
     if own_code:
@@ -46,6 +49,7 @@ def make_orders(
             name=name,
             limits=bounds,
             own_code=own_code,
+            lang=lang or chosen_language(os.environ),
         )
         for found in dict.fromkeys(distros)
     ]
@@ -60,7 +64,7 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
         except ValueError:
             equals = ""
         if not equals:
-            raise UsageError(f"--limit takes NAME=NUMBER, not '{word}'")
+            raise UsageError(say("--limit takes NAME=NUMBER, not '{word}'", word=word))
     return values
 
 
@@ -74,9 +78,17 @@ def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
     if not file.is_file():
         known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
         raise UsageError(
-            f"there is no assignment '{assignment}' in {course}",
-            remedy=f"Assignments: {', '.join(known) or 'none'}; or give a file's path. "
-            f"${COURSE} names another course folder.",
+            say(
+                "there is no assignment '{assignment}' in {course}",
+                assignment=assignment,
+                course=str(course),
+            ),
+            remedy=say(
+                "Assignments: {names}; or give a file's path. ${variable} names another course "
+                "folder.",
+                names=", ".join(known) or "-",
+                variable=COURSE,
+            ),
         )
     hidden = here / "keys" / assignment / "hidden.yaml"
     return file, hidden if hidden.is_file() else None

@@ -14,6 +14,7 @@ from dataclasses import field
 from datetime import datetime
 from datetime import timezone
 from pathlib import Path
+from typing import cast
 
 import grader
 from grader import events
@@ -28,6 +29,9 @@ from grader.checks.registry import Passed
 from grader.errors import SurroundingsError
 from grader.evidence import Evidence
 from grader.limits import Limits
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.mistakes.diagnose import diagnose
 from grader.observer import Event
 from grader.report import model
 from grader.ros.distro import Distro
@@ -40,17 +44,17 @@ from grader.submission import take_in
 
 MOST_EVIDENCE = 40_000  # characters of build log and of transcript in the report
 STAGES = {
-    "package": ("intake", "looking at the package"),
-    "source": ("intake", "looking at the package"),
-    "build": ("build", "building with colcon"),
-    "entry_point": ("build", "building with colcon"),
-    "run": ("run", "running the node"),
+    "package": ("intake", say("looking at the package")),
+    "source": ("intake", say("looking at the package")),
+    "build": ("build", say("building with colcon")),
+    "entry_point": ("build", say("building with colcon")),
+    "run": ("run", say("running the node")),
 }
 
 
 @dataclass(frozen=True, kw_only=True)
 class Order:
-    """What is to be marked, and how."""
+    """What is to be marked, and how; `lang` is the language of every text in the report."""
 
     path: Path
     assignment: Assignment
@@ -59,6 +63,7 @@ class Order:
     name: str | None = None
     limits: Limits = field(default_factory=Limits)
     own_code: bool = False
+    lang: str = "en"
 
 
 def grade(order: Order, listener: events.Listener) -> model.Report:
@@ -74,7 +79,9 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
         order.path, package=assignment.package, node_file=assignment.node_file, name=order.name
     )
     intake = time.monotonic() - begin
-    listener(events.StageStarted("setup", f"opening the sandbox for ROS {order.distro.name}"))
+    speak = Speaker(order.lang)
+    opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
+    listener(events.StageStarted("setup", speak(opening)))
     sandbox = open_sandbox(
         order.sandbox,
         order.distro,
@@ -86,9 +93,9 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
-        results = _decide(evidence, assignment, listener)
+        results = _decide(evidence, assignment, listener, speak)
         limits = sandbox.limit_report()
-    report = _report(order, evidence, results, sandbox.ros)
+    report = _report(order, evidence, results, sandbox.ros, speak)
     environment = report.environment.model_copy(update={"sandbox": sandbox.name, "limits": limits})
     timing = model.Timing(
         setup=round(setup, 3),
@@ -115,7 +122,7 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
 
 
 def _decide(
-    evidence: Evidence, assignment: Assignment, listener: events.Listener
+    evidence: Evidence, assignment: Assignment, listener: events.Listener, speak: Speaker
 ) -> list[model.CheckResult]:
     uses = {use.id: use for use in assignment.checks}
     stage = ""
@@ -129,18 +136,25 @@ def _decide(
             if stage:
                 listener(events.StageFinished(stage, time.monotonic() - begin))
             stage, begin = now, time.monotonic()
-            listener(events.StageStarted(stage, title))
-        listener(events.CheckStarted(check.id, check.title, use.visibility))
-        result = _ask(check, use, evidence, uses)
+            listener(events.StageStarted(stage, speak(title)))
+        listener(events.CheckStarted(check.id, speak(check.title), use.visibility))
+        result = _said(_ask(check, use, evidence, uses), speak)
         evidence.results[check_id] = result
         listener(events.CheckFinished(result))
     listener(events.StageFinished(stage, time.monotonic() - begin))
     return [evidence.results[use.id] for use in assignment.checks]
 
 
+def _said(found: dict[str, object], speak: Speaker) -> model.CheckResult:
+    """Return a result with all its texts in the reader's language."""
+    texts = {name: speak(text) for name, text in found.items() if isinstance(text, str)}
+    advice = [speak(text) for text in cast("list[str]", found.get("advice", []))]
+    return model.CheckResult.model_validate({**found, **texts, "advice": advice})
+
+
 def _ask(
     check: Check, use: CheckUse, evidence: Evidence, uses: dict[str, CheckUse]
-) -> model.CheckResult:
+) -> dict[str, object]:
     """Ask one check; the build and the run happen in the first check that needs them."""
     common = {
         "id": check.id,
@@ -158,20 +172,22 @@ def _ask(
         passed = check.function(evidence) or Passed()
         found = {"status": "passed", "score": use.points, "actual": passed.actual}
         found["advice"] = list(passed.advice)
-    except Failed as failed:
+    except Failed as seen:
+        failed, cause = diagnose(seen, evidence)
         found = {"status": "failed", "mistakes": failed.mistakes, "where": failed.where}
+        found["consequence_of"] = cause
         for name in ("expected", "actual", "rationale", "fix", "advice"):
             found[name] = getattr(failed, name)
     except Blocked as blocked:
         return _skipped(common, blocked.by, evidence)
     except Inconclusive as unknown:
-        found = {"status": "inconclusive", "actual": str(unknown)}
+        found = {"status": "inconclusive", "actual": unknown.reason}
     except SurroundingsError:
         raise
     except Exception:  # a fault of ours in one check must not lose the verdict on the others
         found = {"status": "error", "actual": traceback.format_exc(limit=-4)}
     seconds = round(time.monotonic() - begin, 3)
-    return model.CheckResult.model_validate({**common, **found, "seconds": seconds})
+    return {**common, **found, "seconds": seconds}
 
 
 def _blocker(check: Check, evidence: Evidence) -> str:
@@ -182,23 +198,28 @@ def _blocker(check: Check, evidence: Evidence) -> str:
     return ""
 
 
-def _skipped(common: dict[str, object], by: str, evidence: Evidence) -> model.CheckResult:
+def _skipped(common: dict[str, object], by: str, evidence: Evidence) -> dict[str, object]:
     cause = evidence.results.get(by)
     root = (cause.blocked_by if cause is not None else "") or by
     title = CHECKS[root].title if root in CHECKS else root
     if evidence.is_hidden(root) and common["visibility"] == "visible":
-        title = "a hidden check"
-    found = {"status": "skipped", "blocked_by": root, "actual": f"not asked, because of: {title}"}
-    return model.CheckResult.model_validate({**common, **found})
+        title = say("a hidden check")
+    actual = say("not asked, because of: {title}", title=title)
+    return {**common, "status": "skipped", "blocked_by": root, "actual": actual}
 
 
 def _report(
-    order: Order, evidence: Evidence, results: Sequence[model.CheckResult], ros: Ros
+    order: Order,
+    evidence: Evidence,
+    results: Sequence[model.CheckResult],
+    ros: Ros,
+    speak: Speaker,
 ) -> model.Report:
     assignment, submission = order.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None
-    unknown = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
+    open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
+    unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
     return model.Report(
         assignment=model.AssignmentInfo(
             id=assignment.id, title=assignment.title, sha256=assignment.sha256
@@ -210,7 +231,7 @@ def _report(
             package=_package_name(submission),
             origin=submission.origin,
             modes=submission.modes,
-            notes=list(submission.notes),
+            notes=[speak(note) for note in submission.notes],
         ),
         environment=model.Environment.model_validate(
             {
@@ -222,7 +243,8 @@ def _report(
             }
         ),
         status="graded",
-        message=f"{unknown:g} points could be neither given nor taken" if unknown else "",
+        message=speak(unknown) if open_ else "",
+        lang=speak.lang,
         score=sum(r.score for r in results),
         max_score=assignment.max_score,
         checks=list(results),

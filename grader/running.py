@@ -12,6 +12,7 @@ from grader.assignment import Assignment
 from grader.clock import ForeignClock
 from grader.clock import VirtualClock
 from grader.clock import watch_wall
+from grader.locale.message import say
 from grader.observer import Event
 from grader.observer import Observer
 from grader.observer import Watch
@@ -144,10 +145,10 @@ def _watch(
             clock.drive(run.watch, tell)
         except ForeignClock as foreign:
             run.watch.events += foreign.events
-            run.watch.note = "the node publishes /clock itself"
+            run.watch.note = say("the node publishes /clock itself")
             watch_wall(observer, output, run.watch, tell, deadline=deadline)
     else:
-        run.watch.note = "the node does not follow /clock"
+        run.watch.note = say("the node does not follow /clock")
         watch_wall(observer, output, run.watch, tell, deadline=deadline)
     nodes = observer.probe.ask("look").nodes
     run.nodes = nodes or run.nodes

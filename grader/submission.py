@@ -72,7 +72,7 @@ def take_in(
         try:
             files = read_package(tree, choice.chosen.path)
         except TooLargeError as error:
-            choice = Choice(None, problem=too_large(str(error), choice.chosen.path))
+            choice = Choice(None, problem=too_large(error.reason, choice.chosen.path))
     root = choice.chosen.path if choice.chosen else None
     files, modes = with_modes(tree, root, files)
     problem = choice.problem

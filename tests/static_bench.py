@@ -130,7 +130,7 @@ def told(failed: Failed) -> Failed:
     """Return a failure after a look at what every one must have."""
     for text in (failed.expected, failed.actual, failed.rationale, failed.fix):
         assert text.strip()
-        assert text.isprintable()
+        assert all(line.isprintable() for line in text.split("\n"))
     (mistake,) = failed.mistakes
     stage, _, slug = mistake.id.partition(".")
     assert stage in ("package", "source", "setup")

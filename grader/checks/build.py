@@ -9,6 +9,7 @@ from grader.checks.registry import Blocked
 from grader.checks.registry import Failed
 from grader.checks.registry import Passed
 from grader.checks.registry import check
+from grader.locale.message import say
 from grader.report.model import Where
 
 if TYPE_CHECKING:
@@ -16,10 +17,6 @@ if TYPE_CHECKING:
 
 NEVER_CALLED = "was never called"
 ANSWER = 'File "<unknown>", line '  # colcon evaluates the answer: it has no file name
-WHY = (
-    "colcon runs your setup.py to install the package into the workspace's install folder; "
-    "ros2 run only ever looks there."
-)
 
 
 @check("build.colcon", depends=["package.found"])
@@ -30,7 +27,13 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if build.stopped_by:
         raise _stopped(evidence)
     if build.status == 0 and build.is_installed(package):
-        return Passed(actual=f"{build.command}: 1 package finished in {build.seconds:.1f} s")
+        return Passed(
+            actual=say(
+                "{command}: 1 package finished in {seconds} s",
+                command=build.command,
+                seconds=f"{build.seconds:.1f}",
+            )
+        )
     for cause in ("package.manifest", "package.marker"):
         if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, build.log)):
             raise Blocked(by=cause)
@@ -52,20 +55,21 @@ def _stopped(evidence: Evidence) -> Failed:
     build = evidence.build
     if build.stopped_by == "wall time":
         return Failed(
-            expected="colcon build ends within a few seconds",
-            actual=f"it was still running after {build.seconds:.0f} s and was stopped",
+            "build.timeout",
+            expected=say("colcon build ends within a few seconds"),
+            actual=say(
+                "it was still running after {seconds} s and was stopped",
+                seconds=f"{build.seconds:.0f}",
+            ),
             where=Where(file="setup.py"),
-            rationale=WHY + " A setup.py that loops or waits never lets it finish.",
-            fix="Take the loop, the sleep or the input() out of setup.py.",
-            mistake="build.timeout",
         )
     return Failed(
-        expected="colcon build within the limits of the sandbox",
-        actual=f"the build was stopped: it met the limit on {build.stopped_by}",
+        "build.resource",
+        expected=say("colcon build within the limits of the sandbox"),
+        actual=say(
+            "the build was stopped: it met the limit on {limit}", limit=limit_name(build.stopped_by)
+        ),
         where=Where(file="setup.py"),
-        rationale=WHY,
-        fix="Let setup.py only describe the package: no large output, no other programs.",
-        mistake="build.resource",
         params={"limit": build.stopped_by},
     )
 
@@ -74,57 +78,56 @@ def _broken(evidence: Evidence) -> Failed:
     build = evidence.build
     error, line = python_error(build.log, "setup.py")
     where = Where(file="setup.py", line=line)
-    expected = "colcon build ends with: Summary: 1 package finished"
+    expected = say("colcon build ends with: Summary: 1 package finished")
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
         return Failed(
+            "build.setup_prints",
             expected=expected,
-            actual="setup.py prints something: colcon could not read its answer",
+            actual=say("setup.py prints something: colcon could not read its answer"),
             where=Where(file="setup.py", line=_first_print(evidence)),
-            rationale=WHY + " colcon asks setup.py for its data and reads what it prints as the "
-            "answer, so a print() of yours ends up in the middle of it.",
-            fix="Take the print() out of setup.py, then build again.",
-            mistake="build.setup_prints",
         )
     if error.startswith(("SyntaxError", "IndentationError", "TabError")):
         return Failed(
+            "build.setup_error",
             expected=expected,
-            actual=f"Python cannot read setup.py: {error}",
+            actual=say("Python cannot read setup.py: {error}", error=error),
             where=where,
-            rationale=WHY + " A file that Python cannot read cannot be run.",
-            fix="Mend that line of setup.py (often the line above lacks a comma, a quote or a "
-            "bracket), then build again.",
-            mistake="build.setup_error",
+            variant="unreadable",
             params={"error": error},
         )
     if NEVER_CALLED in build.log:
         return Failed(
+            "build.exited",
             expected=expected,
-            actual="setup.py ended before it had called setup()",
+            actual=say("setup.py ended before it had called setup()"),
             where=where,
-            rationale=WHY + " It has to reach its call of setup(); a sys.exit() before or in it "
-            "ends it silently.",
-            fix="Take the exit out of setup.py and compare it with the one that "
-            "ros2 pkg create makes.",
-            mistake="build.exited",
         )
     if error:
         return Failed(
+            "build.setup_error",
             expected=expected,
-            actual=f"setup.py stopped with {error}",
+            actual=say("setup.py stopped with {error}", error=error),
             where=where,
-            rationale=WHY,
-            fix="Mend what the error names, then build again.",
-            mistake="build.setup_error",
             params={"error": error},
         )
+    ended = say("colcon ended with status {status}", status=str(build.status))
     return Failed(
+        "build.failed",
         expected=expected,
-        actual=_summary(build.log) or f"colcon ended with status {build.status}",
-        rationale=WHY,
-        fix="Read the build log below from its first error on; build again after each change.",
-        mistake="build.failed",
+        actual=_summary(build.log) or ended,
         params={"status": -1 if build.status is None else build.status},
     )
+
+
+def limit_name(limit: str) -> str:
+    """Return what a limit is called in a sentence."""
+    names = {
+        "wall time": say("wall time"),
+        "memory": say("memory"),
+        "processes": say("processes"),
+        "output": say("output"),
+    }
+    return names.get(limit, limit)
 
 
 def python_error(text: str, file: str) -> tuple[str, int | None]:

@@ -11,13 +11,16 @@ from typing import TYPE_CHECKING
 
 from grader.checks import entry_faults
 from grader.checks.parsed import file_of
-from grader.checks.parsed import meant
-from grader.checks.parsed import nearest
 from grader.checks.parsed import node_path
+from grader.checks.parsed import reader_said
 from grader.checks.parsed import setup_py_of
 from grader.checks.registry import Failed
 from grader.checks.registry import Passed
 from grader.intake.notes import shown
+from grader.locale.message import say
+from grader.mistakes.likeness import meant
+from grader.mistakes.likeness import nearest
+from grader.mistakes.likeness import with_difference
 from grader.report.model import Where
 from grader.source.entry_points import EntryPoints
 from grader.source.entry_points import from_setup_cfg
@@ -64,8 +67,9 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     entry = named[0]
     if "".join(entry.target.split()) != assignment.target:
         raise entry_faults.other_target(evidence, entry)
-    text = shown(f"{entry.file}, line {entry.line}: {entry.name} = {entry.target}")
-    return Passed(actual=text, advice=_advice(evidence))
+    text = shown(f"{entry.name} = {entry.target}")
+    said = say("{file}, line {line}: {entry}", file=entry.file, line=entry.line, entry=text)
+    return Passed(actual=said, advice=_advice(evidence))
 
 
 def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
@@ -92,14 +96,12 @@ def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
 
 
 def _no_setup_py(reason: str) -> Failed:
+    cannot = say("setup.py cannot be read: {reason}", reason=reader_said(reason))
     return Failed(
-        expected="a setup.py with the entry point",
-        actual=f"setup.py cannot be read: {reason}" if reason else "there is no setup.py",
+        "setup.missing",
+        expected=say("a setup.py with the entry point"),
+        actual=cannot if reason else say("there is no setup.py"),
         where=Where(file="setup.py"),
-        rationale=entry_faults.WHY,
-        fix="Make the package with ros2 pkg create --build-type ament_python: it writes setup.py. "
-        "Then add your entry to console_scripts.",
-        mistake="setup.missing",
     )
 
 
@@ -116,10 +118,13 @@ def _advice(evidence: Evidence) -> list[str]:
         return []
     if function in names or "*" in names or "__getattr__" in names:
         return []
-    return [
-        f"But {path} defines no function {function}{meant(nearest(function, names))}: ros2 run "
-        f"will stop with AttributeError. Define it: def {function}(args=None):"
-    ]
+    close = nearest(function, names)
+    none = say("But {path} defines no function {function}", path=path, function=function)
+    rest = say(
+        ": ros2 run will stop with AttributeError. Define it: def {function}(args=None):",
+        function=function,
+    )
+    return [with_difference(none + meant(close) + rest, close, function)]
 
 
 def _top_names(tree: ast.Module) -> set[str]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from grader.checks.build import limit_name
 from grader.checks.build import python_error
 from grader.checks.registry import Failed
+from grader.locale.message import say
 from grader.report.model import Where
 
 if TYPE_CHECKING:
@@ -15,7 +17,6 @@ if TYPE_CHECKING:
     from grader.running import Run
 
 FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
-SPIN = "rclpy.spin(node) is what keeps a node alive: it waits, and calls your callbacks when due."
 
 
 def node_file(evidence: Evidence) -> Where:
@@ -43,25 +44,22 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
 
 def flood(evidence: Evidence, expected: str) -> Failed:
     """Return the verdict on a node that printed more than the limit."""
+    size = f"{len(evidence.run.transcript.encode()) / 1e6:.1f}"
     return Failed(
+        "run.too_much_output",
         expected=expected,
-        actual="so much output that the run was stopped after "
-        f"{len(evidence.run.transcript.encode()) / 1e6:.1f} MB",
+        actual=say("so much output that the run was stopped after {size} MB", size=size),
         where=node_file(evidence),
-        rationale="A loop that prints without waiting fills terminals, logs and disks.",
-        fix="Log in the timer's callback only, once each time.",
-        mistake="run.too_much_output",
     )
 
 
 def resource(evidence: Evidence, expected: str) -> Failed:
     """Return the verdict on a node that met a limit on memory or processes."""
+    limit = evidence.run.resource
     return Failed(
+        "run.resource",
         expected=expected,
-        actual=f"it met the limit on {evidence.run.resource} and was stopped",
+        actual=say("it met the limit on {limit} and was stopped", limit=limit_name(limit)),
         where=node_file(evidence),
-        rationale="A node that counts needs about 60 MB of memory and one process.",
-        fix="Look for a list that only grows, or for programs and threads started in a loop.",
-        mistake="run.resource",
-        params={"limit": evidence.run.resource},
+        params={"limit": limit},
     )

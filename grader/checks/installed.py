@@ -8,20 +8,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from grader.checks.build import python_error
+from grader.checks.entry_faults import wanted_entry
 from grader.checks.entry_point import mapping_from_source
 from grader.checks.registry import Blocked
 from grader.checks.registry import Failed
 from grader.checks.registry import Passed
 from grader.checks.registry import check
+from grader.locale.message import say
 from grader.report.model import Where
 
 if TYPE_CHECKING:
     from grader.evidence import Evidence
-
-WHY = (
-    "ros2 run looks only in install/<package>/lib/<package>/ for a file of exactly that name that "
-    "may be executed; colcon puts it there from setup.py's entry_points, by setup.cfg's paths."
-)
 
 
 @check("entry_point.mapping", depends=["package.found"])
@@ -37,21 +34,21 @@ def mapping(evidence: Evidence) -> Passed:
         name, equals, target = (part.strip() for part in line.partition("="))
         if equals and name == assignment.executable:
             if target.replace(" ", "") == assignment.target:
-                return Passed(actual=f"{name} = {target} (as setup.py computes it)")
+                entry = f"{name} = {target}"
+                return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
             raise _computed(evidence, f"{name} = {target}")
-    raise _computed(evidence, f"no entry of the name {assignment.executable}")
+    none = say("no entry of the name {executable}", executable=assignment.executable)
+    raise _computed(evidence, none)
 
 
 def _computed(evidence: Evidence, actual: str) -> Failed:
-    assignment = evidence.assignment
+    entry = wanted_entry(evidence)
     return Failed(
-        expected=f"'{assignment.executable} = {assignment.target}' among the console_scripts",
+        "entry_point.computed_mapping",
+        expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
         where=Where(file="setup.py"),
-        rationale="The entry tells ros2 run which function of which module to start.",
-        fix="Write the entry into setup.py's entry_points, under console_scripts: "
-        f"'{assignment.executable} = {assignment.target}',",
-        mistake="entry_point.computed_mapping",
+        words={"wanted": entry},
     )
 
 
@@ -67,12 +64,11 @@ def executable(evidence: Evidence) -> Passed:
         return Passed(actual=there[0])
     if found is not None and found.kind == "f":
         raise Failed(
-            expected=f"{place} with the exec bit",
-            actual=f"its mode is {found.mode:04o}: ros2 run says No executable found",
-            rationale=WHY,
-            fix="Build again after removing what takes the bit away in setup.py; "
-            "colcon itself writes the file with mode 0755.",
-            mistake="entry_point.no_exec_bit",
+            "entry_point.no_exec_bit",
+            expected=say("{place} with the exec bit", place=place),
+            actual=say(
+                "its mode is {mode}: ros2 run says No executable found", mode=f"{found.mode:04o}"
+            ),
         )
     for cause in ("entry_point.mapping", "package.setup_cfg"):
         if evidence.has_failed(cause):
@@ -80,24 +76,27 @@ def executable(evidence: Evidence) -> Passed:
     elsewhere = sorted(p for p in files if p.startswith("install/") and p.endswith(f"/{name}"))
     if elsewhere:
         raise Failed(
+            "entry_point.elsewhere",
             expected=place,
-            actual=f"it was installed as {elsewhere[0]}: ros2 run says No executable found",
+            actual=say(
+                "it was installed as {path}: ros2 run says No executable found", path=elsewhere[0]
+            ),
             where=Where(file="setup.cfg"),
-            rationale=WHY,
-            fix="Give setup.cfg both of its sections back: [develop] with "
-            f"script_dir=$base/lib/{package} and [install] with "
-            f"install_scripts=$base/lib/{package}, then build again.",
-            mistake="entry_point.elsewhere",
             params={"path": elsewhere[0]},
+            words={"package": package},
         )
     error, _ = python_error(evidence.build.log, "setup.py")
+    nothing = say(
+        "nothing of the name {name} was installed: ros2 run says No executable found", name=name
+    )
+    with_error = say(
+        "nothing of the name {name} was installed ({error}): ros2 run says No executable found",
+        name=name,
+        error=error,
+    )
     raise Failed(
+        "entry_point.not_installed",
         expected=place,
-        actual=f"nothing of the name {name} was installed"
-        + (f" ({error})" if error else "")
-        + ": ros2 run says No executable found",
+        actual=with_error if error else nothing,
         where=Where(file="setup.py"),
-        rationale=WHY,
-        fix="Check that entry_points is an argument of setup(), then build again.",
-        mistake="entry_point.not_installed",
     )

@@ -6,13 +6,18 @@ import sys
 from typing import TYPE_CHECKING
 
 from grader.checks.parsed import file_of
-from grader.checks.parsed import meant
 from grader.checks.parsed import names_in
-from grader.checks.parsed import nearest
+from grader.checks.parsed import reader_said
 from grader.checks.parsed import setup_py_of
 from grader.checks.registry import Failed
 from grader.checks.registry import Passed
 from grader.intake.notes import shown
+from grader.locale.message import Message
+from grader.locale.message import Value
+from grader.locale.message import say
+from grader.mistakes.likeness import meant
+from grader.mistakes.likeness import nearest
+from grader.mistakes.likeness import with_difference
 from grader.report.model import Where
 from grader.source.manifest import REQUIRED
 from grader.source.manifest import Element
@@ -25,11 +30,19 @@ if TYPE_CHECKING:
 
 FILE = "package.xml"
 BUILD_TYPE = "<export><build_type>ament_python</build_type></export>"
-WHY = "colcon reads package.xml to learn the package's name and how to build it."
-DEGRADES = (
-    WHY + " From one that it cannot use it falls back to plain Python: the build says that it "
-    "finished, and ros2 run says Package not found."
-)
+XML_FAULTS = {  # what expat says most often, so that it can be said in another language
+    str(fault): fault
+    for fault in (
+        say("mismatched tag"),
+        say("not well-formed (invalid token)"),
+        say("no element found"),
+        say("unclosed token"),
+        say("undefined entity"),
+        say("junk after document element"),
+        say("duplicate attribute"),
+        say("XML or text declaration not at start of entity"),
+    )
+}
 COMMON = (
     *("rclpy", "rclcpp", "std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "nav_msgs"),
     *("visualization_msgs", "trajectory_msgs", "action_msgs", "builtin_interfaces"),
@@ -55,20 +68,21 @@ def check_manifest(evidence: Evidence) -> Passed:
 def _failed(
     mistake: str,
     actual: str,
-    fix: str,
     line: int | None,
-    expected: str = "a valid package.xml",
-    rationale: str = DEGRADES,
-    **params: str,
+    *,
+    expected: str = "",
+    variant: str = "",
+    params: dict[str, str | int | float] | None = None,
+    words: dict[str, Value] | None = None,
 ) -> Failed:
     return Failed(
-        expected=expected,
+        mistake,
+        expected=expected or say("a valid package.xml"),
         actual=actual,
         where=Where(file=FILE, line=line),
-        rationale=rationale,
-        fix=fix,
-        mistake=mistake,
-        params=dict(params),
+        variant=variant,
+        params=params,
+        words=words,
     )
 
 
@@ -78,17 +92,16 @@ def _read(evidence: Evidence) -> Manifest:
         close = nearest(FILE, names_in(evidence, ""), cutoff=0.75)
         raise _failed(
             "package.no_manifest",
-            f"there is no package.xml{meant(close)}",
-            f"Rename {shown(close)} to package.xml."
-            if close
-            else "Copy package.xml from a package that ros2 pkg create makes, and set its <name>.",
+            with_difference(say("there is no package.xml") + meant(close), close, FILE),
             None,
+            variant="renamed" if close else "",
+            words={"close": shown(close)},
         )
     if file.unreadable:
+        reason = reader_said(file.reason)
         raise _failed(
             "package.manifest_unreadable",
-            f"package.xml has no content here: {file.reason}",
-            "Hand in a package.xml that can be read.",
+            say("package.xml has no content here: {reason}", reason=reason),
             None,
         )
     try:
@@ -98,24 +111,21 @@ def _read(evidence: Evidence) -> Manifest:
 
 
 def _unusable(error: ManifestError, *, empty: bool) -> Failed:
-    text = shown(error.text)
+    text = XML_FAULTS.get(error.text) or reader_said(error.text)
     if error.kind == "doctype":
-        return _failed(
-            "package.manifest_doctype",
-            f"{text}: it is not read any further",
-            "Delete the <!DOCTYPE …> line: no package.xml needs one.",
-            error.line,
-        )
+        actual: str = say("{text}: it is not read any further", text=text)
+        return _failed("package.manifest_doctype", actual, error.line)
     if error.kind != "xml":
-        return _failed("package.manifest_rules", text, "Mend what is named.", error.line)
+        return _failed("package.manifest_rules", text, error.line)
+    actual = say("package.xml is empty")
+    if not empty:
+        actual = say("it is not well-formed XML: {text}", text=text)
     return _failed(
         "package.broken_xml",
-        "package.xml is empty" if empty else f"it is not well-formed XML: {text}",
-        "Write it anew: save it in the editor, or copy one that ros2 pkg create makes."
-        if empty
-        else "Look at that line and the one above: each <tag> needs its </tag>, and & is &amp;.",
+        actual,
         error.line,
-        error=text,
+        variant="empty" if empty else "",
+        params={"error": str(text)},
     )
 
 
@@ -123,24 +133,20 @@ def _check_rules(manifest: Manifest) -> None:
     for tag in REQUIRED:
         element = manifest.first(tag)
         if element is None or (not element.text and tag != "description"):
-            what = "is empty" if element else "is missing"
             raise _failed(
                 "package.manifest_tag",
-                f"<{tag}> {what}",
-                f"Add <{tag}>…</{tag}> inside <package>."
-                if element is None
-                else f"Write something between <{tag}> and </{tag}>.",
+                say("<{tag}> is empty", tag=tag) if element else say("<{tag}> is missing", tag=tag),
                 element.line if element else None,
-                expected=f"<{tag}> with something in it",
-                tag=tag,
+                expected=say("<{tag}> with something in it", tag=tag),
+                variant="empty" if element else "",
+                params={"tag": tag},
             )
     if manifest.fault:
         raise _failed(
             "package.manifest_rules",
             shown_long(manifest.fault),
-            "Change what is named, so that colcon accepts the file.",
             _line_of_fault(manifest),
-            error=shown_long(manifest.fault),
+            params={"error": shown_long(manifest.fault)},
         )
 
 
@@ -168,14 +174,11 @@ def _check_name(evidence: Evidence, manifest: Manifest) -> None:
     name = shown(manifest.name)
     raise _failed(
         "package.name_mismatch",
-        f"<name>{name}</name>",
-        f"Write <name>{package}</name>.",
+        with_difference(Message("<name>{name}</name>", {"name": name}), name, package),
         element.line if element else None,
         expected=f"<name>{package}</name>",
-        rationale="colcon and ros2 run know the package by the name in package.xml. The names in "
-        "package.xml, setup.py, setup.cfg and resource/ must be equal.",
-        name=name,
-        file=FILE,
+        params={"name": name, "file": FILE},
+        words={"package": package},
     )
 
 
@@ -185,68 +188,72 @@ def _check_setup_name(evidence: Evidence) -> None:
     name = setup.name if setup is not None else None
     if name is None or name.value == package:
         return
+    found = shown(name.value)
     raise Failed(
-        expected=f"setup.py: name='{package}', as in package.xml",
-        actual=f"setup.py: name='{shown(name.value)}'",
+        "package.name_mismatch",
+        expected=say("setup.py: name='{package}', as in package.xml", package=package),
+        actual=with_difference(f"setup.py: name='{found}'", found, package),
         where=Where(file="setup.py", line=name.line),
-        rationale="Python installs the package under setup.py's name and ROS looks for that of "
-        "package.xml: the two must be equal.",
-        fix=f"Give name (or package_name) in setup.py the value '{package}'.",
-        mistake="package.name_mismatch",
-        params={"name": shown(name.value), "file": "setup.py"},
+        variant="setup",
+        params={"name": found, "file": "setup.py"},
+        words={"package": package},
     )
 
 
 def _check_build_type_place(manifest: Manifest) -> None:
     for element in manifest.all("build_type"):
-        raise _build_type(element, "<build_type> stands outside of <export>")
+        raise _build_type(element, say("<build_type> stands outside of <export>"))
 
 
 def _check_build_type(manifest: Manifest) -> None:
     elements = manifest.all("build_type", within="export")
     if not elements:
-        raise _build_type(manifest.first("export"), "there is no <build_type>")
+        raise _build_type(manifest.first("export"), say("there is no <build_type>"))
     if len(elements) > 1:
-        raise _build_type(elements[1], f"there are {len(elements)} <build_type> tags")
+        many = say("there are {count} <build_type> tags", count=len(elements))
+        raise _build_type(elements[1], many)
     if elements[0].text != "ament_python":
-        raise _build_type(elements[0], f"<build_type>{shown(elements[0].text)}</build_type>")
+        said = f"<build_type>{shown(elements[0].text)}</build_type>"
+        raise _build_type(elements[0], with_difference(said, elements[0].text, "ament_python"))
 
 
 def _build_type(element: Element | None, actual: str) -> Failed:
-    cmake = "cmake" in actual
     return _failed(
         "package.build_type",
         actual,
-        "Delete the package and make it again with: ros2 pkg create --build-type ament_python, "
-        "or (if only this line is wrong) write ament_python."
-        if cmake
-        else f"Write in package.xml: {BUILD_TYPE}",
         element.line if element else None,
         expected=BUILD_TYPE,
-        rationale="The build type tells colcon how to build: without ament_python it takes the "
-        "package for a C++ one and looks for a CMakeLists.txt.",
-        build_type=element.text[:80] if element and element.text.isprintable() else "",
+        variant="cmake" if "cmake" in actual else "",
+        params={"build_type": element.text[:80] if element and element.text.isprintable() else ""},
     )
 
 
 def _advice(manifest: Manifest) -> list[str]:
     """Return what could be better and costs nothing."""
     names = {element.text: element.line for element in manifest.depends}
-    advice = []
+    advice: list[str] = []
     if "rclpy" not in names:
         advice.append(
-            "package.xml does not say that the package needs rclpy: add <depend>rclpy</depend>. It "
-            "runs here because rclpy is installed anyway."
+            say(
+                "package.xml does not say that the package needs rclpy: add "
+                "<depend>rclpy</depend>. It runs here because rclpy is installed anyway."
+            )
         )
     for name, line in sorted(names.items()):
         close = "" if name in COMMON else nearest(name, COMMON, cutoff=0.8)
         if close:
-            advice.append(
-                f"package.xml, line {line}: the dependency '{shown(name)}' is not known"
-                f"{meant(close)}"
+            unknown = say(
+                "package.xml, line {line}: the dependency '{name}' is not known",
+                line=line,
+                name=shown(name),
             )
+            advice.append(with_difference(unknown + meant(close), name, close))
         elif name in sys.stdlib_module_names:
             advice.append(
-                f"package.xml, line {line}: '{name}' is part of Python and needs no dependency."
+                say(
+                    "package.xml, line {line}: '{name}' is part of Python and needs no dependency.",
+                    line=line,
+                    name=name,
+                )
             )
     return advice[:5]

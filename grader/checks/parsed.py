@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from grader.intake.notes import shown
+from grader.locale.message import Message
 from grader.source.python import PythonFault
 from grader.source.setup_py import SetupPy
 from grader.source.setup_py import read_setup_py
@@ -49,13 +48,9 @@ def names_in(evidence: Evidence, folder: str) -> list[str]:
     return [name for name in rest if "/" not in name]
 
 
-def nearest(word: str, words: Iterable[str], cutoff: float = 0.6) -> str:
-    """Return the word that comes nearest, capitals aside; empty if none does."""
-    folded = {other.lower(): other for other in words if other != word}
-    close = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=cutoff)
-    return folded[close[0]] if close else ""
-
-
-def meant(word: str) -> str:
-    """Return ` (did you mean 'word'?)`, or nothing for an empty word."""
-    return f" (did you mean '{shown(word)}'?)" if word else ""
+def reader_said(text: str) -> str:
+    """Return why a file could not be read: words of ours as they are, others fit to be shown."""
+    if not isinstance(text, Message):
+        return shown(text)
+    values = {name: shown(v) if isinstance(v, str) else v for name, v in text.params.items()}
+    return Message(text.template, values)

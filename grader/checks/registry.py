@@ -7,11 +7,15 @@ or raises `Failed`, `Blocked` or `Inconclusive`; it prints nothing.
 from __future__ import annotations
 
 from collections.abc import Callable
+from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
 from typing import TYPE_CHECKING
 
+from grader.locale.message import Message
+from grader.locale.message import Value
+from grader.mistakes.catalogue import CATALOGUE
 from grader.report.model import Mistake
 from grader.report.model import Where
 
@@ -32,26 +36,34 @@ class Outcome(Exception):  # noqa: N818 - what a check says is not an error
 
 
 class Failed(Outcome):
-    """The check does not hold: what was expected, what was found, where, why, and the fix."""
+    """The check does not hold: which mistake it is, what was expected, what was found, and where.
+
+    Why it matters and what to do say the catalogue's entry (its `variant`, filled with `params`,
+    which the report has, and `words`, which it has not); `fix` stands for the entry's where only
+    who looked knows what to do.
+    """
 
     def __init__(
         self,
+        mistake: str,
         *,
         expected: str,
         actual: str,
-        rationale: str,
-        fix: str,
-        mistake: str,
-        params: dict[str, str | int | float] | None = None,
+        params: Mapping[str, str | int | float] | None = None,
+        words: Mapping[str, Value] | None = None,
+        variant: str = "",
+        fix: str = "",
         where: Where | None = None,
         advice: Sequence[str] = (),
     ) -> None:
         super().__init__(actual)
+        kind = CATALOGUE[mistake]
+        values = {**(params or {}), **(words or {})}
         self.expected = expected
         self.actual = actual
-        self.rationale = rationale
-        self.fix = fix
-        self.mistakes = [Mistake(id=mistake, params=params or {})]
+        self.rationale: str = kind.rationale(values, variant)
+        self.fix: str = fix or kind.mend(values, variant)
+        self.mistakes = [Mistake(id=mistake, params=dict(params or {}))]
         self.where = where
         self.advice = list(advice)
 
@@ -66,6 +78,10 @@ class Blocked(Outcome):
 
 class Inconclusive(Outcome):
     """Our side, or the load of the machine, kept us from knowing."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 CheckFunction = Callable[["Evidence"], "Passed | None"]
@@ -86,6 +102,6 @@ def check(check_id: str, *, depends: Sequence[str] = ()) -> Callable[[CheckFunct
 
     def declare(function: CheckFunction) -> Check:
         title = (function.__doc__ or check_id).strip().splitlines()[0].rstrip(".")
-        return Check(check_id, title, tuple(depends), function)
+        return Check(check_id, Message(title), tuple(depends), function)
 
     return declare

@@ -33,13 +33,14 @@ from grader.intake.place import not_a_folder
 from grader.intake.place import not_there
 from grader.intake.reading import Unread
 from grader.intake.reading import larger_than
+from grader.locale.message import say
 
-TWICE = "twice in the archive: the last one was taken"
-BELOW_FILE = "left out, as it lies below a name that is no folder"
-CASE_ONLY = "names that differ only in their case: not every system can keep them apart"
-LONG_NAME = "left out, as its name is too long"
-HARD_LINK = "left out, as a hard link to what is not in the archive before it"
-SEVERAL_LOST = "left out, as the archive has other files below that name"
+TWICE = say("twice in the archive: the last one was taken")
+BELOW_FILE = say("left out, as it lies below a name that is no folder")
+CASE_ONLY = say("names that differ only in their case: not every system can keep them apart")
+LONG_NAME = say("left out, as its name is too long")
+HARD_LINK = say("left out, as a hard link to what is not in the archive before it")
+SEVERAL_LOST = say("left out, as the archive has other files below that name")
 GIT_MODES = (".git/config", ".git/index")  # what tells the exec bits of a checkout
 
 
@@ -74,10 +75,10 @@ class Archive:
     def read(self, path: str, limit: int) -> bytes | Unread:
         entry = self._entries.get(path)
         if entry is None or entry.kind != "file":
-            return Unread("it is not a plain file")
+            return Unread(say("it is not a plain file"))
         if entry.size > limit:
             return larger_than(limit)
-        return self._data.get(path, Unread("it was not kept"))
+        return self._data.get(path, Unread(say("it was not kept")))
 
     def open(self, path: str) -> IO[bytes] | Unread:
         found = self.read(path, len(self._data.get(path, b"")))

@@ -7,6 +7,8 @@ import tarfile
 from dataclasses import dataclass
 from typing import Literal
 
+from grader.locale.message import say
+
 HEAD = 512
 """How many bytes tell the kind: a tar's first header."""
 
@@ -17,14 +19,14 @@ NAMED = re.compile(
     re.IGNORECASE,
 )
 UNSUPPORTED = (
-    (b"Rar!\x1a\x07", "a RAR archive"),
-    (b"7z\xbc\xaf\x27\x1c", "a 7z archive"),
-    (b"\x28\xb5\x2f\xfd", "packed with Zstandard"),
-    (b"MSCF", "a Windows cabinet"),
-    (b"\x1f\x9d", "packed with compress"),
-    (b"LZIP", "packed with lzip"),
-    (b"\x04\x22\x4d\x18", "packed with LZ4"),
-    (b"xar!", "a xar archive"),
+    (b"Rar!\x1a\x07", say("a RAR archive")),
+    (b"7z\xbc\xaf\x27\x1c", say("a 7z archive")),
+    (b"\x28\xb5\x2f\xfd", say("packed with Zstandard")),
+    (b"MSCF", say("a Windows cabinet")),
+    (b"\x1f\x9d", say("packed with compress")),
+    (b"LZIP", say("packed with lzip")),
+    (b"\x04\x22\x4d\x18", say("packed with LZ4")),
+    (b"xar!", say("a xar archive")),
 )
 PACKED: tuple[tuple[bytes, Packing], ...] = (
     (b"\x1f\x8b\x08", "gzip"),

@@ -9,6 +9,7 @@ from grader.intake.archive_problems import ArchiveError
 from grader.intake.archive_problems import bomb
 from grader.intake.archive_problems import too_large
 from grader.intake.reading import MEGABYTE
+from grader.locale.message import say
 
 
 @dataclass(frozen=True)
@@ -52,17 +53,23 @@ class Spent:
         if handed_in:
             self._packed += size
         if size > self.limits.packed:
-            raise ArchiveError(too_large(what, f"it has {_in_mb(size)}"))
+            raise ArchiveError(too_large(what, say("it has {size}", size=_in_mb(size))))
         self._archives += 1
         if self._archives > self.limits.archives:
-            raise ArchiveError(too_large(what, f"it holds more than {self.limits.archives} others"))
+            raise ArchiveError(
+                too_large(
+                    what, say("it holds more than {count} others", count=self.limits.archives)
+                )
+            )
 
     def member(self, what: str) -> None:
         """One more file, folder or link."""
         self._members += 1
         if self._members > self.limits.members:
             most = f"{self.limits.members:,}"
-            raise ArchiveError(too_large(what, f"it holds more than {most} files and folders"))
+            raise ArchiveError(
+                too_large(what, say("it holds more than {count} files and folders", count=most))
+            )
         self._in_time(what)
 
     def unpack(self, what: str, size: int) -> None:
@@ -77,18 +84,24 @@ class Spent:
         if coming > self.limits.ratio_from and coming > self.limits.ratio * max(self._packed, 1):
             raise ArchiveError(bomb(what, packed=_in_mb(self._packed), unpacked=_in_mb(coming)))
         if coming > self.limits.unpacked:
-            raise ArchiveError(too_large(what, f"unpacked it has more than {_in_mb(coming)}"))
+            raise ArchiveError(
+                too_large(what, say("unpacked it has more than {size}", size=_in_mb(coming)))
+            )
 
     def hold(self, what: str, size: int) -> None:
         """`size` bytes more are kept in memory."""
         self._held += size
         if self._held > self.limits.held:
             most = _in_mb(self.limits.held)
-            raise ArchiveError(too_large(what, f"its files have more than {most} together"))
+            raise ArchiveError(
+                too_large(what, say("its files have more than {size} together", size=most))
+            )
 
     def _in_time(self, what: str) -> None:
         if time.thread_time() > self._until:
-            reason = f"reading it takes more than {self.limits.seconds:g} seconds"
+            reason = say(
+                "reading it takes more than {seconds} seconds", seconds=f"{self.limits.seconds:g}"
+            )
             raise ArchiveError(too_large(what, reason))
 
 

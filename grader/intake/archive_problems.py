@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from grader.intake.notes import shown
 from grader.intake.problems import Problem
+from grader.locale.message import Message
+from grader.locale.message import say
 
-AGAIN = (
-    "Pack the package's folder anew, with nothing else in it: "
-    "cd ~/ros2_ws/src && tar -czf my_package.tar.gz my_package (with your package's name)."
+AGAIN = say(
+    "Pack the package's folder anew, with nothing else in it: cd ~/ros2_ws/src && "
+    "tar -czf my_package.tar.gz my_package (with your package's name)."
 )
 
 
@@ -23,8 +25,12 @@ def corrupt(what: str, reason: str) -> Problem:
     """It cannot be read to its end."""
     return Problem(
         "package.archive_corrupt",
-        f"The archive {shown(what)} is damaged or was cut short: {shown(reason)}.",
-        "Pack it again, open it once to see that all is in it, and hand it in again.",
+        say(
+            "The archive {what} is damaged or was cut short: {reason}.",
+            what=shown(what),
+            reason=reason if isinstance(reason, Message) else shown(reason),
+        ),
+        say("Pack it again, open it once to see that all is in it, and hand it in again."),
     )
 
 
@@ -32,8 +38,8 @@ def no_archive(what: str) -> Problem:
     """It is called an archive and is something else."""
     return Problem(
         "package.archive_corrupt",
-        f"{shown(what)} is called an archive, but what is in it is none.",
-        "A new name does not make an archive. " + AGAIN,
+        say("{what} is called an archive, but what is in it is none.", what=shown(what)),
+        say("A new name does not make an archive. {again}", again=AGAIN),
     )
 
 
@@ -41,8 +47,8 @@ def encrypted(what: str) -> Problem:
     """It asks for a password."""
     return Problem(
         "package.archive_encrypted",
-        f"The archive {shown(what)} is locked with a password.",
-        "Pack it again without a password.",
+        say("The archive {what} is locked with a password.", what=shown(what)),
+        say("Pack it again without a password."),
     )
 
 
@@ -50,8 +56,8 @@ def unsupported(what: str, kind: str) -> Problem:
     """It is of a kind that is not read."""
     return Problem(
         "package.archive_unsupported",
-        f"{shown(what)} is {kind}, which is not opened here.",
-        "Hand in a zip or a tar.gz. " + AGAIN,
+        say("{what} is {kind}, which is not opened here.", what=shown(what), kind=kind),
+        say("Hand in a zip or a tar.gz. {again}", again=AGAIN),
     )
 
 
@@ -59,9 +65,13 @@ def unsafe(what: str, name: str) -> Problem:
     """A name in it leads out of the folder that it is unpacked in."""
     return Problem(
         "package.archive_unsafe",
-        f"The archive {shown(what)} holds a name that leads out of it: {shown(name)}. "
-        "Nothing of it was unpacked.",
-        "Names in an archive are relative and go down only. " + AGAIN,
+        say(
+            "The archive {what} holds a name that leads out of it: {name}. Nothing of it was "
+            "unpacked.",
+            what=shown(what),
+            name=shown(name),
+        ),
+        say("Names in an archive are relative and go down only. {again}", again=AGAIN),
     )
 
 
@@ -69,9 +79,14 @@ def bomb(what: str, *, packed: str, unpacked: str) -> Problem:
     """What comes out of it is out of all proportion."""
     return Problem(
         "package.archive_bomb",
-        f"The archive {shown(what)} has {packed}, and more than {unpacked} come out of it: "
-        "reading was stopped.",
-        "Hand in only what you wrote. " + AGAIN,
+        say(
+            "The archive {what} has {packed}, and more than {unpacked} come out of it: "
+            "reading was stopped.",
+            what=shown(what),
+            packed=packed,
+            unpacked=unpacked,
+        ),
+        say("Hand in only what you wrote. {again}", again=AGAIN),
     )
 
 
@@ -79,8 +94,16 @@ def too_large(what: str, reason: str) -> Problem:
     """It is beyond a limit of size or number."""
     return Problem(
         "package.archive_too_large",
-        f"The archive {shown(what)} is too large to be marked: {reason}.",
-        "Hand in only what you wrote: no recordings, data sets or virtual environments. " + AGAIN,
+        say(
+            "The archive {what} is too large to be marked: {reason}.",
+            what=shown(what),
+            reason=reason,
+        ),
+        say(
+            "Hand in only what you wrote: no recordings, data sets or virtual environments. "
+            "{again}",
+            again=AGAIN,
+        ),
     )
 
 
@@ -88,8 +111,12 @@ def too_deep(what: str, depth: int) -> Problem:
     """Archives in archives in archives."""
     return Problem(
         "package.archive_nested",
-        f"{shown(what)} is an archive in more than {depth} others, and was not opened.",
-        "Pack the package once. " + AGAIN,
+        say(
+            "{what} is an archive in more than {depth} others, and was not opened.",
+            what=shown(what),
+            depth=depth,
+        ),
+        say("Pack the package once. {again}", again=AGAIN),
     )
 
 
@@ -97,6 +124,6 @@ def empty(what: str) -> Problem:
     """Nothing is in it."""
     return Problem(
         "package.archive_empty",
-        f"There is nothing in the archive {shown(what)}.",
-        "See that the package is in it before you hand it in. " + AGAIN,
+        say("There is nothing in the archive {what}.", what=shown(what)),
+        say("See that the package is in it before you hand it in. {again}", again=AGAIN),
     )

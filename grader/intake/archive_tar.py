@@ -23,6 +23,7 @@ from grader.intake.archive_member import Member
 from grader.intake.archive_problems import ArchiveError
 from grader.intake.archive_problems import corrupt
 from grader.intake.archive_problems import unsupported
+from grader.locale.message import say
 
 IN_MEMORY = 8_000_000  # what is unpacked on the way lies on disk from here on, without a name
 XZ_MEMORY = 100_000_000  # xz -9 asks for 65 MB
@@ -50,7 +51,7 @@ class _Guarded(io.RawIOBase):
 
     def read(self, size: int = -1) -> bytes:
         if not 0 <= size <= self.allowed:
-            raise ArchiveError(corrupt(self._what, "a header in it is impossibly long"))
+            raise ArchiveError(corrupt(self._what, say("a header in it is impossibly long")))
         self.allowed -= size
         return self._file.read(size)
 
@@ -69,7 +70,7 @@ def read_tar(file: IO[bytes], packing: Packing, what: str, spent: Spent) -> Iter
             _write(unpacked, chunk)
         unpacked.seek(0)
         if not is_tar(unpacked.read(HEAD)):
-            kind = f"one file packed with {packing} and no archive"
+            kind = say("one file packed with {packing} and no archive", packing=packing)
             raise ArchiveError(unsupported(what, kind))
         unpacked.seek(0)
         yield from _members(unpacked, what, spent)
@@ -124,7 +125,7 @@ def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
             archive.members = []  # type: ignore[attr-defined] # it would keep them all
             # a negative size sends tarfile back to where it was, for ever (CVE-2025-8194)
             if info.offset <= before or info.size < 0 or archive.offset <= info.offset:
-                raise ArchiveError(corrupt(what, "its headers go round in a circle"))
+                raise ArchiveError(corrupt(what, say("its headers go round in a circle")))
             before = info.offset
             spent.member(what)
             yield _member(archive, info, guarded)
@@ -135,7 +136,7 @@ def _see_the_end(file: IO[bytes], offset: int, what: str) -> None:
     """Refuse what goes on after the last header that could be read: tarfile takes it for the end."""
     file.seek(offset)
     if file.read(HEAD).strip(b"\0"):
-        raise ArchiveError(corrupt(what, "what follows its last readable file makes no sense"))
+        raise ArchiveError(corrupt(what, say("what follows its last readable file makes no sense")))
 
 
 def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) -> Member:

@@ -17,13 +17,14 @@ from grader.intake.archive_problems import ArchiveError
 from grader.intake.archive_problems import encrypted
 from grader.intake.archive_problems import too_large
 from grader.intake.archive_problems import unsupported
+from grader.locale.message import say
 
 UNIX = (3, 19)  # "version made by": Unix, and macOS (APPNOTE 4.4.2)
 ENCRYPTED, UTF8 = 0x1, 0x800  # general purpose flags (APPNOTE 4.4.4)
 READABLE = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 COMMIT = re.compile(rb"[0-9a-f]{40}(?:[0-9a-f]{24})?")
-NOT_UTF8 = "a name that is not UTF-8: read as code page 437, as zip has it"
-BACKSLASHES = "a name with backslashes: taken as folders, as Windows has it"
+NOT_UTF8 = say("a name that is not UTF-8: read as code page 437, as zip has it")
+BACKSLASHES = say("a name with backslashes: taken as folders, as Windows has it")
 LONGEST_LINK = 4_096  # PATH_MAX
 
 
@@ -50,7 +51,7 @@ class _Guarded(io.RawIOBase):
     def read(self, size: int = -1) -> bytes:
         found = self._file.read(min(size, self._most + 1) if size >= 0 else self._most + 1)
         if len(found) > self._most:
-            raise ArchiveError(too_large(self._what, "its table of contents is too long"))
+            raise ArchiveError(too_large(self._what, say("its table of contents is too long")))
         return found
 
 
@@ -81,7 +82,7 @@ def _member(
 
     def chunks() -> Iterator[bytes]:
         if info.compress_type not in READABLE:
-            kind = f"packed by a method of zip ({info.compress_type})"
+            kind = say("packed by a method of zip ({method})", method=info.compress_type)
             raise ArchiveError(unsupported(what, kind))
         with archive.open(info) as file:
             while chunk := file.read(CHUNK):

@@ -15,6 +15,7 @@ from grader.intake.tree import Tree
 from grader.intake.tree import ancestors
 from grader.intake.tree import join
 from grader.intake.tree import parent
+from grader.locale.message import say
 from grader.source.manifest import name_in
 from grader.source.setup_py import literal_name
 
@@ -104,29 +105,46 @@ def _nearest(tree: Tree, wrong: list[Candidate], *, package: str, node_file: str
     if len(wrong) > 1:
         names = ", ".join(f"{c.name} ({shown(c.path)})" for c in wrong[:5])
         hints.insert(
-            0, f"No package is called {package}; of {names} the one marked is {best.name}."
+            0,
+            say(
+                "No package is called {package}; of {names} the one marked is {name}.",
+                package=package,
+                names=names,
+                name=best.name,
+            ),
         )
     return Choice(best, tuple(hints))
 
 
 def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[str]:
-    hints = []
+    hints: list[str] = []
     outer = _around(chosen, candidates)
     if outer:
         hints.append(
-            f"{shown(chosen.path)} lies inside another package ({outer[0].name}, in "
-            f"{shown(outer[0].path)}): colcon stops at the outer one and never builds the inner. "
-            "It was marked as if it lay beside it: packages belong side by side in src."
+            say(
+                "{path} lies inside another package ({name}, in {outer}): colcon stops at the "
+                "outer one and never builds the inner. It was marked as if it lay beside it: "
+                "packages belong side by side in src.",
+                path=shown(chosen.path),
+                name=outer[0].name,
+                outer=shown(outer[0].path),
+            )
         )
     inner = [c for c in candidates if chosen in _around(c, candidates)]
     if inner:
         hints.append(
-            f"There is another package inside this one ({shown(inner[0].path)}): colcon stops at "
-            "the outer one and never builds the inner. Packages belong side by side in src."
+            say(
+                "There is another package inside this one ({path}): colcon stops at the outer "
+                "one and never builds the inner. Packages belong side by side in src.",
+                path=shown(inner[0].path),
+            )
         )
     if _ignored(tree, chosen):
         hints.append(
-            f"A file {IGNORE} lies in or above the package: colcon then leaves it out, and says "
-            f"'0 packages finished'. Delete {IGNORE}."
+            say(
+                "A file {ignore} lies in or above the package: colcon then leaves it out, and "
+                "says '0 packages finished'. Delete {ignore}.",
+                ignore=IGNORE,
+            )
         )
     return hints

@@ -11,6 +11,7 @@ from grader.intake.reading import MEGABYTE
 from grader.intake.reading import Unread
 from grader.intake.tree import LEADS_OUT
 from grader.intake.tree import Tree
+from grader.locale.message import say
 
 MOST_FILES = 5_000
 """How many files and folders a package may have."""
@@ -20,12 +21,16 @@ MOST_BYTES = 50 * MEGABYTE
 MOST_LINKS = 200
 """How many links of a package are looked at."""
 
-COPIED = "a link to a file outside the package: the file's content was taken in its place"
-TOO_MANY_LINKS = f"left out, as there are more than {MOST_LINKS} links"
+COPIED = say("a link to a file outside the package: the file's content was taken in its place")
+TOO_MANY_LINKS = say("left out, as there are more than {count} links", count=MOST_LINKS)
 
 
 class TooLargeError(Exception):
-    """A package beyond the limits; the message says which and by how much."""
+    """A package beyond the limits; `reason` says which and by how much."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 def read_package(tree: Tree, root: str) -> tuple[SourceFile, ...]:
@@ -36,7 +41,9 @@ def read_package(tree: Tree, root: str) -> tuple[SourceFile, ...]:
     entries = tree.below(root)
     cut = root in tree.truncated or any(e.path in tree.truncated for e in entries.values())
     if cut or len(entries) > MOST_FILES:
-        raise TooLargeError(f"it has more than {MOST_FILES:,} files and folders")
+        raise TooLargeError(
+            say("it has more than {count} files and folders", count=f"{MOST_FILES:,}")
+        )
     return tuple(_Reader(tree, entries).read())
 
 
@@ -63,11 +70,15 @@ class _Reader:
     def _file(self, path: str, entry: Entry) -> SourceFile:
         found = self._tree.place.read(entry.path, MOST_FILE_BYTES)
         if isinstance(found, Unread):
-            self._tree.left_out.add(f"without its content, as {found.reason}", entry.path)
+            self._tree.left_out.add(
+                say("without its content, as {reason}", reason=found.reason), entry.path
+            )
             return SourceFile(path, "file", entry.mode, unreadable=True, reason=found.reason)
         self._bytes += len(found)
         if self._bytes > MOST_BYTES:
-            raise TooLargeError(f"its files hold more than {MOST_BYTES // MEGABYTE} MB")
+            raise TooLargeError(
+                say("its files hold more than {size} MB", size=MOST_BYTES // MEGABYTE)
+            )
         return SourceFile(path, "file", entry.mode, found)
 
     def _link(self, path: str, entry: Entry) -> Iterator[SourceFile]:

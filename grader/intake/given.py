@@ -20,6 +20,7 @@ from grader.intake.place import Folder
 from grader.intake.place import Place
 from grader.intake.reading import Unread
 from grader.intake.reading import open_file
+from grader.locale.message import say
 
 CHUNK = 1_000_000
 
@@ -32,11 +33,12 @@ def resolved(path: Path) -> Path:
         if stat.S_ISDIR(kind) or stat.S_ISREG(kind):
             return path.resolve()
     except FileNotFoundError:
-        raise UsageError(f"there is no folder {name}") from None
+        raise UsageError(say("there is no folder {name}", name=name)) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UsageError(f"{name} cannot be read: {reason}") from None
-    raise UsageError(f"{name} is neither a folder nor a file")
+        unread = say("{name} cannot be read: {reason}", name=name, reason=str(reason))
+        raise UsageError(unread) from None
+    raise UsageError(say("{name} is neither a folder nor a file", name=name))
 
 
 def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
@@ -49,15 +51,16 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
         return Folder(path, modes_kept=modes_kept)
     opened = open_file(path)
     if isinstance(opened, Unread):
-        raise UsageError(f"{shown(str(path))} cannot be read: {opened.reason}")
+        name = shown(str(path))
+        raise UsageError(say("{name} cannot be read: {reason}", name=name, reason=opened.reason))
     with opened as file:
         kind = kind_of(file.read(HEAD))
         if kind is None and is_named_archive(path.name):
             raise ArchiveError(no_archive(path.name))
         if kind is None:
             raise UsageError(
-                f"{shown(str(path))} is a file, and neither a folder nor an archive",
-                remedy="Give the folder that holds the package, or a zip or tar of it.",
+                say("{name} is a file, and neither a folder nor an archive", name=shown(str(path))),
+                remedy=say("Give the folder that holds the package, or a zip or tar of it."),
             )
         spent.archive(path.name, os.fstat(file.fileno()).st_size, handed_in=True)
         file.seek(0)

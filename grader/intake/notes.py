@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from grader.locale.message import joined
+from grader.locale.message import say
+
 SHOWN = 3
 LONGEST = 120
 
@@ -41,9 +44,9 @@ class LeftOut:
 
     def lines(self) -> list[str]:
         """Return one line for each reason."""
-        found = []
+        found: list[str] = []
         for reason, places in self._places.items():
             more = self._counts[reason] - len(places)
-            rest = f" and {more} more" if more else ""
-            found.append(f"{reason}: {', '.join(places)}{rest}")
+            rest = say(" and {count} more", count=more) if more else ""
+            found.append(joined(reason, ": ", ", ".join(places), rest, by=""))
         return found

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from grader.intake.notes import shown
 from grader.intake.tree import MADE_BY_TOOLS
 from grader.intake.tree import Tree
+from grader.locale.message import say
 
 ARCHIVE = re.compile(r".*\.(?:zip|tar|tgz|tar\.\w{2,3}|7z|rar)", re.IGNORECASE)
 NEAR_NAME = re.compile(r"package\.xml\.\w{1,10}|setup\.py\.\w{1,10}|package\.xml|setup\.py", re.I)
@@ -25,12 +26,19 @@ class Problem:
 
 def duplicate(paths: list[str], package: str) -> Problem:
     """Two packages of the right name: colcon refuses, and so nobody knows which one is meant."""
-    places = " and ".join(shown(path) for path in paths[:3])
+    places = ", ".join(shown(path) for path in paths[:3])
     return Problem(
         "package.duplicate",
-        f"There are {len(paths)} packages of the name {package}: in {places}.",
-        "Keep one of them. A backup copy belongs outside the workspace (or put an empty file "
-        "COLCON_IGNORE into it).",
+        say(
+            "There are {count} packages of the name {package}: in {places}.",
+            count=len(paths),
+            package=package,
+            places=places,
+        ),
+        say(
+            "Keep one of them. A backup copy belongs outside the workspace (or put an empty "
+            "file COLCON_IGNORE into it)."
+        ),
     )
 
 
@@ -38,8 +46,12 @@ def too_large(reason: str, root: str) -> Problem:
     """A package beyond the limits of intake."""
     return Problem(
         "package.too_large",
-        f"The package in {shown(root)} is too large to be marked: {reason}.",
-        "Hand in only what you wrote: no recordings, data sets or virtual environments.",
+        say(
+            "The package in {root} is too large to be marked: {reason}.",
+            root=shown(root),
+            reason=reason,
+        ),
+        say("Hand in only what you wrote: no recordings, data sets or virtual environments."),
     )
 
 
@@ -53,25 +65,33 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
         wanted = "package.xml" if "package" in names[near[0]].lower() else "setup.py"
         return Problem(
             "package.manifest_renamed",
-            f"There is no package.xml and no setup.py, but a file {shown(near[0])}.",
-            f"Rename it to exactly {wanted}: capitals count, and nothing may follow the ending.",
+            say("There is no package.xml and no setup.py, but a file {file}.", file=shown(near[0])),
+            say(
+                "Rename it to exactly {wanted}: capitals count, and nothing may follow the ending.",
+                wanted=wanted,
+            ),
         )
     archives = [path for path, name in names.items() if ARCHIVE.fullmatch(name)]
     if archives and len(files) == len(archives):
         return Problem(
             "package.archive_inside",
-            "There is no package in the folder, only a file that is called an archive and is none: "
-            f"{shown(archives[0])}.",
-            "Pack the package's folder anew (a new name does not make an archive), and open the "
-            "archive once before you hand it in.",
+            say(
+                "There is no package in the folder, only a file that is called an archive and is "
+                "none: {file}.",
+                file=shown(archives[0]),
+            ),
+            say(
+                "Pack the package's folder anew (a new name does not make an archive), and open "
+                "the archive once before you hand it in."
+            ),
         )
     links = list(tree.links().items())
     if not files and links:
         place = " -> ".join(links[0])
         return Problem(
             "package.link",
-            f"There is no package, only a link to elsewhere: {shown(place)}.",
-            "Hand in the folder that the link leads to, not the link.",
+            say("There is no package, only a link to elsewhere: {place}.", place=shown(place)),
+            say("Hand in the folder that the link leads to, not the link."),
         )
     if not files:
         return _nothing(tree, create)
@@ -79,17 +99,32 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
     if nodes and len(files) == 1:
         return Problem(
             "package.only_node",
-            f"Only the file {shown(nodes[0])} was handed in, without the package around it.",
-            f"Hand in the whole folder {package}, with package.xml, setup.py, setup.cfg and "
-            "resource/. Is there none yet? Make it with: " + create,
+            say(
+                "Only the file {file} was handed in, without the package around it.",
+                file=shown(nodes[0]),
+            ),
+            say(
+                "Hand in the whole folder {package}, with package.xml, setup.py, setup.cfg and "
+                "resource/. Is there none yet? Make it with: {create}",
+                package=package,
+                create=create,
+            ),
         )
     some = ", ".join(shown(path) for path in sorted(files)[:4])
-    more = f" and {len(files) - 4} more" if len(files) > 4 else ""
+    more = say(" and {count} more", count=len(files) - 4) if len(files) > 4 else ""
     return Problem(
         "package.no_manifest",
-        f"No folder holds a package.xml or a setup.py. Files that are there: {some}{more}.",
-        f"Hand in the folder {package} that holds package.xml and setup.py, or the workspace "
-        f"around it. Is there none yet? Make it with: {create}",
+        say(
+            "No folder holds a package.xml or a setup.py. Files that are there: {some}{more}.",
+            some=some,
+            more=more,
+        ),
+        say(
+            "Hand in the folder {package} that holds package.xml and setup.py, or the "
+            "workspace around it. Is there none yet? Make it with: {create}",
+            package=package,
+            create=create,
+        ),
     )
 
 
@@ -98,13 +133,23 @@ def _nothing(tree: Tree, create: str) -> Problem:
     if made:
         return Problem(
             "package.only_build",
-            f"Only what tools have made is there ({', '.join(made)}), and no source.",
-            "Hand in the package from the workspace's src folder: build, install and log are "
-            "made from it and cannot stand for it.",
+            say(
+                "Only what tools have made is there ({folders}), and no source.",
+                folders=", ".join(made),
+            ),
+            say(
+                "Hand in the package from the workspace's src folder: build, install and log are "
+                "made from it and cannot stand for it."
+            ),
         )
     rest = tree.left_out.lines()
     return Problem(
         "package.empty",
-        "The folder is empty." if not rest else f"There is no file to mark. {rest[0]}.",
-        f"Hand in your package. Is there none yet? Make it in ~/ros2_ws/src with: {create}",
+        say("The folder is empty.")
+        if not rest
+        else say("There is no file to mark. {reason}.", reason=rest[0]),
+        say(
+            "Hand in your package. Is there none yet? Make it in ~/ros2_ws/src with: {create}",
+            create=create,
+        ),
     )

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
+from grader.locale.message import say
+
 MEGABYTE = 1_000_000
 
 
@@ -20,7 +22,7 @@ class Unread:
 
 def larger_than(limit: int) -> Unread:
     """A file beyond the limit (bytes)."""
-    return Unread(f"it is larger than {limit / MEGABYTE:g} MB")
+    return Unread(say("it is larger than {size} MB", size=f"{limit / MEGABYTE:g}"))
 
 
 def open_file(path: Path) -> IO[bytes] | Unread:
@@ -29,10 +31,12 @@ def open_file(path: Path) -> IO[bytes] | Unread:
     try:
         handle = os.open(path, flags)
     except OSError as error:
-        return Unread(f"it cannot be read ({error.strerror or type(error).__name__})")
+        return Unread(
+            say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
+        )
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        return Unread("it is not a plain file")
+        return Unread(say("it is not a plain file"))
     return os.fdopen(handle, "rb")
 
 
@@ -47,6 +51,8 @@ def read_bytes(path: Path, limit: int) -> bytes | Unread:
                 return larger_than(limit)
             found = file.read(limit + 1)
     except OSError as error:
-        return Unread(f"it cannot be read ({error.strerror or type(error).__name__})")
+        return Unread(
+            say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
+        )
     # (what grows while it is read, or tells no size, is cut off by the limit)
     return larger_than(limit) if len(found) > limit else found

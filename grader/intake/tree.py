@@ -16,6 +16,7 @@ from grader.intake.links import follow
 from grader.intake.notes import LeftOut
 from grader.intake.place import Entry
 from grader.intake.place import Place
+from grader.locale.message import say
 
 MOST_LEVELS = 32
 """How many folders deep the submission is looked at."""
@@ -26,14 +27,16 @@ MOST_ENTRIES = 50_000
 LONGEST_TARGET = 1_000
 """The longest text (characters) of a link that is kept."""
 
-MADE_BY_TOOLS = "left out, as tools make it anew"
-LEADS_OUT = "left out, as a link that leads out of the package"
-SPECIAL = "left out, as neither file nor folder (a device, named pipe or socket)"
-BAD_NAME = "left out, as its name is not plain UTF-8 text"
-UNREADABLE_FOLDER = "a folder that cannot be read"
-TOO_DEEP = f"not looked into, as it lies more than {MOST_LEVELS} folders deep"
-TOO_FULL = f"only the first {MOST_IN_FOLDER} names were looked at in"
-TOO_MANY = f"not looked into, as there are more than {MOST_ENTRIES} files and folders"
+MADE_BY_TOOLS = say("left out, as tools make it anew")
+LEADS_OUT = say("left out, as a link that leads out of the package")
+SPECIAL = say("left out, as neither file nor folder (a device, named pipe or socket)")
+BAD_NAME = say("left out, as its name is not plain UTF-8 text")
+TOO_DEEP = say("not looked into, as it lies more than {count} folders deep", count=MOST_LEVELS)
+TOO_FULL = say("only the first {count} names were looked at in", count=MOST_IN_FOLDER)
+TOO_MANY = say(
+    "not looked into, as there are more than {count} files and folders",
+    count=MOST_ENTRIES,
+)
 
 
 @dataclass
@@ -108,7 +111,10 @@ def look(place: Place) -> Tree:
         except OSError as error:
             if folder == ".":
                 raise
-            tree.left_out.add(f"{UNREADABLE_FOLDER} ({error.strerror})", folder)
+            tree.left_out.add(
+                say("a folder that cannot be read ({reason})", reason=str(error.strerror)),
+                folder,
+            )
             continue
         for child in _sort(tree, folder, found):
             if child.kind == "folder" and depth + 1 >= MOST_LEVELS:
@@ -160,7 +166,9 @@ def _entry(tree: Tree, path: str) -> Entry | None:
     try:
         entry = tree.place.entry(path)
     except OSError as error:
-        tree.left_out.add(f"left out, as it cannot be looked at ({error.strerror})", path)
+        tree.left_out.add(
+            say("left out, as it cannot be looked at ({reason})", reason=str(error.strerror)), path
+        )
         return None
     if entry is None:
         tree.left_out.add(SPECIAL, path)

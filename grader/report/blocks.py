@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.report.page import Row
 from grader.report.plain import first_lines
 from grader.report.plain import last_lines
@@ -17,20 +19,20 @@ if TYPE_CHECKING:
     from grader.report.page import Page
 
 MARKS = {
-    "passed": ("pass", "green"),
-    "failed": ("FAIL", "bold red"),
-    "skipped": ("skip", "dim"),
+    "passed": (say("pass"), "green"),
+    "failed": (say("FAIL"), "bold red"),
+    "skipped": (say("skip"), "dim"),
     "inconclusive": ("?", "yellow"),
-    "error": ("ERR", "magenta"),
+    "error": (say("ERR"), "magenta"),
 }
 WORDS = {
-    "passed": "passed",
-    "failed": "failed",
-    "skipped": "skipped",
-    "inconclusive": "inconclusive",
-    "error": "could not be asked",
+    "passed": say("passed"),
+    "failed": say("failed"),
+    "skipped": say("skipped"),
+    "inconclusive": say("inconclusive"),
+    "error": say("could not be asked"),
 }
-UNSEEN = "a hidden check"
+UNSEEN = say("a hidden check")
 # what a node says when it is stopped tells nothing of these
 BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
 
@@ -75,25 +77,41 @@ def roots(check: CheckResult, checks: Sequence[CheckResult]) -> list[CheckResult
 def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
     """Write all that is known of a check that did not pass: what, where, why, and the fix."""
     mark, style = MARKS[check.status]
-    page.line((f"{mark} {one_line(check.id, most=60)}", style), f": {one_line(check.title)}{on}")
-    _field(page, "expected", check.expected, lines)
-    _field(page, "found", check.actual, lines)
+    head = joined(mark, one_line(check.id, most=60))
+    page.line((head, style), joined(": ", one_line(check.title), on, by=""))
+    _field(page, say("expected"), check.expected, lines)
+    _found(page, check.actual, lines)
     if check.where is not None:
         line = "" if check.where.line is None else f":{check.where.line}"
-        page.code("where", [one_line(check.where.file) + line])
-    _field(page, "why", check.rationale, lines)
+        page.code(say("where"), [one_line(check.where.file) + line])
+    _field(page, say("why"), check.rationale, lines)
     if check.status == "inconclusive":
-        page.field("points", "None taken, none given. Grade again when the machine is less busy.")
+        busy = say("None taken, none given. Grade again when the machine is less busy.")
+        page.field(say("points"), busy)
     elif check.status == "error":
-        page.field("points", "None taken, none given: the fault is the grader's. Please report it.")
-    _field(page, "fix", check.fix, lines, style="bold")
+        ours = say("None taken, none given: the fault is the grader's. Please report it.")
+        page.field(say("points"), ours)
+    _field(page, say("fix"), check.fix, lines, style="bold")
     if check.patch.strip():
-        page.code("change", first_lines(check.patch, lines=2 * lines))
+        page.code(say("change"), first_lines(check.patch, lines=2 * lines))
     for advice in check.advice:
-        _field(page, "also", advice, lines)
+        _field(page, say("also"), advice, lines)
+    if check.consequence_of:
+        same = say("the same as {check}", check=one_line(check.consequence_of, most=60))
+        page.field(say("cause"), same)
     if check.mistakes:
         names = ", ".join(one_line(mistake.id, most=80) for mistake in check.mistakes)
-        page.field("mistake", names, style="dim")
+        page.field(say("mistake"), names, style="dim")
+
+
+def _found(page: Page, text: str, lines: int) -> None:
+    """Write what was found; where a line of marks is in it, its columns are kept."""
+    shown = first_lines(text, lines=lines, most=1_000) if text.strip() else []
+    marks = any(line.strip() and not line.strip("^ ") for line in shown)
+    if marks:
+        page.code(say("found"), shown)
+    elif shown:
+        page.field(say("found"), shown)
 
 
 def _field(page: Page, label: str, text: str, lines: int, *, style: str = "") -> None:
@@ -107,16 +125,23 @@ def evidence_of(check: CheckResult, evidence: Evidence) -> tuple[str, str]:
     if check.status != "failed" or stage in ("package", "source"):
         return "", ""
     if stage == "build":
-        return evidence.build_log, "colcon build printed"
+        return evidence.build_log, say("colcon build printed")
     before, pressed, _ = evidence.transcript.partition("\n^C")
     if pressed and check.id in BEFORE_CTRL_C:
-        return before, "ros2 run printed before Ctrl+C"
-    return evidence.transcript, "ros2 run printed"
+        return before, say("ros2 run printed before Ctrl+C")
+    return evidence.transcript, say("ros2 run printed")
 
 
 def quotation(page: Page, text: str, title: str, *, lines: int) -> None:
     """Write the end of what a program printed."""
     shown, count = last_lines(text, lines=lines)
-    size = "" if len(shown) == count else f" (the last {len(shown)} of {count:,} lines)"
-    page.line((f"What {title}{size}:", "bold"), indent=2)
+    head = say("What {title}:", title=title)
+    if len(shown) != count:
+        head = say(
+            "What {title} (the last {shown} of {count} lines):",
+            title=title,
+            shown=len(shown),
+            count=f"{count:,}",
+        )
+    page.line((head, "bold"), indent=2)
     page.quote(shown)

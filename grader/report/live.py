@@ -18,6 +18,8 @@ from grader.events import Note
 from grader.events import StageFinished
 from grader.events import StageStarted
 from grader.events import TickSeen
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.report.plain import encodable
 from grader.report.plain import one_line
 from grader.report.surface import is_terminal
@@ -40,11 +42,15 @@ class LiveProgress:
     terminal that has gone away never disturbs the work: what cannot be written is dropped.
     """
 
-    def __init__(self, file: TextIO | None = None, *, show_hidden: bool = False) -> None:
+    def __init__(
+        self, file: TextIO | None = None, *, show_hidden: bool = False, lang: str = "en"
+    ) -> None:
         self._file = file or sys.stderr
         self._show_hidden = show_hidden
         self._live: Live | None = None
-        self._stage = "Starting"
+        self._speak = Speaker(lang)
+        self._stage = self._speak(say("Starting"))
+        self._hidden = self._speak(say("a hidden check"))
         self._check = ""
         self._tick = ""
         self._begin = time.monotonic()
@@ -77,7 +83,7 @@ class LiveProgress:
                 self._check = self._tick = ""
             case CheckStarted(title=title, visibility=visibility):
                 seen = self._show_hidden or visibility == "visible"
-                self._check = one_line(title, most=100) if seen else "a hidden check"
+                self._check = one_line(title, most=100) if seen else self._hidden
             case CheckFinished():
                 self._check = ""
             case TickSeen(text=text):

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from grader.locale.message import joined
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.report.blocks import MARKS
 from grader.report.blocks import UNSEEN
 from grader.report.blocks import WORDS
@@ -17,6 +20,7 @@ from grader.report.page import Page
 from grader.report.plain import first_lines
 from grader.report.plain import one_line
 from grader.report.plain import points
+from grader.report.report_page import hidden_checks
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,23 +41,23 @@ def matrix_page(
 ) -> str:
     """Return the page as a string; it depends on the arguments alone. ValueError as `matrix_of`."""
     matrix = matrix_of(reports)
-    page = Page(width=width, styled=styled)
+    page = Page(width=width, styled=styled, speak=Speaker(reports[0].lang))
     shown = [c for c in matrix.checks if show_hidden or c.visibility == "visible"]
     _head(page, matrix)
     _grid(page, matrix, shown)
     hidden = len(matrix.checks) - len(shown)
     if hidden:
-        page.line(f"{hidden} hidden check{'s' if hidden > 1 else ''}: not shown")
+        page.line(hidden_checks(hidden))
     for distro, total in matrix.distros.items():
         if total.status == "error":
             page.gap()
-            page.line((f"Not graded on {one_line(distro)}: ", "bold magenta"))
+            page.line((say("Not graded on {distro}: ", distro=one_line(distro)), "bold magenta"))
             page.line("\n".join(first_lines(total.message, lines=8)), indent=2)
     _differences(page, reports, shown)
     _blocks(page, reports, {check.id for check in shown})
     page.gap()
     if path is not None:
-        page.code("report", [one_line(str(path), most=4_000)])
+        page.code(say("report"), [one_line(str(path), most=4_000)])
     return str(page)
 
 
@@ -61,9 +65,10 @@ def _head(page: Page, matrix: Matrix) -> None:
     page.line((one_line(matrix.assignment.title), "bold"))
     page.gap()
     who = matrix.submission
-    page.field("student", one_line(who.name, most=100))
-    page.field("package", one_line(who.package, most=100) if who.package else "none was found")
-    page.code("in", [one_line(who.path, most=4_000)])
+    page.field(say("student"), one_line(who.name, most=100))
+    none = say("none was found")
+    page.field(say("package"), one_line(who.package, most=100) if who.package else none)
+    page.code(say("in"), [one_line(who.path, most=4_000)])
     page.gap()
 
 
@@ -75,14 +80,14 @@ def _grid(page: Page, matrix: Matrix, shown: Sequence[CheckAcross]) -> None:
             cell = check.distros.get(distro)
             cells.append(("-", "") if cell is None else MARKS[cell.status])
         rows.append(cells)
-    scores = [("Score", "bold")]
+    scores: list[tuple[str, str]] = [(say("Score"), "bold")]
     scores += [
         (f"{points(t.score)} / {points(t.max_score)}", "bold") for t in matrix.distros.values()
     ]
     rows.append(scores)
     if any(total.inconclusive for total in matrix.distros.values()):
         rows.append(
-            [("inconclusive", "")]
+            [(say("inconclusive"), "")]
             + [(points(total.inconclusive), "") for total in matrix.distros.values()]
         )
     page.grid(["", *(one_line(distro, most=20) for distro in matrix.distros)], rows)
@@ -92,9 +97,9 @@ def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcr
     page.gap()
     differing = [check for check in shown if check.differs]
     if not differing:
-        page.line("The same on every distro.")
+        page.line(say("The same on every distro."))
         return
-    page.line(("What differs:", "bold"))
+    page.line((say("What differs:"), "bold"))
     visible = {check.id for check in shown}
     groups: dict[tuple[str, ...], list[str]] = {}
     for check in differing:
@@ -102,7 +107,9 @@ def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcr
         for report in reports:
             distro = one_line(report.environment.distro, most=40)
             said.setdefault(_reason(report, check.id, visible), []).append(distro)
-        lines = tuple(f"{', '.join(distros)}: {reason}" for reason, distros in said.items())
+        lines: tuple[str, ...] = tuple(
+            joined(", ".join(distros), reason, by=": ") for reason, distros in said.items()
+        )
         groups.setdefault(lines, []).append(one_line(check.id, most=60))
     for lines, ids in groups.items():
         page.line((", ".join(ids), "bold"), indent=2)
@@ -113,16 +120,18 @@ def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcr
 def _reason(report: Report, check_id: str, shown: set[str]) -> str:
     check = next((check for check in report.checks if check.id == check_id), None)
     if check is None:
-        return "not asked there"
+        return say("not asked there")
     if check.status == "skipped":
         names = dict.fromkeys(
             one_line(other.id, most=60) if other.id in shown else UNSEEN
             for other in roots(check, report.checks)
         )
-        return f"skipped because {' and '.join(names)} did not pass" if names else "skipped"
-    actual = one_line(check.actual.strip(), most=200)
+        both = joined(*names, by=", ")
+        because = say("skipped because {checks} did not pass", checks=both)
+        return because if names else WORDS["skipped"]
+    actual = one_line(check.actual.strip().partition("\n")[0], most=200)
     said = WORDS[check.status]
-    return f"{said}: {actual}" if actual and check.status != "passed" else said
+    return joined(said, actual, by=": ") if actual and check.status != "passed" else said
 
 
 def _blocks(page: Page, reports: Sequence[Report], shown: set[str]) -> None:
@@ -138,5 +147,5 @@ def _blocks(page: Page, reports: Sequence[Report], shown: set[str]) -> None:
     for check, distros in sorted(groups.values(), key=lambda group: order.index(group[0].id)):
         page.gap()
         everywhere = len(distros) == len(reports)
-        on = "" if everywhere else f" (on {', '.join(distros)})"
+        on = "" if everywhere else say(" (on {distros})", distros=", ".join(distros))
         block(page, check, lines=LINES, on=on)

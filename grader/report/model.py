@@ -55,6 +55,9 @@ class CheckResult(_Part):
     mistakes: list[Mistake] = Field(default_factory=list)
     where: Where | None = None
     depends: list[str] = Field(default_factory=list)
+    consequence_of: str = Field(
+        default="", description="the check that failed before for the same mistake"
+    )
     blocked_by: str = Field(default="", description="the check because of which it was skipped")
     seconds: float = 0
 

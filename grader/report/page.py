@@ -7,11 +7,13 @@ environment nor on the terminal that this process happens to have.
 from __future__ import annotations
 
 import io
+from collections.abc import Callable
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rich.cells import cell_len
 from rich.cells import chop_cells
+from rich.cells import set_cell_size
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -37,11 +39,12 @@ class Page:
     """A page of `width` columns; without `styled` it has no control sequence at all.
 
     Every string that it is given must be fit to be shown (see `grader.report.plain`); markup is
-    never interpreted.
+    never interpreted. What is a `Message` is said by `speak`, in the reader's language.
     """
 
-    def __init__(self, *, width: int, styled: bool) -> None:
+    def __init__(self, *, width: int, styled: bool, speak: Callable[[str], str] = str) -> None:
         self._out = io.StringIO()
+        self._speak = speak
         self._styled = styled
         self._width = max(20, min(width, WIDEST))
         self._console = Console(
@@ -78,11 +81,17 @@ class Page:
 
         Only its first line begins at `indent`: what it quotes cannot begin a line of ours.
         """
-        self._hang(Text.assemble(*parts), " " * indent, " " * (indent + 2))
+        said = [self._said(part) for part in parts]
+        self._hang(Text.assemble(*said), " " * indent, " " * (indent + 2))
+
+    def _said(self, part: str | tuple[str, str]) -> str | tuple[str, str]:
+        if isinstance(part, str):
+            return self._speak(part)
+        return self._speak(part[0]), part[1]
 
     def field(self, label: str, text: str | Sequence[str], style: str = "") -> None:
         """Write `text` (lines, each wrapped at words) beside its label."""
-        lines = text.split("\n") if isinstance(text, str) else text
+        lines = self._speak(text).split("\n") if isinstance(text, str) else text
         first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             self._hang(Text(line, style=style), first if number == 0 else rest, rest)
@@ -96,8 +105,10 @@ class Page:
 
     def _lead(self, label: str, lines: Sequence[str]) -> tuple[str, str]:
         """Return what stands before the first line and before the others."""
+        label = self._speak(label)
         if not self.narrow:
-            return f"  {label:<{LABEL - 2}}", " " * LABEL
+            room = max(LABEL, cell_len(label) + 4)
+            return set_cell_size(f"  {label}", room), " " * room
         if len(lines) == 1 and cell_len(f"  {label}  {lines[0]}") <= self._width:
             return f"  {label}  ", "    "
         self._verbatim(Text(f"  {label}", style="bold"))
@@ -119,7 +130,7 @@ class Page:
         table.add_column(overflow="fold")
         table.add_column(justify="right", no_wrap=True)
         for row in rows:
-            mark, score = Text(row.mark, style=row.style), Text(row.score)
+            mark, score = Text(self._speak(row.mark), style=row.style), Text(row.score)
             if self.narrow:
                 table.add_row(mark, Text(f"{row.name}\n{row.text}"), score)
             else:
@@ -131,11 +142,12 @@ class Page:
 
         Columns that have no room go into another table below.
         """
+        rows = [[(self._speak(text), style) for text, style in cells] for cells in rows]
         others = [
-            max(len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
+            max(cell_len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
             for n in range(1, len(heads))
         ]
-        names = max(len(cells[0][0]) for cells in rows) + 2
+        names = max(cell_len(cells[0][0]) for cells in rows) + 2
         names = min(names, max(self._width - max(others), 12))
         start = 1
         while start < len(heads):

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from grader.locale.message import joined
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.report.blocks import UNSEEN
 from grader.report.blocks import WORDS
 from grader.report.blocks import block
@@ -24,7 +27,7 @@ if TYPE_CHECKING:
     from grader.report.model import Report
 
 LINES, LINES_VERBOSE = 12, 200  # of one text
-CLOCKS = {"virtual": "virtual clock", "wall": "wall clock", None: ""}
+CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
 
 
 def report_page(
@@ -37,7 +40,7 @@ def report_page(
     path: Path | None,
 ) -> str:
     """Return the page as a string; it depends on the arguments alone."""
-    page = Page(width=width, styled=styled)
+    page = Page(width=width, styled=styled, speak=Speaker(report.lang))
     checks = [c for c in report.checks if show_hidden or c.visibility == "visible"]
     lines = LINES_VERBOSE if verbose else LINES
     _head(page, report)
@@ -56,43 +59,52 @@ def _head(page: Page, report: Report) -> None:
     page.line((one_line(report.assignment.title), "bold"))
     page.gap()
     number = f" ({one_line(who.student_id, most=60)})" if who.student_id else ""
-    page.field("student", f"{one_line(who.name, most=100)}{number}")
-    page.field("package", one_line(who.package, most=100) if who.package else "none was found")
-    page.code("in", [one_line(who.path, most=4_000)])
+    page.field(say("student"), f"{one_line(who.name, most=100)}{number}")
+    none = say("none was found")
+    page.field(say("package"), one_line(who.package, most=100) if who.package else none)
+    page.code(say("in"), [one_line(who.path, most=4_000)])
     clock = CLOCKS[report.observed.clock]
-    sandbox = "no sandbox" if env.sandbox == "none" else f"sandbox {env.sandbox}"
+    sandbox = say("sandbox {sandbox}", sandbox=env.sandbox)
+    sandbox = say("no sandbox") if env.sandbox == "none" else sandbox
     world = [f"ROS 2 {one_line(env.distro, most=40)} ({env.ros})", sandbox, clock]
-    page.field("ran on", ", ".join(part for part in world if part))
+    page.field(say("ran on"), joined(*world, by=", "))
     for note in who.notes:
-        page.field("note", first_lines(note, lines=3))
+        page.field(say("note"), first_lines(note, lines=3))
     page.gap()
 
 
 def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     if report.status == "error":
-        page.line(("Not graded: ", "bold magenta"), "\n".join(first_lines(report.message, lines=8)))
-        page.line("This is a fault of the grader or its machine, not of the submission.")
+        said = "\n".join(first_lines(report.message, lines=8))
+        page.line((say("Not graded: "), "bold magenta"), said)
+        page.line(say("This is a fault of the grader or its machine, not of the submission."))
         page.gap()
     if checks:
         page.table([row(check) for check in checks])
         page.gap()
-    total = f"Score {points(report.score)} / {points(report.max_score)}"
-    if report.inconclusive:
-        total += f", {points(report.inconclusive)} inconclusive"
-    page.line((total, "bold"), _counts(checks))
+    total = say("Score {score} / {most}", score=points(report.score), most=points(report.max_score))
+    open_ = say(", {points} inconclusive", points=points(report.inconclusive))
+    page.line((total + (open_ if report.inconclusive else ""), "bold"), _counts(checks))
     if report.status == "graded" and report.message.strip():
         page.line("\n".join(first_lines(report.message, lines=8)), indent=2)
     hidden = len(report.checks) - len(checks)
     if hidden:
-        page.line(f"{hidden} hidden check{'s' if hidden > 1 else ''}: not shown")
+        page.line(hidden_checks(hidden))
+
+
+def hidden_checks(count: int) -> str:
+    """Return how many checks are not shown."""
+    if count == 1:
+        return say("1 hidden check: not shown")
+    return say("{count} hidden checks: not shown", count=count)
 
 
 def _counts(checks: Sequence[CheckResult]) -> str:
     if checks and all(check.status == "passed" for check in checks):
-        return "  (every check passed)"
+        return joined("  (", say("every check passed"), ")", by="")
     count = {word: sum(c.status == status for c in checks) for status, word in WORDS.items()}
-    said = ", ".join(f"{number} {word}" for word, number in count.items() if number)
-    return f"  ({said})" if said else ""
+    said = [say("{count} {word}", count=n, word=word) for word, n in count.items() if n]
+    return joined("  (", joined(*said, by=", "), ")", by="") if said else ""
 
 
 def _blocks(
@@ -122,12 +134,14 @@ def _skipped(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
             one_line(other.id, most=60) if other.id in visible else UNSEEN
             for other in roots(check, report.checks)
         ]
-        known = f"because {' and '.join(dict.fromkeys(names))} did not pass" if names else ""
-        reasons.setdefault(known or one_line(check.actual), []).append(check.id)
+        both = joined(*dict.fromkeys(names), by=", ")
+        known = say("Skipped because {checks} did not pass", checks=both)
+        other = say("Skipped {reason}", reason=one_line(check.actual))
+        reasons.setdefault(known if names else other, []).append(check.id)
     for reason, ids in reasons.items():
         page.gap()
         listed = ", ".join(one_line(check_id, most=60) for check_id in ids)
-        page.line((f"Skipped {reason}".rstrip(), "bold"), f": {listed}")
+        page.line((reason, "bold"), f": {listed}")
 
 
 def _advice(page: Page, checks: Sequence[CheckResult]) -> None:
@@ -135,7 +149,7 @@ def _advice(page: Page, checks: Sequence[CheckResult]) -> None:
     if not passed:
         return
     page.gap()
-    page.line(("Advice", "bold"), " (these checks passed, no points are lost)")
+    page.line((say("Advice"), "bold"), say(" (these checks passed, no points are lost)"))
     for check in passed:
         for advice in check.advice:
             text = "\n".join(first_lines(advice, lines=6))
@@ -147,28 +161,31 @@ def _details(
 ) -> None:
     env, timing = report.environment, report.timing
     page.gap()
-    page.line(("Details", "bold"))
+    page.line((say("Details"), "bold"))
     for name in ("rclpy", "rmw", "python", "colcon", "setuptools", "image", "grader"):
         if value := getattr(env, name):
             page.field(name, one_line(str(value)))
     for name, limit in env.limits.items():
-        value = f"{limit.value:,.10g} {limit.unit}"
-        page.field("limit", one_line(f"{name} {value}, held by {limit.held_by}"))
+        value = one_line(f"{name} {limit.value:,.10g} {limit.unit}")
+        held = say("{limit}, held by {holder}", limit=value, holder=one_line(limit.held_by))
+        page.field(say("limit"), held)
     spent = [f"{name} {seconds:.2f} s" for name, seconds in timing.model_dump().items()]
-    page.field("time", ", ".join(spent))
+    page.field(say("time"), ", ".join(spent))
     if report.attempts > 1:
-        page.field("attempts", str(report.attempts))
+        page.field(say("attempts"), str(report.attempts))
     for node in report.observed.nodes:
-        page.field("node", one_line(node))
+        page.field(say("node"), one_line(node))
     for tick in report.observed.ticks:
-        at = "" if tick.virtual is None else f"  at {tick.virtual:.3f} s of ROS time"
-        page.field("line", one_line(tick.text) + at)
+        text = one_line(tick.text)
+        at = f"{tick.virtual or 0:.3f}"
+        timed = say("{text}  at {seconds} s of ROS time", text=text, seconds=at)
+        page.field(say("line"), text if tick.virtual is None else timed)
     for check in checks:
         if check.status == "passed" and check.actual.strip():
-            page.field("passed", f"{one_line(check.id, most=60)}: {one_line(check.actual)}")
+            page.field(say("passed"), f"{one_line(check.id, most=60)}: {one_line(check.actual)}")
     for text, title in (
-        (report.evidence.build_log, "colcon build printed"),
-        (report.evidence.transcript, "ros2 run printed"),
+        (report.evidence.build_log, say("colcon build printed")),
+        (report.evidence.transcript, say("ros2 run printed")),
     ):
         if text.strip() and title not in quoted:
             page.gap()
@@ -179,12 +196,15 @@ def _foot(page: Page, report: Report, checks: Sequence[CheckResult], path: Path 
     page.gap()
     first = next((check for check in checks if check.status == "failed"), None)
     if first is not None:
-        place = ""
+        name = one_line(first.id, most=60)
+        next_ = say("Fix {check}, save, and grade again.", check=name)
         if first.where is not None:
-            line = "" if first.where.line is None else f", line {first.where.line}"
-            place = f" (in {one_line(first.where.file, most=100)}{line})"
-        page.field("next", f"Fix {one_line(first.id, most=60)}{place}, save, and grade again.")
+            place: str = one_line(first.where.file, most=100)
+            if first.where.line is not None:
+                place = say("{file}, line {line}", file=place, line=first.where.line)
+            next_ = say("Fix {check} (in {place}), save, and grade again.", check=name, place=place)
+        page.field(say("next"), next_)
     if report.observed.command:
-        page.code("command", [one_line(report.observed.command, most=4_000)])
+        page.code(say("command"), [one_line(report.observed.command, most=4_000)])
     if path is not None:
-        page.code("report", [one_line(str(path), most=4_000)])
+        page.code(say("report"), [one_line(str(path), most=4_000)])

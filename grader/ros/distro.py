@@ -9,6 +9,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from grader.errors import UsageError
+from grader.locale.message import joined
+from grader.locale.message import say
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -57,8 +59,8 @@ def find_distro(name: str) -> Distro:
     if name in known:
         return known[name]
     close = difflib.get_close_matches(name.lower(), known, n=1)
-    hint = f"did you mean '{close[0]}'? " if close else ""
+    hint = say("did you mean '{word}'?", word=close[0]) if close else ""
     raise UsageError(
-        f"'{name}' is not a ROS 2 distro that the grader knows",
-        remedy=f"{hint}Known: {', '.join(known)}.",
+        say("'{name}' is not a ROS 2 distro that the grader knows", name=name),
+        remedy=joined(hint, say("Known: {names}.", names=", ".join(known))),
     )

@@ -11,6 +11,8 @@ import re
 from dataclasses import dataclass
 from xml.parsers import expat
 
+from grader.locale.message import say
+
 MOST_BYTES = 50_000
 MOST_LEVELS = 20
 MOST_ELEMENTS = 500
@@ -71,12 +73,12 @@ class Manifest:
 def read_manifest(found: bytes) -> Manifest:
     """Read a package.xml; ManifestError if it is not XML, too large, or has a document type."""
     if len(found) > MOST_BYTES:
-        raise ManifestError("size", f"it is larger than {MOST_BYTES // 1000} kB")
+        raise ManifestError("size", say("it is larger than {size} kB", size=MOST_BYTES // 1000))
     elements = _elements(found)
     root = next((e for e in elements if not e.within), None)
     if root is None or root.tag != "package":
         tag = root.tag if root else ""
-        raise ManifestError("rules", f"its outermost tag is <{tag}>, not <package>", 1)
+        raise ManifestError("rules", say("its outermost tag is <{tag}>, not <package>", tag=tag), 1)
     warnings: list[str] = []
     return Manifest(elements, _judge(found, warnings), tuple(warnings))
 
@@ -111,9 +113,13 @@ class _Reader:
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         line = self.parser.CurrentLineNumber
         if len(self._open) >= MOST_LEVELS:
-            raise ManifestError("rules", f"tags nested more than {MOST_LEVELS} deep", line)
+            raise ManifestError(
+                "rules",
+                say("tags nested more than {count} deep", count=MOST_LEVELS),
+                line,
+            )
         if len(self.found) >= MOST_ELEMENTS:
-            raise ManifestError("rules", f"more than {MOST_ELEMENTS} tags", line)
+            raise ManifestError("rules", say("more than {count} tags", count=MOST_ELEMENTS), line)
         self._open.append((tag, line, attributes, []))
 
     def _text(self, text: str) -> None:
@@ -127,7 +133,9 @@ class _Reader:
 
     def _doctype(self, *_: object) -> None:
         raise ManifestError(
-            "doctype", "it declares a document type (<!DOCTYPE>)", self.parser.CurrentLineNumber
+            "doctype",
+            say("it declares a document type (<!DOCTYPE>)"),
+            self.parser.CurrentLineNumber,
         )
 
 

@@ -10,6 +10,8 @@ import tokenize
 import warnings
 from dataclasses import dataclass
 
+from grader.locale.message import say
+
 MOST_BYTES = 100_000
 """Beyond it a hostile file takes seconds and hundreds of megabytes to parse."""
 ENCODINGS = re.compile(
@@ -43,7 +45,7 @@ class PythonFile:
 def parse_python(found: bytes) -> PythonFile:
     """Parse a file's bytes; PythonFault if Python (this interpreter's version) cannot."""
     if len(found) > MOST_BYTES:
-        raise PythonFault("size", f"the file is larger than {MOST_BYTES // 1000} kB")
+        raise PythonFault("size", say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
     text = decode(found)
     try:
         with warnings.catch_warnings():
@@ -54,7 +56,9 @@ def parse_python(found: bytes) -> PythonFile:
     except SyntaxError as error:
         raise _fault(error, text) from None
     except (RecursionError, MemoryError, OverflowError, ValueError) as error:
-        raise PythonFault("syntax", f"too deeply nested to be read ({error})") from None
+        raise PythonFault(
+            "syntax", say("too deeply nested to be read ({error})", error=str(error))
+        ) from None
     return PythonFile(text, tree)
 
 
@@ -73,26 +77,30 @@ def _fault(error: SyntaxError, text: str) -> PythonFault:
 def decode(found: bytes) -> str:
     """Return the text (PEP 263) with Unix line ends and without a byte order mark."""
     if found[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise PythonFault("encoding", "the file is UTF-16, Python reads UTF-8", 1)
+        raise PythonFault("encoding", say("the file is UTF-16, Python reads UTF-8"), 1)
     if b"\0" in found:
         line = found.count(b"\n", 0, found.index(b"\0")) + 1
-        raise PythonFault("null", "the file has null bytes in it: it is not text", line)
+        raise PythonFault("null", say("the file has null bytes in it: it is not text"), line)
     try:
         declared, _ = tokenize.detect_encoding(io.BytesIO(found).readline)
         name = codecs.lookup(declared).name
     except (SyntaxError, LookupError) as error:
         # (it decodes the first two lines on the way, and says so in the same breath)
         bad = _first_undecodable(found)
-        said = "the file is not UTF-8 text" if bad else str(error)
+        said: str = say("the file is not UTF-8 text") if bad else str(error)
         raise PythonFault("encoding", said, bad or 1) from None
     if not ENCODINGS.fullmatch(name):
-        raise PythonFault("encoding", f"the file declares the encoding {name}; use UTF-8", 1)
+        raise PythonFault(
+            "encoding", say("the file declares the encoding {name}; use UTF-8", name=name), 1
+        )
     try:
         text = found.decode(name)
     except UnicodeDecodeError as error:
         line = found.count(b"\n", 0, error.start) + 1
-        said = "UTF-8 text" if name.startswith("utf-8") else f"text in {name}, which it declares"
-        raise PythonFault("encoding", f"the file is not {said}", line) from None
+        said = say("the file is not UTF-8 text")
+        if not name.startswith("utf-8"):
+            said = say("the file is not text in {name}, which it declares", name=name)
+        raise PythonFault("encoding", said, line) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import configparser
 from dataclasses import dataclass
 
+from grader.locale.message import say
+
 MOST_BYTES = 100_000
 
 
@@ -47,24 +49,26 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
     Raises SetupCfgFault.
     """
     if len(found) > MOST_BYTES:
-        raise SetupCfgFault(f"the file is larger than {MOST_BYTES // 1000} kB")
+        raise SetupCfgFault(say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
     try:
         text = found.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise SetupCfgFault("not UTF-8 text", found.count(b"\n", 0, error.start) + 1) from None
+        raise SetupCfgFault(say("not UTF-8 text"), found.count(b"\n", 0, error.start) + 1) from None
     parser = configparser.RawConfigParser()
     parser.optionxform = str  # type: ignore[assignment,method-assign] # the documented way
     try:
         parser.read_string(text)
     except configparser.MissingSectionHeaderError as error:
-        what = "a byte order mark" if text[:1] == "\ufeff" else "a line"
-        raise SetupCfgFault(f"{what} before the first [section]", error.lineno) from None
+        said = say("a line before the first [section]")
+        if text[:1] == "\ufeff":
+            said = say("a byte order mark before the first [section]")
+        raise SetupCfgFault(said, error.lineno) from None
     except (configparser.DuplicateOptionError, configparser.DuplicateSectionError) as error:
         twice = getattr(error, "option", None) or f"[{error.section}]"
-        raise SetupCfgFault(f"{twice} is there twice", error.lineno) from None
+        raise SetupCfgFault(say("{twice} is there twice", twice=twice), error.lineno) from None
     except configparser.ParsingError as error:
         line = error.errors[0][0] if error.errors else None
-        raise SetupCfgFault("a line that is neither a [section] nor key=value", line) from None
+        raise SetupCfgFault(say("a line that is neither a [section] nor key=value"), line) from None
     except (configparser.Error, ValueError) as error:
         raise SetupCfgFault(str(error).splitlines()[0]) from None
     return _with_lines(parser, text)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
+from grader.locale.message import say
 from grader.source.python import PythonFault
 from grader.source.python import PythonFile
 from grader.source.python import parse_python
@@ -51,11 +52,11 @@ def read_setup_py(found: bytes) -> SetupPy:
     try:
         return _arguments(file)
     except RecursionError:
-        raise PythonFault("syntax", "too deeply nested to be read") from None
+        raise PythonFault("syntax", say("too deeply nested to be read")) from None
 
 
 def _arguments(file: PythonFile) -> SetupPy:
-    calls = [node for node in ast.walk(file.tree) if _is_setup(node)]
+    calls = [node for node in ast.walk(file.tree) if is_setup_call(node)]
     comments = tuple(
         (number, line.strip().lstrip("# "))
         for number, line in enumerate(file.text.splitlines(), start=1)
@@ -91,7 +92,8 @@ def literal_name(found: bytes) -> str | None:
     return name.value if name else None
 
 
-def _is_setup(node: ast.AST) -> bool:
+def is_setup_call(node: ast.AST) -> bool:
+    """Whether this calls a function of the name setup, whatever module it is of."""
     if not isinstance(node, ast.Call):
         return False
     function = node.func

@@ -1,0 +1,85 @@
+"""The checks, as far as a package's files alone answer them: nothing is built or run."""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+from grader.assignment import Assignment
+from grader.assignment import CheckUse
+from grader.checks.all import CHECKS
+from grader.checks.registry import Blocked
+from grader.checks.registry import Check
+from grader.checks.registry import Failed
+from grader.checks.registry import Inconclusive
+from grader.checks.registry import Passed
+from grader.evidence import Evidence
+from grader.fix.case import Finding
+from grader.fix.case import finding_of
+from grader.fix.files import Files
+from grader.report.model import CheckResult
+from grader.submission import Submission
+
+
+class _NotHereError(Exception):
+    """A check wants the build or the run."""
+
+
+def _not_here() -> NoReturn:
+    raise _NotHereError
+
+
+def ask(submission: Submission, assignment: Assignment, only: str = "") -> dict[str, CheckResult]:
+    """Return the results of the checks that need neither build nor run, in their order.
+
+    With `only` it is that check, and those that it depends on.
+    """
+    evidence = Evidence(assignment, submission, build=_not_here, run=_not_here)
+    uses = {use.id: use for use in assignment.checks}
+    wanted = _with_causes(only) if only else set(uses)
+    for check_id, check in CHECKS.items():
+        asked = [d for d in check.depends if d in uses]
+        if check_id in wanted & set(uses) and all(_passed(evidence.results.get(d)) for d in asked):
+            result = _decide(check, uses[check_id], evidence)
+            if result is not None:
+                evidence.results[check_id] = result
+    return evidence.results
+
+
+def _with_causes(check_id: str) -> set[str]:
+    found: set[str] = set()
+    waiting = [check_id]
+    while waiting:
+        now = waiting.pop()
+        if now in CHECKS and now not in found:
+            found.add(now)
+            waiting += CHECKS[now].depends
+    return found
+
+
+def _passed(result: CheckResult | None) -> bool:
+    return result is not None and result.status == "passed"
+
+
+def _decide(check: Check, use: CheckUse, evidence: Evidence) -> CheckResult | None:
+    found: dict[str, object]
+    try:
+        passed = check.function(evidence) or Passed()
+        found = {"status": "passed", "actual": passed.actual, "advice": list(passed.advice)}
+    except Failed as failed:
+        found = {"status": "failed", "mistakes": failed.mistakes, "where": failed.where}
+        for name in ("expected", "actual", "rationale", "fix"):
+            found[name] = str(getattr(failed, name))
+    except (Blocked, Inconclusive, _NotHereError):
+        return None
+    return CheckResult.model_validate(
+        {"id": check.id, "title": check.title, "max_score": use.points, **found}
+    )
+
+
+def findings(
+    files: Files, submission: Submission, assignment: Assignment, only: str = ""
+) -> list[Finding]:
+    """Return what the files alone show to be wrong (for one check), in the order of the checks."""
+    results = ask(files.put_into(submission), assignment, only).values()
+    found = [f for f in map(finding_of, results) if f is not None]
+    return [f for f in found if not only or f.check == only]

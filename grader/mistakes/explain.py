@@ -1,0 +1,83 @@
+"""`grader explain`: an entry of the catalogue, or the mistakes in a terminal's output."""
+
+from __future__ import annotations
+
+from typing import TextIO
+
+from grader.errors import UsageError
+from grader.intake.notes import shown
+from grader.locale.message import Message
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import errors_in
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.kind import Kind
+from grader.mistakes.likeness import meant
+from grader.mistakes.likeness import nearest
+from grader.mistakes.recognise import filled
+from grader.mistakes.recognise import seen_in
+from grader.report.page import Page
+from grader.report.plain import encodable
+from grader.report.surface import takes_styles
+from grader.report.surface import width_of
+
+MOST_BYTES = 1_000_000
+MOST_ROOTS = 3  # mistakes explained at once; more than that nobody reads
+
+
+def print_entry(mistake: str, *, file: TextIO, lang: str) -> None:
+    """Print one entry; UsageError, with the nearest id, if there is none."""
+    kind = CATALOGUE.get(mistake)
+    if kind is None:
+        slugs = {name.partition(".")[2]: name for name in CATALOGUE}
+        close = slugs.get(mistake) or nearest(mistake, CATALOGUE)
+        none = say("there is no mistake '{id}' in the catalogue", id=shown(mistake))
+        remedy = say("`grader explain` alone lists them all.")
+        with errors_in(lang):
+            raise UsageError(none + meant(close), remedy=remedy)
+    page = _page(file, lang)
+    _entry(page, kind, {})
+    _write(file, page)
+
+
+def print_recognised(text: str, *, file: TextIO, lang: str) -> bool:
+    """Print the entries that a text shows, root first; return whether there are any."""
+    page = _page(file, lang)
+    found = seen_in(text)
+    if not found:
+        page.line(say("No mistake of the catalogue shows in this text."))
+    for number, seen in enumerate(found[:MOST_ROOTS]):
+        if number:
+            page.gap()
+        page.quote([shown(seen.line)])
+        _entry(page, seen.kind, seen.params)
+    if len(found) > MOST_ROOTS:
+        page.gap()
+        names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
+        page.field(say("also"), names)
+    _write(file, page)
+    return bool(found)
+
+
+def print_list(*, file: TextIO, lang: str) -> None:
+    """Print the ids and titles of all entries."""
+    page = _page(file, lang)
+    for kind in CATALOGUE.values():
+        page.line((kind.id, "bold"), ": ", Message(kind.title))
+    _write(file, page)
+
+
+def _entry(page: Page, kind: Kind, params: dict[str, str]) -> None:
+    page.line((kind.id, "bold"), ": ", Message(kind.title))
+    page.field(say("why"), kind.rationale(filled(kind.why, params)))
+    page.field(say("fix"), kind.mend(filled(kind.fix, params)), "bold")
+    page.code(say("docs"), [kind.link])
+
+
+def _page(file: TextIO, lang: str) -> Page:
+    return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(lang))
+
+
+def _write(file: TextIO, page: Page) -> None:
+    file.write(encodable(str(page), file.encoding))
+    file.flush()

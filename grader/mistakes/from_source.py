@@ -1,0 +1,172 @@
+"""Why a node does not start, stay or tick, as its source shows it; the symptom is known already.
+
+Each function is asked for one symptom and returns the mistake in the source behind it, or None:
+what only looks like a mistake is not looked for.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+
+from grader.mistakes.from_counter import constant
+from grader.mistakes.from_counter import wrong_start
+from grader.mistakes.from_counter import wrong_step
+from grader.mistakes.kind import Finding
+from grader.mistakes.node_source import calls_in
+from grader.mistakes.node_source import dotted
+from grader.mistakes.suspect import Suspect
+
+WAITS = ("input", "time.sleep", "sleep")
+EXITS = ("exit", "quit", "sys.exit", "os._exit")
+LONG = 100.0  # seconds; a longer period was meant to be milliseconds
+
+
+Look = Callable[[Suspect], Finding | None]
+
+
+def no_spin(suspect: Suspect) -> Finding | None:
+    """Look for why a program ends at once."""
+    source = suspect.source
+    found = _no_node(suspect)
+    if found is not None:
+        return found
+    spins = [(call, name.rpartition(".")[2]) for call, name in source.calls]
+    names = {name for _, name in spins}
+    if names & {"spin", "spin_until_future_complete"}:
+        return None
+    for call, name in spins:
+        if name == "spin_once":
+            return suspect.finding("spin_once", call.lineno)
+    for node in ast.walk(source.tree):
+        named = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(named, ast.Attribute) and named.attr == "spin":
+            return suspect.finding("spin_not_called", named.lineno)
+    return suspect.finding("spin_missing", source.main.lineno if source.main else None)
+
+
+def _no_node(suspect: Suspect) -> Finding | None:
+    source = suspect.source
+    if not source.uses_ros:
+        return suspect.finding("no_ros", 1)
+    made = source.makes_node() or any(n.endswith("create_node") for _, n in source.calls)
+    if source.node_class is not None and not made:
+        return suspect.finding("main_empty", source.main.lineno if source.main else None)
+    return None
+
+
+def no_node(suspect: Suspect) -> Finding | None:
+    """Look for why a program runs and makes no node."""
+    found = _no_node(suspect)
+    main, node_class = suspect.source.main, suspect.source.node_class
+    if found is not None or main is None:
+        return found
+    made = node_class.name if node_class else ""
+    for call, name in calls_in(main):
+        if name == made:
+            return None
+        if name in WAITS:
+            return suspect.finding("waits_first", call.lineno, name=f"{name}()")
+    return None
+
+
+def no_lines(suspect: Suspect) -> Finding | None:
+    """Look for why a node that spins says nothing."""
+    source = suspect.source
+    callback = source.callback
+    if not source.timers:
+        init = source.methods.get("__init__")
+        return suspect.finding("timer_missing", init.lineno if init else None)
+    timer = source.timers[0]
+    if callback is not None and all(t.function is callback for t in source.timers):
+        return suspect.finding("timer_in_callback", timer.line)
+    for call, name in source.calls:
+        if name.endswith(".cancel"):
+            return suspect.finding("timer_cancelled", call.lineno)
+    if timer.seconds is not None and timer.seconds >= LONG > suspect.period:
+        return suspect.finding("period_milliseconds", timer.line, written=f"{timer.seconds:g}")
+    logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
+    if timer.method and timer.method not in source.methods and logging:
+        params = {"name": timer.method}
+        return suspect.finding("timer_other_callback", timer.line, **params)
+    if callback is None:
+        return None
+    logs = source.logs(callback)
+    if not logs and not source.prints(callback):
+        return suspect.finding("log_missing", callback.lineno)
+    debug = [log for log in logs if dotted(log.func).endswith(".debug")]
+    return suspect.finding("debug_level", debug[0].lineno) if debug else None
+
+
+def twice(suspect: Suspect) -> Finding | None:
+    """Look for why two lines come at a time."""
+    source = suspect.source
+    if len(source.timers) > 1:
+        return suspect.finding("two_timers", source.timers[1].line)
+    callback = source.callback
+    if callback is None:
+        return None
+    logs = [*source.logs(callback), *source.prints(callback)]
+    if len(logs) > 1:
+        line = sorted(call.lineno for call in logs)[1]
+        return suspect.finding("logs_twice", line)
+    return None
+
+
+def printed(suspect: Suspect) -> Finding | None:
+    """Look for the print that writes the line."""
+    callback = suspect.source.callback
+    part = callback if callback is not None else suspect.source.tree
+    prints = suspect.source.prints(part) or suspect.source.prints(suspect.source.tree)
+    return suspect.finding("print_used", prints[0].lineno) if prints else None
+
+
+def by_hand(suspect: Suspect) -> Finding | None:
+    """Look for what calls the callback before its time."""
+    source = suspect.source
+    for timer in source.timers:
+        if timer.called:
+            return suspect.finding("callback_called", timer.line)
+    init = source.methods.get("__init__")
+    names = {f"self.{timer.method}" for timer in source.timers if timer.method}
+    for call, name in calls_in(init) if init else ():
+        if name in names:
+            return suspect.finding("called_by_hand", call.lineno)
+    return None
+
+
+def stops(suspect: Suspect) -> Finding | None:
+    """Look for what ends the ticks."""
+    for call, name in suspect.source.calls:
+        if name.endswith((".cancel", ".destroy_timer")):
+            return suspect.finding("timer_cancelled", call.lineno)
+    return None
+
+
+def ends(suspect: Suspect) -> Finding | None:
+    """Look for what ends the node, where no exception does."""
+    for node in ast.walk(suspect.source.tree):
+        raised = dotted(node.exc) if isinstance(node, ast.Raise) and node.exc else ""
+        called = dotted(node.func) if isinstance(node, ast.Call) else ""
+        if raised.startswith(("SystemExit", "KeyboardInterrupt")) or called in EXITS:
+            name = called or raised
+            return suspect.finding("exits", getattr(node, "lineno", None), name=name)
+    for call, name in suspect.source.calls:
+        if name.rpartition(".")[2] == "spin_once":
+            return suspect.finding("spin_once", call.lineno)
+    return None
+
+
+LOOKS: dict[str, Look] = {
+    "run.exits_at_once": no_spin,
+    "run.no_node": no_node,
+    "run.no_lines": no_lines,
+    "run.constant_counter": constant,
+    "run.wrong_step": wrong_step,
+    "run.wrong_start": wrong_start,
+    "run.twice": twice,
+    "run.print_not_logger": printed,
+    "run.by_hand": by_hand,
+    "run.stops": stops,
+    "run.ended_early": ends,
+}

@@ -1,0 +1,238 @@
+"""Which mistake an exception in the student's code is: the error, its line, and the source."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+
+from grader.mistakes.kind import Finding
+from grader.mistakes.likeness import nearest
+from grader.mistakes.node_source import LOG_METHODS
+from grader.mistakes.node_source import dotted
+from grader.mistakes.raised import Raised
+
+MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
+NODE_METHODS = (
+    *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
+    *("create_subscription", "create_service", "create_client", "declare_parameter"),
+    *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
+)
+RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_node", "logging")
+IMPORTS = {"Node": "from rclpy.node import Node", "rclpy": "import rclpy"}
+
+
+Recognise = Callable[[Raised, re.Match[str]], Finding | None]
+
+
+def recognise(raised: Raised) -> Finding | None:
+    """Return the mistake behind an exception, or None if it is none that is known."""
+    for pattern, function in RECOGNISERS:
+        match = re.search(pattern, raised.error)
+        found = function(raised, match) if match else None
+        if found is not None:
+            return found
+    return None
+
+
+def _always(slug: str) -> Recognise:
+    def found(raised: Raised, match: re.Match[str]) -> Finding:
+        return raised.finding(slug, params=match.groupdict(""))
+
+    return found
+
+
+def _private(raised: Raised, match: re.Match[str]) -> Finding | None:
+    call = raised.source.super_init
+    if match["type"] not in {found.name for found in raised.source.classes}:
+        return None
+    if call is None:
+        return raised.finding("super_missing")
+    return raised.finding("super_late", line=call.lineno)
+
+
+def _no_name(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    methods = raised.source.methods
+    near = nearest("__init__", methods, cutoff=0.7)
+    if "__init__" not in methods and near:
+        return raised.finding("init_underscores", line=methods[near].lineno, name=near)
+    return raised.finding("super_without_name")
+
+
+def _not_a_node(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    found = raised.source.node_class
+    name, line = (found.name, found.lineno) if found else ("MyFirstNode", None)
+    return raised.finding("not_a_node", line=line, name=name)
+
+
+def _not_initialized(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    inits = [c.lineno for c, n in raised.source.calls if n.rpartition(".")[2] == "init"]
+    return raised.finding("init_late" if inits else "init_missing")
+
+
+def _no_module(raised: Raised, match: re.Match[str]) -> Finding:
+    name = match["name"]
+    close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
+    return raised.finding("import_misspelt", name=name, close=close)
+
+
+def _no_name_in_module(raised: Raised, match: re.Match[str]) -> Finding:
+    close = nearest(match["name"], (*RCLPY, "Node", "String", "Twist"), cutoff=0.75)
+    return raised.finding("import_name", name=match["name"], close=close, module=match["module"])
+
+
+def _undefined(raised: Raised, match: re.Match[str]) -> Finding:
+    name, source = match["name"], raised.source
+    if name == "self":
+        return raised.finding("timer_at_class_level")
+    if name in IMPORTS and name not in source.imports:
+        return raised.finding("import_missing", name=name, statement=IMPORTS[name])
+    if name in source.methods:
+        return raised.finding("callback_without_self_dot", name=name)
+    close = nearest(name, {*source.names, *dir(builtins), *IMPORTS}, cutoff=0.7)
+    return raised.finding("name_unknown", name=name, close=close)
+
+
+def _no_main(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    close = nearest("main", raised.source.functions)
+    if close:
+        line = raised.source.functions[close].lineno
+        return raised.finding("main_misspelt", line=line, name=close, close="main")
+    return raised.finding("main_missing")
+
+
+def _main_wants(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    main = raised.source.main
+    return raised.finding("main_wants_args", line=main.lineno if main else None)
+
+
+def _attribute(raised: Raised, match: re.Match[str]) -> Finding | None:
+    kind, name, source = match["type"], match["name"], raised.source
+    if kind not in {found.name for found in source.classes}:
+        return None
+    line = source.line(raised.line)
+    if line and f"self.{name}" not in line:
+        return None  # asked of the node from outside: its own methods are what is meant
+    for timer in source.timers:
+        if timer.method == name:
+            return _callback(raised, name)
+    close = nearest(name, source.attributes, cutoff=0.75)
+    if not close:
+        near = nearest(name, {*NODE_METHODS, *source.methods}, cutoff=0.75)
+        if near:
+            return raised.finding("method_misspelt", name=name, close=near)
+    return raised.finding("attribute_not_set", name=name, close=close)
+
+
+def _callback(raised: Raised, name: str) -> Finding:
+    source = raised.source
+    init = source.methods.get("__init__")
+    for node in ast.walk(init) if init else ():
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            return raised.finding("callback_in_init", line=node.lineno, name=name)
+    close = nearest(name, [m for m in source.methods if m != "__init__"])
+    found = raised.finding("callback_misspelt", name=name, close=close)
+    return replace(found, words={**found.words, "callback": close or name})
+
+
+def _other_attribute(raised: Raised, match: re.Match[str]) -> Finding:
+    name = match["name"]
+    known = RCLPY if match["type"] == "rclpy" else (*NODE_METHODS, *LOG_METHODS)
+    close = nearest(name, known, cutoff=0.7)
+    slug = "method_misspelt" if close else "attribute_unknown"
+    return raised.finding(slug, name=name, close=close)
+
+
+def _called(raised: Raised, match: re.Match[str]) -> Finding | None:
+    del match
+    called = [timer for timer in raised.source.timers if timer.called]
+    return raised.finding("callback_called", line=called[0].line) if called else None
+
+
+def _swapped(raised: Raised, match: re.Match[str]) -> Finding | None:
+    del match
+    return raised.finding("timer_arguments_swapped") if raised.source.timers else None
+
+
+def _no_self(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    found = raised.source.callback
+    return raised.finding("callback_no_self", line=found.lineno if found else None)
+
+
+def _parameter(raised: Raised, match: re.Match[str]) -> Finding | None:
+    method = raised.source.methods.get(match["function"])
+    if method is None or method is not raised.source.callback:
+        return None
+    return raised.finding("callback_parameter", line=method.lineno, name=match["name"])
+
+
+def _concatenated(raised: Raised, match: re.Match[str]) -> Finding:
+    del match
+    name = "self.counter_"
+    for node in ast.walk(raised.source.tree):
+        if isinstance(node, ast.BinOp) and raised.line in range(
+            node.lineno, (node.end_lineno or node.lineno) + 1
+        ):
+            name = dotted(node.right) or dotted(node.left) or name
+    return raised.finding("str_plus_int", name=name)
+
+
+def _logger_arguments(raised: Raised, match: re.Match[str]) -> Finding | None:
+    del match
+    logs = [call for call in raised.source.logs(raised.source.tree) if len(call.args) > 1]
+    return raised.finding("logger_arguments", line=logs[0].lineno) if logs else None
+
+
+def _spun_class(raised: Raised, match: re.Match[str]) -> Finding | None:
+    del match
+    names = {found.name for found in raised.source.classes}
+    for call, name in raised.source.calls:
+        given = dotted(call.args[0]) if call.args else ""
+        if name.rpartition(".")[2] == "spin" and given in names:
+            return raised.finding("spin_of_class", line=call.lineno, name=given)
+    return None
+
+
+ATTRIBUTE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute "
+RECOGNISERS: tuple[tuple[str, Recognise], ...] = (
+    (r"\w", _spun_class),
+    (r"InvalidNodeNameException", _always("name_invalid")),
+    (ATTRIBUTE + r"'_\w{1,120}'", _private),
+    (r"Node\.__init__\(\) missing 1 required positional argument: 'node_name'", _no_name),
+    (r"object\.__init__\(\) takes exactly one argument", _not_a_node),
+    (r"NotInitializedException", _not_initialized),
+    (r"cannot import name 'Node' from 'rclpy'", _always("import_node")),
+    (r"No module named '(?P<name>[\w.]{1,200})'", _no_module),
+    (r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'",
+     _no_name_in_module),
+    (r"NameError: (?:free variable|name) '(?P<name>\w{1,120})'", _undefined),
+    (r"AttributeError: module '[\w.]{1,200}' has no attribute 'main'", _no_main),
+    (r"main\(\) missing \d{1,3} required positional", _main_wants),
+    (r"context manager protocol|AttributeError: __enter__", _always("context_manager")),
+    (r"'(?:function|method)' object has no attribute '(?:info|debug|warn|warning|error|fatal)'",
+     _always("logger_not_called")),
+    (ATTRIBUTE + r"'(?P<name>\w{1,120})'", _attribute),
+    (r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
+     r"attribute '(?P<name>\w{1,120})'", _other_attribute),
+    (r"'NoneType' object is not callable|'arg_name'|is not a callable object", _called),
+    (r"float\(\) argument must be|must be real number|not '?(?:method|function)'?", _swapped),
+    (r"could not convert string to float: (?P<text>'[^'\n]{0,60}')", _always("period_text")),
+    (r"create_timer\(\) missing", _always("timer_argument_missing")),
+    (r"takes 0 positional arguments but 1 was given|invalid method signature", _no_self),
+    (r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: "
+     r"'(?P<name>\w{1,120})'", _parameter),
+    (r"can only concatenate str|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
+     _concatenated),
+    (r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'", _always("counter_local")),
+    (r"takes (?:from \d{1,3} to )?\d{1,3} positional arguments? but \d{1,3} were given",
+     _logger_arguments),
+)  # fmt: skip

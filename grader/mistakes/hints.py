@@ -1,0 +1,41 @@
+"""What in a node's source could be better and keeps nothing from working."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.locale.message import Message
+from grader.locale.message import joined
+from grader.locale.message import say
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.likeness import compared
+from grader.mistakes.likeness import nearest
+from grader.mistakes.node_source import NodeSource
+from grader.mistakes.node_source import dotted
+
+GUARD = "__main__"
+
+
+def hints(source: NodeSource) -> list[str]:
+    """Return advice on a file that Python can read."""
+    found: list[str] = []
+    for node in ast.walk(source.tree):
+        if isinstance(node, ast.Compare) and dotted(node.left) == "__name__":
+            found += _guard(node)
+        elif isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.shutdown":
+            found.append(_advice("node.shutdown_not_called", node.lineno))
+    return found
+
+
+def _guard(node: ast.Compare) -> list[str]:
+    (other, *_) = node.comparators
+    text = other.value if isinstance(other, ast.Constant) else None
+    if not isinstance(text, str) or text == GUARD or not nearest(GUARD, [text], cutoff=0.5):
+        return []
+    return [joined(_advice("node.guard_misspelt", node.lineno), compared(text, GUARD), by="\n")]
+
+
+def _advice(mistake: str, line: int) -> Message:
+    kind = CATALOGUE[mistake]
+    title = say("line {line}: {code}", line=line, code=Message(kind.title))
+    return joined(joined(title, kind.rationale({}), by=". "), kind.mend({}))

@@ -1,0 +1,90 @@
+"""What an entry of the catalogue is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field
+from functools import cached_property
+from typing import Literal
+
+from grader.locale.message import Message
+from grader.locale.message import Value
+from grader.report.model import Mistake
+from grader.report.model import Where
+
+Stage = Literal[
+    "terminal",
+    "hand-in",
+    "manifest",
+    "marker",
+    "setup.cfg",
+    "entry point",
+    "file",
+    "exec bit",
+    "first line",
+    "build",
+    "start",
+    "class",
+    "timer",
+    "callback",
+    "counter",
+    "text",
+    "logger",
+    "spin",
+    "shutdown",
+    "limits",
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kind:
+    """One kind of mistake. Its texts are templates of `grader.locale.message`.
+
+    `why` says why ROS behaves so, `fix` the change that mends it; `whys` and `fixes` hold others,
+    by the name of a variant. `link` leads to the documentation. `seen` is a pattern by which the
+    mistake is known in what a terminal shows (its named groups become parameters).
+    """
+
+    id: str
+    stage: Stage
+    title: str
+    why: str
+    fix: str
+    link: str
+    whys: Mapping[str, str] = field(default_factory=dict)
+    fixes: Mapping[str, str] = field(default_factory=dict)
+    seen: str = ""
+
+    @cached_property
+    def pattern(self) -> re.Pattern[str] | None:
+        """The pattern of `seen`; None if a terminal does not show this mistake."""
+        return re.compile(self.seen, re.MULTILINE) if self.seen else None
+
+    def rationale(self, values: Mapping[str, Value], variant: str = "") -> Message:
+        """Return why it matters. KeyError if a placeholder has no value."""
+        return Message(self.whys.get(variant, self.why), values)
+
+    def mend(self, values: Mapping[str, Value], variant: str = "") -> Message:
+        """Return what to do. KeyError if a placeholder has no value."""
+        return Message(self.fixes.get(variant, self.fix), values)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """A mistake that was recognised: its kind, what fills the texts, and the place.
+
+    `params` go into the report and are the same in every language; `words` fill the texts only.
+    """
+
+    kind: str
+    params: Mapping[str, str | int | float] = field(default_factory=dict)
+    words: Mapping[str, Value] = field(default_factory=dict)
+    variant: str = ""
+    where: Where | None = None
+
+    @property
+    def mistake(self) -> Mistake:
+        """The mistake as the report has it."""
+        return Mistake(id=self.kind, params=dict(self.params))

@@ -1,0 +1,28 @@
+"""Pages of the ROS 2 documentation (and what it rests on) that entries of the catalogue lead to."""
+
+from __future__ import annotations
+
+DOCS = "https://docs.ros.org/en/jazzy"
+_CLIENT = f"{DOCS}/Tutorials/Beginner-Client-Libraries"
+_CLI = f"{DOCS}/Tutorials/Beginner-CLI-Tools"
+
+PACKAGE = f"{_CLIENT}/Creating-Your-First-ROS2-Package.html"
+WORKSPACE = f"{_CLIENT}/Creating-A-Workspace/Creating-A-Workspace.html"
+COLCON = f"{_CLIENT}/Colcon-Tutorial.html"
+FIRST_NODE = f"{_CLIENT}/Writing-A-Simple-Py-Publisher-And-Subscriber.html"
+ENVIRONMENT = f"{_CLI}/Configuring-ROS2-Environment.html"
+NODES = f"{_CLI}/Understanding-ROS2-Nodes/Understanding-ROS2-Nodes.html"
+LOGGING = f"{DOCS}/Tutorials/Demos/Logging-and-logger-configuration.html"
+EXECUTORS = f"{DOCS}/Concepts/Intermediate/About-Executors.html"
+DEVELOPING = f"{DOCS}/How-To-Guides/Developing-a-ROS-2-Package.html"
+RCLPY = f"{DOCS}/p/rclpy/"
+NAMES = "https://design.ros2.org/articles/topic_and_service_names.html"
+PACKAGE_NAMES = "https://www.ros.org/reps/rep-0144.html"
+MANIFEST = "https://www.ros.org/reps/rep-0149.html"
+ENTRY_POINTS = "https://setuptools.pypa.io/en/latest/userguide/entry_point.html"
+SETUP_CFG = "https://setuptools.pypa.io/en/latest/userguide/declarative_config.html"
+COLCON_IGNORE = "https://colcon.readthedocs.io/en/released/user/configuration.html"
+PYTHON_ERRORS = "https://docs.python.org/3/tutorial/errors.html"
+PYTHON_CLASSES = "https://docs.python.org/3/tutorial/classes.html"
+PYTHON_STRINGS = "https://docs.python.org/3/tutorial/inputoutput.html"
+PYTHON_SYNTAX = "https://docs.python.org/3/tutorial/errors.html#syntax-errors"

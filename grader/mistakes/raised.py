@@ -1,0 +1,61 @@
+"""An exception that ended a node, and the source that it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from grader.mistakes.kind import Finding
+from grader.mistakes.node_source import NodeSource
+from grader.report.model import Where
+
+
+@dataclass(frozen=True)
+class Raised:
+    """An exception: its last line, where in the student's code it came from, and that source.
+
+    `file` is the node's own file, the place of a mistake that no traceback leads to.
+    """
+
+    error: str
+    file: str
+    where: Where | None
+    source: NodeSource
+    node_name: str
+    period: float
+
+    @property
+    def line(self) -> int | None:
+        """The line of the student's file."""
+        return self.where.line if self.where else None
+
+    def finding(
+        self,
+        slug: str,
+        *,
+        line: int | None = None,
+        params: Mapping[str, str] | None = None,
+        **more: str,
+    ) -> Finding:
+        """Return a mistake of the stage `node`, on a line of the node's file."""
+        given = {**(params or {}), **more}
+        words = {
+            "node_name": self.node_name,
+            "period": repr(self.period),
+            "callback": self.callback,
+            "close": "",
+            "name": "",
+            **given,
+        }
+        where = self.where or Where(file=self.file, line=line)
+        if line is not None:
+            where = Where(file=self.file, line=line)
+        variant = "close" if words["close"] else ""
+        return Finding(kind=f"node.{slug}", params=given, words=words, variant=variant, where=where)
+
+    @property
+    def callback(self) -> str:
+        """The name of the callback, as the source has it."""
+        found = self.source.callback
+        named = [timer.method for timer in self.source.timers if timer.method]
+        return found.name if found else (named or ["timer_callback"])[0]

@@ -1,0 +1,57 @@
+"""Mistakes recognised in what a terminal showed."""
+
+from __future__ import annotations
+
+import string
+from dataclasses import dataclass
+from itertools import islice
+
+from grader.locale.message import Value
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.kind import Kind
+
+MOST = 200_000  # characters of a text that are looked at: its end tells the most
+MOST_OF_A_KIND = 20  # places at which one kind of mistake is looked for
+LONGEST = 2_000  # characters of a line that are looked at
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A mistake that a text shows, and the line that shows it."""
+
+    kind: Kind
+    params: dict[str, str]
+    line: str
+
+
+def seen_in(text: str) -> list[Seen]:
+    """Return the mistakes that a text shows, root causes first.
+
+    Where several entries know the same words, the first of the catalogue has them.
+    """
+    text = "\n".join(line[:LONGEST] for line in text[-MOST:].splitlines())
+    taken: list[tuple[int, int]] = []
+    found: list[Seen] = []
+    for kind in CATALOGUE.values():
+        matches = kind.pattern.finditer(text) if kind.pattern is not None else iter(())
+        for match in islice(matches, MOST_OF_A_KIND):
+            start, end = match.span()
+            if any(start < other_end and other_start < end for other_start, other_end in taken):
+                continue
+            taken.append((start, end))
+            known = {name: value for name, value in match.groupdict("").items() if value}
+            if all(seen.kind is not kind or seen.params != known for seen in found):
+                found.append(Seen(kind, known, _line_around(text, start, end)))
+    return found
+
+
+def _line_around(text: str, start: int, end: int) -> str:
+    before = text.rfind("\n", 0, start + 1) + 1
+    after = text.find("\n", max(end - 1, before))
+    return text[before : after if after >= 0 else len(text)].strip()
+
+
+def filled(template: str, params: dict[str, str]) -> dict[str, Value]:
+    """Return a value for every placeholder of a template: what is not known is its name in <>."""
+    names = [name for _, name, _, _ in string.Formatter().parse(template) if name]
+    return {name: params.get(name) or f"<{name}>" for name in names}

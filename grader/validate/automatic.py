@@ -1,0 +1,55 @@
+"""Mutants that are made from the solution and the assignment alone, always the same ones."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from collections.abc import Iterator
+
+from grader.assignment import Assignment
+from grader.validate import in_files
+from grader.validate import in_setup
+from grader.validate import in_source
+from grader.validate.mutant import Mutant
+from grader.validate.spots import Code
+from grader.validate.tree import Edit
+from grader.validate.tree import Tree
+from grader.validate.tree import Write
+
+SETUP = "setup.py"
+
+
+def generate(original: Tree, assignment: Assignment) -> Iterator[Mutant]:
+    """Yield the automatic mutants of a solution; names are unique, the order is always the same.
+
+    A change of the node after which Python cannot read it is a mutant too: it must fail at
+    `source.node_file`.
+    """
+    used: Counter[str] = Counter()
+    for name, edits, families in _made(original, assignment):
+        used[name] += 1
+        unique = name if used[name] == 1 else f"{name} #{used[name]}"
+        yield Mutant(name=unique, edits=edits, families=families)
+
+
+def _made(
+    original: Tree, assignment: Assignment
+) -> Iterator[tuple[str, tuple[Edit, ...], tuple[str, ...]]]:
+    yield from in_files.mutants_of(original, assignment)
+    setup = Code(original[SETUP].data.decode())
+    for name, text, families in in_setup.mutants_of(setup, assignment):
+        yield name, (Write(SETUP, text.encode()),), families
+    node = f"{assignment.package}/{assignment.node_file}"
+    for name, text, families in in_source.mutants_of(
+        Code(original[node].data.decode()), assignment
+    ):
+        where = families if _parses(text) else ("source.node_file",)
+        yield name, (Write(node, text.encode()),), where
+
+
+def _parses(text: str) -> bool:
+    try:
+        compile(ast.parse(text), "<mutant>", "exec")
+    except (SyntaxError, ValueError):
+        return False
+    return True

@@ -1,0 +1,194 @@
+"""What validating an assignment found: mutants against checks, as a table and as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from grader.validate.marking import Marked
+from grader.validate.mutant import Mutant
+
+SIGNS = {"passed": "·", "failed": "x", "skipped": "-", "inconclusive": "?", "error": "!"}
+MOST_NAME = 52  # characters of a mutant's name in the table
+
+
+@dataclass(frozen=True)
+class Row:
+    """A mutant, and what marking it said."""
+
+    mutant: Mutant
+    marked: Marked
+
+    @property
+    def hit(self) -> bool:
+        """Whether a check failed that had to."""
+        return any(self.mutant.is_hit_by(check) for check in self.marked.failed)
+
+    @property
+    def survived(self) -> bool:
+        """Whether nothing failed."""
+        return not self.marked.failed and not self.marked.unknown
+
+    @property
+    def mistake_first(self) -> bool:
+        """Whether the mistake that had to be named first was."""
+        return not self.mutant.mistake or self.marked.first_mistake == self.mutant.mistake
+
+    @property
+    def fault(self) -> str:
+        """What is not as expected ("" if all is)."""
+        if self.mutant.equivalent:
+            return "" if self.survived else "explained as right, and failed all the same"
+        if self.marked.unknown:
+            return f"undecided: {', '.join(self.marked.unknown)}"
+        if self.survived:
+            return "survived"
+        if not self.hit:
+            return f"failed elsewhere than at {' or '.join(self.mutant.families)}"
+        if not self.mistake_first:
+            return f"named {self.marked.first_mistake}, not {self.mutant.mistake}"
+        return ""
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """All rows, and how the solution and the starter were marked (None: not marked)."""
+
+    assignment: str
+    checks: tuple[str, ...]
+    max_score: float
+    rows: tuple[Row, ...]
+    left_out: int
+    solution: Marked | None = None
+    starter: Marked | None = None
+    seconds: float = 0
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Everything that is not as expected, one line each."""
+        found = []
+        if self.solution and (self.solution.failed or self.solution.unknown):
+            wrong = ", ".join((*self.solution.failed, *self.solution.unknown))
+            found.append(f"the solution does not get full marks: {wrong}")
+        if self.starter and not self.starter.failed:
+            found.append("the starter gets full marks")
+        found += [f"{row.mutant.name}: {row.fault}" for row in self.rows if row.fault]
+        return tuple(found)
+
+    @property
+    def never_failed(self) -> tuple[str, ...]:
+        """The checks that no mutant fails; none where not every mutant was marked."""
+        if self.left_out:
+            return ()
+        failed = {check for row in self.rows for check in row.marked.failed}
+        return tuple(check for check in self.checks if check not in failed)
+
+    def figures(self) -> dict[str, int]:
+        """Return the counts of the last lines of the table."""
+        wrong = [row for row in self.rows if not row.mutant.equivalent]
+        named = [row for row in wrong if row.mutant.mistake]
+        return {
+            "mutants": len(self.rows),
+            "named": len(named),
+            "automatic": len(self.rows) - len(named),
+            "equivalent": len(self.rows) - len(wrong),
+            "failed_where_they_must": sum(row.hit for row in wrong),
+            "that_must_fail": len(wrong),
+            "mistake_named_first": sum(row.hit and row.mistake_first for row in named),
+            "left_out": self.left_out,
+        }
+
+
+def table(matrix: Matrix) -> str:
+    """Return the matrix as text: a row for each mutant, a column for each check."""
+    width = min(MOST_NAME, max((len(row.mutant.name) for row in matrix.rows), default=6))
+    checks = matrix.checks
+    lines = [f"{n:>3}  {check}" for n, check in enumerate(checks, 1)]
+    lines += [
+        "     x failed, X failed as it must, · passed, - skipped, ? undecided, empty: not asked",
+        "",
+    ]
+    heads = " ".join(f"{n:>2}" for n in range(1, len(checks) + 1))
+    lines.append(f"{'mutant':<{width}}  {heads}  first mistake")
+    for row in matrix.rows:
+        signs = " ".join(f"{_sign(row, check):>2}" for check in checks)
+        note = row.marked.first_mistake
+        if row.fault:
+            note = f"{note}  <-- {row.fault}".strip()
+        elif row.mutant.equivalent:
+            note = f"right: {row.mutant.equivalent}"
+        lines.append(f"{_cut(row.mutant.name, width):<{width}}  {signs}  {note}".rstrip())
+    return "\n".join(lines)
+
+
+def summary(matrix: Matrix) -> str:
+    """Return what it comes to, with everything that is not as expected."""
+    figures = matrix.figures()
+    lines = []
+    for title, marked in (("solution", matrix.solution), ("starter", matrix.starter)):
+        if marked:
+            lines.append(f"{title:<24}{marked.score:g} of {matrix.max_score:g}")
+    share = f"{figures['failed_where_they_must']} of {figures['that_must_fail']}"
+    mistakes = f"{figures['mistake_named_first']} of {figures['named']}"
+    lines += [
+        f"{'mutants':<24}{figures['mutants']} ({figures['named']} with a mistake to be named)",
+        f"{'failed where they must':<24}{share}",
+        f"{'mistake named first':<24}{mistakes}",
+        f"{'right all the same':<24}{figures['equivalent']}, each explained",
+    ]
+    if matrix.left_out:
+        lines.append(f"{'not marked':<24}{matrix.left_out} (they have to be run)")
+    if matrix.never_failed:
+        lines.append(f"{'no mutant fails':<24}{', '.join(matrix.never_failed)}")
+    lines.append(f"{'time':<24}{matrix.seconds:.0f} s")
+    if matrix.faults:
+        lines += ["", f"Not as expected ({len(matrix.faults)}):"]
+        lines += [f"  {fault}" for fault in matrix.faults]
+    return "\n".join(lines)
+
+
+def as_json(matrix: Matrix) -> str:
+    """Return the matrix as JSON: `rows` in the table's order, times in seconds."""
+    content = {
+        "schema": 1,
+        "assignment": matrix.assignment,
+        "as_expected": not matrix.faults,
+        "figures": matrix.figures(),
+        "never_failed": matrix.never_failed,
+        "faults": matrix.faults,
+        "seconds": round(matrix.seconds, 3),
+        "rows": [_json_row(row) for row in matrix.rows],
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def ordered(rows: Sequence[Row], names: Sequence[str]) -> tuple[Row, ...]:
+    """Return rows in the order of their mutants' names."""
+    places = {name: n for n, name in enumerate(names)}
+    return tuple(sorted(rows, key=lambda row: places[row.mutant.name]))
+
+
+def _json_row(row: Row) -> dict[str, object]:
+    return {
+        "mutant": row.mutant.name,
+        "named": row.mutant.named,
+        "expected": {"checks": row.mutant.families, "mistake": row.mutant.mistake},
+        "equivalent": row.mutant.equivalent,
+        "status": dict(row.marked.status),
+        "mistakes": dict(row.marked.mistakes),
+        "ran": row.marked.ran,
+        "fault": row.fault,
+        "seconds": round(row.marked.seconds, 3),
+    }
+
+
+def _sign(row: Row, check: str) -> str:
+    status = row.marked.status.get(check)
+    if status is None:
+        return ""
+    return "X" if status == "failed" and row.mutant.is_hit_by(check) else SIGNS[status]
+
+
+def _cut(name: str, width: int) -> str:
+    return name if len(name) <= width else f"{name[: width - 1]}…"

@@ -1,0 +1,54 @@
+"""A mutant: the solution with one mistake in it, and what marking it must say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from grader.validate.tree import Edit
+from grader.validate.tree import Tree
+
+STATIC = ("package.", "source.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mutant:
+    """One mutant.
+
+    `families` begin the ids of the checks of which at least one must fail (a whole id: this one).
+    `mistake` is the one that must be named first ("": any). `equivalent` says why the mutant is
+    right all the same: then nothing may fail. `where` is its place in mutants.yaml, if it is there.
+    """
+
+    name: str
+    edits: tuple[Edit, ...]
+    families: tuple[str, ...]
+    mistake: str = ""
+    equivalent: str = ""
+    where: str = ""
+
+    @property
+    def named(self) -> bool:
+        """Whether a person wrote it down, with the mistake to be named."""
+        return bool(self.where)
+
+    @property
+    def may_be_static(self) -> bool:
+        """Whether looking at the files could be enough to decide it."""
+        return not self.equivalent and any(
+            family.startswith((*STATIC, "entry_point.mapping")) for family in self.families
+        )
+
+    def is_hit_by(self, check_id: str) -> bool:
+        """Whether the failure of this check is what was expected."""
+        return any(
+            check_id == family or (family.endswith(".") and check_id.startswith(family))
+            for family in self.families
+        )
+
+
+@dataclass(frozen=True)
+class Written:
+    """A mutant and the package that it is."""
+
+    mutant: Mutant
+    tree: Tree

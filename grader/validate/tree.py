@@ -1,0 +1,195 @@
+"""A package as values: what each path holds, and the edits that make a mutant of it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+SKIPPED = ("__pycache__", ".pyc")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A file: its bytes and permission bits; or a symbolic link to `link`."""
+
+    data: bytes
+    mode: int = 0o644
+    link: str = ""
+
+
+Tree = Mapping[str, Entry]
+
+
+class EditError(Exception):
+    """An edit that does not fit the package it is applied to."""
+
+
+@dataclass(frozen=True)
+class Replace:
+    """Replace a text that occurs exactly once in the file."""
+
+    path: str
+    old: str
+    new: str
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with the text replaced."""
+        entry = _there(tree, self.path)
+        if (found := entry.data.count(self.old.encode())) != 1:
+            raise EditError(f"{self.path} has the text {found} times, not once: {self.old!r}")
+        data = entry.data.replace(self.old.encode(), self.new.encode())
+        return {**tree, self.path: Entry(data, entry.mode)}
+
+
+@dataclass(frozen=True)
+class Write:
+    """Write a file; without a mode, one that is there keeps its own."""
+
+    path: str
+    data: bytes
+    mode: int | None = None
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with the file in it."""
+        old = tree.get(self.path, Entry(b""))
+        return {**tree, self.path: Entry(self.data, old.mode if self.mode is None else self.mode)}
+
+
+@dataclass(frozen=True)
+class Delete:
+    """Delete a file, or a folder with all that is in it."""
+
+    path: str
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree without it."""
+        gone = _below(tree, self.path)
+        return {path: entry for path, entry in tree.items() if path not in gone}
+
+
+@dataclass(frozen=True)
+class Copy:
+    """Copy a file or folder; `moved`: what is copied goes away."""
+
+    path: str
+    to: str
+    moved: bool = False
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with the copy."""
+        here = _below(tree, self.path)
+        if any(path == self.to or path.startswith(f"{self.to}/") for path in tree):
+            raise EditError(f"{self.to} is there already")
+        copies = {self.to + path[len(self.path) :]: tree[path] for path in here}
+        left = {path: e for path, e in tree.items() if not (self.moved and path in here)}
+        return {**left, **copies}
+
+
+@dataclass(frozen=True)
+class Chmod:
+    """Set the permission bits of a file."""
+
+    path: str
+    mode: int
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with the other mode."""
+        return {**tree, self.path: Entry(_there(tree, self.path).data, self.mode)}
+
+
+@dataclass(frozen=True)
+class Crlf:
+    """End every line of the file as Windows does."""
+
+    path: str
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with the other line ends."""
+        entry = _there(tree, self.path)
+        data = entry.data.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n")
+        return {**tree, self.path: Entry(data, entry.mode)}
+
+
+@dataclass(frozen=True)
+class Link:
+    """Make a symbolic link; a file that is there is replaced."""
+
+    path: str
+    to: str
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with the link."""
+        return {**tree, self.path: Entry(b"", 0o777, self.to)}
+
+
+@dataclass(frozen=True)
+class Nest:
+    """Move all that is there into a new folder below; later paths start above it."""
+
+    folder: str
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree, one folder deeper."""
+        return {f"{self.folder}/{path}": entry for path, entry in tree.items()}
+
+
+Edit = Replace | Write | Delete | Copy | Chmod | Crlf | Link | Nest
+
+
+def apply_all(edits: tuple[Edit, ...], tree: Tree) -> Tree:
+    """Apply edits one after the other. Raises EditError where one does not fit."""
+    for edit in edits:
+        tree = edit.apply(tree)
+    return tree
+
+
+def read_tree(folder: Path) -> Tree:
+    """Read a package from disk.
+
+    Scripts (files that begin with `#!`) are executable whatever the checkout says: some file
+    systems keep no permission bits.
+    """
+    tree = {}
+    for path in sorted(folder.rglob("*")):
+        if path.is_file() and not any(part.endswith(SKIPPED) for part in path.parts):
+            data = path.read_bytes()
+            mode = 0o755 if data.startswith(b"#!") else 0o644
+            tree[path.relative_to(folder).as_posix()] = Entry(data, mode)
+    return tree
+
+
+def write_tree(tree: Tree, folder: Path) -> None:
+    """Write a package to a new folder. Raises FileExistsError where it is taken."""
+    folder.mkdir(parents=True)
+    for name, entry in tree.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if entry.link:
+            path.symlink_to(entry.link)
+        else:
+            path.write_bytes(entry.data)
+            path.chmod(entry.mode)
+
+
+def digest(tree: Tree) -> str:
+    """Return a hash of what a package is: two mutants with the same one are the same."""
+    parts = [
+        f"{path}\0{entry.mode:o}\0{entry.link}\0{hashlib.sha256(entry.data).hexdigest()}"
+        for path, entry in sorted(tree.items())
+    ]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def _there(tree: Tree, path: str) -> Entry:
+    if path not in tree:
+        raise EditError(f"there is no file {path}")
+    return tree[path]
+
+
+def _below(tree: Tree, path: str) -> set[str]:
+    found = {name for name in tree if name == path or name.startswith(f"{path}/")}
+    if not found:
+        raise EditError(f"there is no file or folder {path}")
+    return found

@@ -1,0 +1,47 @@
+"""What the tests of mends stand on: packages of the corpus, mended in memory and by real tools."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+from grader.fix.files import Files
+from grader.fix.plan import Plan
+from grader.fix.plan import mend_files
+from grader.submission import Submission
+from grader.submission import take_in
+from tests.corpus.build import write
+from tests.corpus.model import Edit
+from tests.corpus.model import Package
+from tests.static_bench import ASSIGNMENT
+
+NODE = f"{ASSIGNMENT.package}/{ASSIGNMENT.node_file}"
+TOOLS = (("git", "apply", "-"), ("patch", "-p1", "--binary", "--no-backup-if-mismatch"))
+
+
+def taken(path: Path) -> Submission:
+    return take_in(path, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+
+
+def edited(folder: Path, *edits: Edit, name: str = "edited") -> Path:
+    """Write the solution with these edits."""
+    return write(Package(name=name, edits=edits), folder)
+
+
+def plan_of(path: Path) -> Plan:
+    """Return what the files alone have mended."""
+    return mend_files(taken(path), ASSIGNMENT)
+
+
+def contents(files: Files) -> dict[str, bytes]:
+    return {path: f.data for path, f in files.by_path.items() if f.kind == "file"}
+
+
+def with_tool(tool: tuple[str, ...], patch: bytes, root: Path) -> Path:
+    """Apply a patch to a copy of a package with one of the tools, and return the copy."""
+    copy = root.with_name(f"{root.name}.{tool[0]}")
+    shutil.copytree(root, copy, symlinks=True)
+    done = subprocess.run(tool, cwd=copy, input=patch, capture_output=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return copy

@@ -1,0 +1,192 @@
+"""The contract of `grader fix`: what it prints, what it writes, its exit statuses."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import zipfile
+from pathlib import Path
+
+import pexpect
+import pytest
+
+from tests import stage
+from tests.corpus.model import INNER
+from tests.corpus.model import MANIFEST
+from tests.corpus.model import MARKER
+from tests.corpus.model import NODE
+from tests.corpus.model import SETUP
+from tests.corpus.model import Chmod
+from tests.corpus.model import Delete
+from tests.corpus.model import Raw
+from tests.corpus.model import Replace
+from tests.fix.bench import TOOLS
+from tests.fix.bench import edited
+from tests.fix.bench import plan_of
+from tests.fix.bench import with_tool
+from tests.fix.test_disk import tree
+
+NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
+EMPTY = Raw(NODE, b"")
+
+
+def test_a_dry_run_is_the_default_and_prints_what_apply_writes(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME, Delete(MARKER))
+    before = tree(tmp_path)
+    done = stage.run(stage.grader("fix", "--no-run", root))
+    assert done.returncode == 0, done.stderr
+    assert tree(tmp_path) == before
+    assert stage.run(stage.grader("fix", "--dry-run", "--no-run", root)).stdout == done.stdout
+    copy = with_tool(TOOLS[0], done.stdout.encode(), root)
+    assert plan_of(copy).patch == b""
+    assert "mends  package.manifest" in done.stderr
+    assert "--apply" in done.stderr
+
+
+def test_apply_writes_and_says_where_the_old_files_are(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    assert done.returncode == 0, done.stderr
+    assert f"{MANIFEST}.~1~" in done.stderr
+    assert (root / f"{MANIFEST}.~1~").is_file()
+    again = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    assert (again.returncode, again.stdout) == (0, "")
+    assert "Nothing is wrong" in again.stderr
+
+
+def test_what_cannot_be_mended_is_named_and_the_status_is_1(tmp_path: Path) -> None:
+    root = edited(tmp_path, EMPTY, NAME)
+    done = stage.run(stage.grader("fix", "--apply", root))
+    assert done.returncode == 1
+    assert "left    source.node_file: the file is empty" in done.stderr
+    assert "was not run" in done.stderr
+    assert plan_of(root).new.data(MANIFEST) == (root / MANIFEST).read_bytes()
+
+
+def test_one_check_alone_can_be_mended(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME, Delete(MARKER), Chmod(NODE, 0o644))
+    done = stage.run(stage.grader("fix", "--apply", "--check", "package.marker", root))
+    assert done.returncode == 0, done.stderr
+    assert (root / MARKER).is_file()
+    assert {finding.check for finding in plan_of(root).mended} == {
+        *("package.manifest", "source.exec_bit"),
+    }
+
+
+def test_a_setup_py_that_cannot_be_read_is_not_called_right(tmp_path: Path) -> None:
+    root = edited(tmp_path, Replace(SETUP, "setup(\n    name", "setup((\n    name"))
+    done = stage.run(stage.grader("fix", "--no-run", root))
+    assert done.returncode == 1
+    assert "left    entry_point.mapping: the files alone do not tell" in done.stderr
+    one = stage.run(stage.grader("fix", "--check", "entry_point.mapping", root))
+    assert one.returncode == 1
+
+
+def test_a_comma_that_setup_py_lacks_is_put_in_without_a_run(tmp_path: Path) -> None:
+    root = edited(tmp_path, Replace(SETUP, "version='0.0.0',", "version='0.0.0'"), NAME)
+    done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    assert done.returncode == 0, done.stderr
+    assert "version='0.0.0'," in (root / SETUP).read_text()
+
+
+def test_a_workspace_is_mended_where_its_package_lies(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    workspace = tmp_path / "ros2_ws"
+    shutil.copytree(root, workspace / "src" / INNER)
+    done = stage.run(stage.grader("fix", "--apply", "--no-run", workspace))
+    assert done.returncode == 0, done.stderr
+    assert (workspace / "src" / INNER / f"{MANIFEST}.~1~").is_file()
+
+
+def test_a_folder_without_a_package_is_told_and_is_1(tmp_path: Path) -> None:
+    done = stage.run(stage.grader("fix", tmp_path))
+    assert done.returncode == 1
+    assert "package.found" in done.stderr
+
+
+def _zip(root: Path) -> bytes:
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for path in root.rglob("*"):
+            archive.write(path, path.relative_to(root.parent))
+    return stream.getvalue()
+
+
+def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    archive = tmp_path / "handed_in.zip"
+    archive.write_bytes(_zip(root))
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    shutil.copy(archive, inside / "handed_in.zip")
+    before = tree(tmp_path)
+    for words, said in (
+        ([archive], "Unpack"),
+        ([inside], "Unpack"),
+        ([tmp_path / "nowhere"], "no folder"),
+        ([root, "--check", "package.marke"], "did you mean 'package.marker'?"),
+        ([root, "--assignment", "hello_tme"], "hello_time"),
+        ([root, "--distro", "jazzy,kilted"], "one distro"),
+        ([], "PATH"),
+    ):
+        done = stage.run(stage.grader("fix", "--apply", "--no-run", *words))
+        assert (done.returncode, done.stdout) == (2, ""), words
+        assert said in done.stderr
+        assert "Traceback" not in done.stderr
+    assert tree(tmp_path) == before
+
+
+def test_a_read_only_file_is_2_with_nothing_written(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME, Delete(MARKER))
+    (root / MANIFEST).chmod(0o444)
+    before = tree(root)
+    done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    assert done.returncode == 2
+    assert "read-only" in done.stderr
+    assert tree(root) == before
+
+
+def test_a_diff_is_coloured_on_a_terminal_and_plain_in_a_pipe(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    words = stage.grader("fix", "--no-run", root)
+    shown, status = pexpect.run(
+        " ".join(words), cwd=str(stage.ROOT), withexitstatus=True, env={"TERM": "xterm-256color"}
+    )
+    assert status == 0
+    assert b"\x1b[32m+  <name>my_robot_controller</name>" in shown
+    assert "\x1b" not in stage.run(words).stdout
+
+
+def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path) -> None:
+    root = edited(
+        tmp_path,
+        Replace(SETUP, "'test_node = my", "'test_nod = my"),
+        Replace(
+            SETUP,
+            "        'console_scripts'",
+            "        # \x1b]0;title\x07\n        'console_scripts'",
+        ),
+    )
+    words = " ".join(stage.grader("fix", "--no-run", root))
+    shown, status = pexpect.run(
+        words, cwd=str(stage.ROOT), withexitstatus=True, env={"TERM": "xterm-256color"}
+    )
+    assert status == 0
+    assert b"\x1b]0;" not in shown
+    assert b"\\x1b]0;title" in shown
+
+
+@pytest.mark.prefix
+def test_what_only_a_run_shows_is_mended_and_run_again(tmp_path: Path) -> None:
+    root = edited(
+        tmp_path,
+        Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"),
+        Replace(NODE, "'my_first_node'", "'my_node'"),
+        Delete(MARKER),
+    )
+    done = stage.run(stage.grader("fix", "--apply", root))
+    assert done.returncode == 0, done.stderr
+    assert "f'Hello time: {self.counter_}'" in (root / NODE).read_text()
+    assert "running the node" in done.stderr
+    again = stage.run(stage.grader("fix", root))
+    assert (again.returncode, again.stdout) == (0, ""), again.stderr

@@ -1,0 +1,86 @@
+"""The diff is one from which git and patch make the new bytes, whatever the bytes are."""
+
+from __future__ import annotations
+
+import subprocess
+import tempfile
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from grader.fix.diff import diff
+from grader.fix.files import Files
+from grader.intake.model import SourceFile
+from tests.fix.bench import TOOLS
+
+LINE = st.sampled_from([b"a", b"b", b"", b"\t x", b"c\r", b"f\xfcr", b"-- a", b"++ b", b"\\ No"])
+DATA = st.lists(LINE, max_size=30).map(b"\n".join)
+NAMES = ("plain.py", "with blank.py", "mit ä.py", 'quote".py', "back\\slash.py")
+
+
+def files(found: dict[str, bytes], mode: int = 0o644) -> Files:
+    return Files({path: SourceFile(path, "file", mode, data) for path, data in found.items()})
+
+
+def made_by(tool: tuple[str, ...], old: dict[str, bytes], patch: bytes) -> dict[str, bytes]:
+    """Return the files that a tool makes of the old ones."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        for path, found in old.items():
+            (root / path).write_bytes(found)
+        done = subprocess.run(tool, cwd=root, input=patch, capture_output=True, check=False)
+        assert done.returncode == 0, (patch, done.stdout + done.stderr)
+        return {path.name: path.read_bytes() for path in root.iterdir() if path.is_file()}
+
+
+@settings(max_examples=60, deadline=None)
+@given(old=DATA, new=DATA)
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
+def test_any_bytes_become_any_others(tool: tuple[str, ...], old: bytes, new: bytes) -> None:
+    patch = diff(files({"f": old}), files({"f": new}))
+    if old == new:
+        assert patch == b""
+    else:
+        assert made_by(tool, {"f": old}, patch) == {"f": new}
+
+
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
+@pytest.mark.parametrize("name", NAMES)
+def test_any_name_arrives(name: str, tool: tuple[str, ...]) -> None:
+    patch = diff(files({name: b"one\n"}), files({name: b"two\n"}))
+    assert made_by(tool, {name: b"one\n"}, patch) == {name: b"two\n"}
+
+
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("changed", [True, False])
+def test_a_file_moves_with_or_without_a_change(
+    name: str, tool: tuple[str, ...], changed: bool
+) -> None:
+    old = files({name: b"one\ntwo\n"})
+    new = old.with_move(name, "new name.py")
+    new = new.with_data("new name.py", b"one\n2\n") if changed else new
+    made = made_by(tool, {name: b"one\ntwo\n"}, diff(old, new))
+    assert made == {"new name.py": b"one\n2\n" if changed else b"one\ntwo\n"}
+
+
+def test_a_file_that_moves_there_and_back_is_no_change() -> None:
+    old = files({"a": b"1\n"})
+    assert diff(old, old.with_move("a", "b").with_move("b", "a")) == b""
+
+
+def test_modes_are_those_that_git_knows() -> None:
+    old = files({"a": b"1\n"}, mode=0o640)
+    assert diff(old, old.with_mode("a", 0o750)) == (
+        b"diff --git a/a b/a\nold mode 100644\nnew mode 100755\n"
+    )
+    assert diff(old, old.with_mode("a", 0o600)) == b""
+
+
+def test_a_long_file_in_which_every_line_changes_is_compared_at_once() -> None:
+    old, new = b"x\r\n" * 20_000, b"x\n" * 20_000
+    patch = diff(files({"f": old}), files({"f": new}))
+    assert made_by(TOOLS[0], {"f": old}, patch) == {"f": new}

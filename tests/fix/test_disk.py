@@ -1,0 +1,179 @@
+"""Writing to the student's own copy: all or nothing, with backups, never through a link."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from grader.errors import UsageError
+from grader.fix.disk import apply
+from grader.fix.files import Files
+from grader.fix.plan import Plan
+from tests.corpus.model import MANIFEST
+from tests.corpus.model import MARKER
+from tests.corpus.model import NODE
+from tests.corpus.model import SETUP
+from tests.corpus.model import Chmod
+from tests.corpus.model import Delete
+from tests.corpus.model import Rename
+from tests.corpus.model import Replace
+from tests.fix.bench import contents
+from tests.fix.bench import edited
+from tests.fix.bench import plan_of
+from tests.fix.bench import taken
+
+NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
+ENTRY = Replace(SETUP, "my_first_node:main", "my_frist_node:main")
+
+
+def tree(root: Path) -> dict[str, tuple[bytes, int]]:
+    """Return all that is in a folder, with modes."""
+    return {
+        str(path.relative_to(root)): (
+            str(path.readlink()).encode() if path.is_symlink() else path.read_bytes(),
+            path.lstat().st_mode,
+        )
+        for path in sorted(root.rglob("*"))
+        if not path.is_dir() or path.is_symlink()
+    }
+
+
+def test_the_package_is_then_as_planned_and_the_old_files_are_kept(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME, ENTRY, Delete(MARKER), Chmod(NODE, 0o640))
+    (root / MANIFEST).chmod(0o660)
+    before = tree(root)
+    plan = plan_of(root)
+    backups = apply(plan, root)
+    assert backups == [f"{MANIFEST}.~1~", f"{SETUP}.~1~"]
+    after = taken(root)
+    assert {f.path: f.data for f in after.files if f.kind == "file"} == contents(plan.new)
+    for path in (MANIFEST, SETUP):
+        assert (root / f"{path}.~1~").read_bytes() == before[path][0]
+        assert (root / path).stat().st_mode == before[path][1]
+    assert (root / NODE).stat().st_mode & 0o777 == 0o750
+    assert plan_of(root).patch == b""
+
+
+def test_a_second_backup_does_not_replace_the_first(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    (root / f"{MANIFEST}.~1~").write_text("an older one")
+    assert apply(plan_of(root), root) == [f"{MANIFEST}.~2~"]
+    assert (root / f"{MANIFEST}.~1~").read_text() == "an older one"
+
+
+def test_a_file_that_moves_is_not_left_behind(tmp_path: Path) -> None:
+    root = edited(tmp_path, Rename(NODE, "scripts/my_first_node.py"))
+    apply(plan_of(root), root)
+    assert not (root / "scripts/my_first_node.py").exists()
+    assert (root / NODE).stat().st_mode & 0o111
+
+
+def _read_only(root: Path) -> None:
+    (root / SETUP).chmod(0o444)
+
+
+def _changed(root: Path) -> None:
+    (root / SETUP).write_text("# somebody is typing\n")
+
+
+def _gone(root: Path) -> None:
+    (root / SETUP).unlink()
+
+
+def _link(root: Path) -> None:
+    (root / SETUP).rename(root.parent / "setup.py")
+    (root / SETUP).symlink_to(root.parent / "setup.py")
+
+
+def _marker_there(root: Path) -> None:
+    (root / MARKER).write_text("made meanwhile")
+
+
+def _resource_is_a_link(root: Path) -> None:
+    (root.parent / "elsewhere").mkdir(exist_ok=True)
+    (root / "resource").rmdir()
+    (root / "resource").symlink_to(root.parent / "elsewhere")
+
+
+@pytest.mark.parametrize(
+    ("meanwhile", "said"),
+    [
+        (_read_only, "read-only"),
+        (_changed, "changed meanwhile"),
+        (_gone, "No such file"),
+        (_link, "it is a link"),
+        (_marker_there, "was not there"),
+        (_resource_is_a_link, "link"),
+    ],
+)
+def test_what_may_not_be_written_is_refused_and_nothing_is(
+    meanwhile: Callable[[Path], None], said: str, tmp_path: Path
+) -> None:
+    root = edited(tmp_path, NAME, ENTRY, Delete(MARKER))
+    plan = plan_of(root)
+    meanwhile(root)
+    before = tree(tmp_path)
+    with pytest.raises(UsageError, match=said) as caught:
+        apply(plan, root)
+    assert "Nothing was written" in str(caught.value)
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    ("failure", "raised"),
+    [
+        (OSError(28, "No space left on device"), UsageError),
+        (KeyboardInterrupt(), KeyboardInterrupt),
+    ],
+    ids=["disk full", "Ctrl+C"],
+)
+def test_a_failure_half_way_brings_everything_back(
+    failure: BaseException,
+    raised: type[BaseException],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    edits = (NAME, ENTRY, Delete(MARKER), Rename(NODE, "scripts/my_first_node.py"))
+    root = edited(tmp_path, *edits)
+    plan = plan_of(root)
+    before = tree(root)
+    rename = os.rename
+
+    def full(old: str, new: str, **folders: int) -> None:
+        if new == SETUP:  # the last one, in the order of names
+            raise failure
+        rename(old, new, **folders)
+
+    monkeypatch.setattr(os, "rename", full)
+    with pytest.raises(raised):
+        apply(plan, root)
+    assert tree(root) == before
+
+
+def test_a_plan_with_a_path_out_of_the_package_is_refused(tmp_path: Path) -> None:
+    root = edited(tmp_path)
+    old = Files.of(taken(root))
+    for path in ("../outside.txt", "a/../../outside.txt", "/outside.txt"):
+        with pytest.raises(UsageError):
+            apply(Plan(old, old.with_data(path, b"x")), root)
+    assert not (tmp_path / "outside.txt").exists()
+
+
+def test_other_names_of_a_file_keep_its_old_bytes(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    os.link(root / MANIFEST, tmp_path / "another name")
+    old = (root / MANIFEST).read_bytes()
+    apply(plan_of(root), root)
+    assert (tmp_path / "another name").read_bytes() == old != (root / MANIFEST).read_bytes()
+
+
+def test_a_link_in_the_package_is_never_mended(tmp_path: Path) -> None:
+    root = edited(tmp_path, ENTRY)
+    (root / SETUP).rename(root / "real_setup.txt")
+    (root / SETUP).symlink_to("real_setup.txt")
+    plan = plan_of(root)
+    assert plan.patch == b""
+    assert [finding.check for finding in plan.left] == ["entry_point.mapping"]

@@ -1,0 +1,157 @@
+"""Mends of what only a build or a run shows, by the mistake that the real verdict names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.fix.case import Case
+from grader.fix.case import Finding
+from grader.fix.command import Wish
+from grader.fix.command import make_plan
+from grader.fix.files import Files
+from grader.fix.mends import BY_MISTAKE
+from grader.fix.mends import mends_for
+from grader.fix.plan import first_mend
+from grader.fix.plan import patch_for
+from grader.mistakes.catalogue import CATALOGUE
+from grader.ordering import make_orders
+from grader.report.model import CheckResult
+from grader.report.model import Mistake
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import SOLUTION
+from tests.corpus.build import write
+from tests.corpus.model import NODE
+from tests.corpus.model import SETUP
+from tests.corpus.model import Package
+from tests.corpus.model import Replace
+from tests.fix.bench import TOOLS
+from tests.fix.bench import edited
+from tests.fix.bench import taken
+from tests.fix.bench import with_tool
+from tests.static_bench import ASSIGNMENT
+
+# The one mend of these is the solution, letter by letter.
+BACK_TO_SOLUTION = (
+    *("setup_syntax_error", "setup_prints", "import_misspelt", "import_of_node"),
+    *("import_node_missing", "super_missing", "super_after_timer", "super_without_name"),
+    *("init_single_underscores", "not_a_node", "dash_in_node_name", "blank_in_node_name"),
+    *("rclpy_init_missing", "rclpy_init_after_node", "main_missing", "main_misspelt"),
+    *("main_wants_args", "callback_misspelt", "callback_without_self_dot"),
+    *("timer_arguments_swapped", "period_missing", "period_as_text", "create_timer_misspelt"),
+    *("spin_of_class", "spin_not_called", "spin_once", "str_missing", "callback_without_self"),
+    *("callback_wants_message", "get_logger_not_called", "logger_misspelt", "logger_with_comma"),
+    *("counter_not_set", "counter_without_self", "counter_local", "counter_of_other_name"),
+    *("timer_missing", "period_in_milliseconds", "logged_as_debug", "brackets_behind_callback"),
+    *("wrong_node_name", "node_name_capital", "text_capital", "text_other_capital"),
+    *("text_blank_missing", "text_two_blanks", "text_misspelt", "text_without_number"),
+    *("number_as_float", "counter_constant", "counter_plus_is_plus", "starts_at_one"),
+    *("adds_before_logging", "counts_by_two", "counts_down", "adds_twice", "logs_twice"),
+    *("two_timers", "printed", "logged_as_warning", "logged_as_error", "printed_and_logged"),
+    *("period_half", "period_two", "period_tenth", "period_slightly_long", "called_by_hand"),
+    *("counter_reset", "timer_cancelled", "text_extra", "setup_import_error"),
+)
+OTHERWISE = {
+    "init_missing": "my_robot_controller/__init__.py",
+    "spin_missing": "rclpy.spin(node)",
+    "f_prefix_missing": "f'Hello time: {self.counter_}'",
+    "number_padded": "f'Hello time: {self.counter_}'",
+}
+# A verdict takes seconds: `make test` has one of each kind, `test-all` every one.
+QUICK = ("setup_prints", "main_wants_args", "spin_missing", "counter_not_set", "printed")
+# What these should be, nobody but the student knows.
+NOT_MENDED = {
+    *("import_unknown", "raises_at_import", "exception_in_init", "name_error_in_callback"),
+    *("timer_in_callback", "three_then_exit", "text_of_another_course", "python_logging"),
+    *("waits_for_input", "loop_without_node", "callback_is_another", "log_line_forgotten"),
+    *("setup_exits", "setup_raises", "error_at_stop", "ignores_interrupt", "main_empty"),
+}
+
+
+def package(name: str) -> Package:
+    return next(p for p in BROKEN if p.name == name)
+
+
+def patches(name: str, folder: Path) -> list[str]:
+    """Return the patches of a corpus package's failed checks, as a report of it carries them."""
+    submission = taken(write(package(name), folder))
+    found = []
+    for check, mistake in package(name).expect_failed.items():
+        result = CheckResult(
+            id=check,
+            title=check,
+            max_score=1,
+            status="failed",
+            mistakes=[Mistake(id=mistake or "run.died_at_start")],
+        )
+        found.append(patch_for(result, submission, ASSIGNMENT))
+    return found
+
+
+def test_each_mistake_with_a_mend_is_one_of_the_catalogue() -> None:
+    assert set(BY_MISTAKE) <= set(CATALOGUE)
+
+
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
+@pytest.mark.parametrize("name", BACK_TO_SOLUTION)
+def test_the_patch_leads_back_to_the_solution(
+    name: str, tool: tuple[str, ...], tmp_path: Path
+) -> None:
+    patch = patches(name, tmp_path)[0]
+    assert patch
+    mended = with_tool(tool, patch.encode(), tmp_path / name)
+    for path in (NODE, SETUP):
+        assert (mended / path).read_bytes() == (SOLUTION / path).read_bytes()
+
+
+@pytest.mark.parametrize("name", OTHERWISE)
+def test_the_patch_holds_the_mend(name: str, tmp_path: Path) -> None:
+    assert OTHERWISE[name] in patches(name, tmp_path)[0]
+
+
+@pytest.mark.parametrize("name", sorted(NOT_MENDED))
+def test_where_nothing_is_certain_there_is_no_patch(name: str, tmp_path: Path) -> None:
+    assert set(patches(name, tmp_path)) == {""}
+
+
+@pytest.mark.parametrize("mistake", sorted(BY_MISTAKE))
+def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
+    files = Files.of(taken(edited(tmp_path)))
+    case = Case(files, Finding("run.output", mistake), ASSIGNMENT)
+    assert first_mend(case, mends_for(case.finding)) is None
+
+
+@pytest.mark.prefix
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=() if name in QUICK else pytest.mark.full)
+        for name in (*BACK_TO_SOLUTION, *OTHERWISE)
+    ],
+)
+def test_the_real_verdict_is_full_after_the_mend(name: str, tmp_path: Path) -> None:
+    root = write(package(name), tmp_path)
+    limits = ("build_seconds=30", "start_seconds=15")
+    (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
+    plan = make_plan(Wish(order=order), taken(root), say=print)
+    assert not plan.left, plan.left
+    assert plan.patch
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "self.create_timer(PERIOD, self.timer_callback)",
+        "self.create_timer(1.0, partial(self.timer_callback))",
+        "self.create_timer(1.0, self.callbacks[0])",
+        "self.create_timer(1.0, lambda: self.timer_callback())",
+        "self.create_timer(period(), self.timer_callback())\n        self.create_timer(2.0, None)",
+    ],
+)
+def test_code_of_another_form_is_left_alone(line: str, tmp_path: Path) -> None:
+    root = edited(tmp_path, Replace(NODE, "self.create_timer(1.0, self.timer_callback)", line))
+    files = Files.of(taken(root))
+    for mistake in ("node.callback_called", "run.wrong_period", "node.callback_misspelt"):
+        case = Case(files, Finding("run.period", mistake), ASSIGNMENT)
+        assert first_mend(case, mends_for(case.finding)) is None

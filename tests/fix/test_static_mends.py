@@ -1,0 +1,149 @@
+"""Mends of what the files alone show: the check passes then, and the diff is one that tools take."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.fix.asking import ask
+from grader.fix.plan import patch_for
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import write
+from tests.corpus.model import Crlf
+from tests.corpus.model import Package
+from tests.corpus.model import Raw
+from tests.fix.bench import NODE
+from tests.fix.bench import TOOLS
+from tests.fix.bench import contents
+from tests.fix.bench import plan_of
+from tests.fix.bench import taken
+from tests.fix.bench import with_tool
+from tests.static_bench import ASSIGNMENT
+
+STATIC = ("package.", "source.", "entry_point.mapping")
+# Nothing tells what these should be, so nothing is offered.
+NOT_MENDED = {
+    *("no_manifest", "manifest_empty", "manifest_not_utf8", "cmake_package", "setup_missing"),
+    *("as_created", "node_not_written", "node_empty", "indentation", "tabs_and_spaces"),
+    *("python_2_print", "not_utf8", "null_bytes", "word_document"),
+}
+NOTHING_TO_MARK = {
+    *("empty_folder", "only_a_text", "only_the_node", "manifest_and_setup_missing"),
+    "two_of_one_name",
+}
+
+
+def is_static(package: Package) -> bool:
+    checks = [check for check in package.expect_failed if check.startswith(STATIC)]
+    return bool(checks) and package.name not in NOTHING_TO_MARK
+
+
+SHOWN_BY_FILES = [package for package in BROKEN if is_static(package)]
+MENDED = [package for package in SHOWN_BY_FILES if package.name not in NOT_MENDED]
+
+
+def named(package: Package) -> str:
+    return package.name
+
+
+def test_most_of_what_files_show_is_mended() -> None:
+    assert {package.name for package in SHOWN_BY_FILES} >= NOT_MENDED
+    assert len(MENDED) >= 50
+
+
+@pytest.mark.parametrize("package", MENDED, ids=named)
+def test_every_check_of_the_files_passes_after_the_mend(package: Package, tmp_path: Path) -> None:
+    plan = plan_of(write(package, tmp_path))
+    assert not plan.left
+    results = ask(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
+    decided = {check: result.status for check, result in results.items()}
+    assert set(decided) >= {"package.manifest", "source.shebang", "entry_point.mapping"}
+    assert set(decided.values()) == {"passed"}
+
+
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
+@pytest.mark.parametrize("package", MENDED, ids=named)
+def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path: Path) -> None:
+    root = write(package, tmp_path)
+    plan = plan_of(root)
+    after = taken(with_tool(tool, plan.patch, root))
+    got = {file.path: file for file in after.files if file.kind == "file"}
+    assert {path: file.data for path, file in got.items()} == contents(plan.new)
+    assert got[NODE].mode & 0o100, "git and a new patch set modes"
+
+
+@pytest.mark.parametrize("package", MENDED, ids=named)
+def test_what_is_mended_stays_as_it_is(package: Package, tmp_path: Path) -> None:
+    root = write(package, tmp_path)
+    mended = with_tool(TOOLS[0], plan_of(root).patch, root)
+    again = plan_of(mended)
+    assert again.patch == b""
+    assert again.mended == ()
+
+
+@pytest.mark.parametrize("package", MENDED, ids=named)
+def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_path: Path) -> None:
+    submission = taken(write(package, tmp_path))
+    for check_id in package.expect_failed:
+        result = ask(submission, ASSIGNMENT)[check_id]
+        patch = patch_for(result, submission, ASSIGNMENT)
+        assert patch.startswith("diff --git a/"), check_id
+
+
+@pytest.mark.parametrize("package", [p for p in SHOWN_BY_FILES if p.name in NOT_MENDED], ids=named)
+def test_where_nothing_is_certain_the_file_at_fault_stays(package: Package, tmp_path: Path) -> None:
+    plan = plan_of(write(package, tmp_path))
+    assert plan.left
+    for finding in plan.left:
+        assert plan.new.by_path.get(finding.file) == plan.old.by_path.get(finding.file) or (
+            finding.file not in plan.old.by_path
+        )
+
+
+@pytest.mark.parametrize("package", [p for p in BROKEN if p.name in NOTHING_TO_MARK], ids=named)
+def test_without_a_package_there_is_no_patch(package: Package, tmp_path: Path) -> None:
+    submission = taken(write(package, tmp_path))
+    result = ask(submission, ASSIGNMENT)["package.found"]
+    assert patch_for(result, submission, ASSIGNMENT) == ""
+
+
+def test_many_mistakes_at_once_are_all_mended(tmp_path: Path) -> None:
+    wanted = (
+        *("build_type_missing", "marker_missing", "setup_cfg_without_install"),
+        *("exec_bit_missing", "shebang_crlf", "comma_missing", "manifest_other_name"),
+    )
+    edits = [edit for p in BROKEN if p.name in wanted for edit in p.edits]
+    root = write(Package(name="many", edits=tuple(edits)), tmp_path)
+    plan = plan_of(root)
+    assert not plan.left
+    assert {finding.check for finding in plan.mended} == {
+        *("package.manifest", "package.marker", "package.setup_cfg", "source.exec_bit"),
+        *("source.shebang", "entry_point.mapping"),
+    }
+
+
+def test_a_right_package_is_left_alone(tmp_path: Path) -> None:
+    plan = plan_of(write(Package(name="right", edits=()), tmp_path))
+    assert plan.patch == b""
+    assert plan.left == ()
+
+
+def test_a_report_is_not_filled_by_the_diff_of_a_huge_file(tmp_path: Path) -> None:
+    root = write(Package(name="huge", edits=(Crlf(NODE),)), tmp_path)
+    for size, has_patch in ((100, True), (1_000, False), (100_000, False)):
+        code = b"#!/usr/bin/env python3\r\n" + b"x = 'some text of a line'\r\n" * size
+        (root / NODE).write_bytes(code)
+        submission = taken(root)
+        result = ask(submission, ASSIGNMENT)["source.shebang"]
+        assert result.mistakes[0].id == "source.crlf"
+        assert bool(patch_for(result, submission, ASSIGNMENT)) is has_patch
+
+
+def test_a_diff_that_json_cannot_hold_is_left_out_of_a_report(tmp_path: Path) -> None:
+    code = b"#!/usr/bin/env python3\r\n# -*- coding: latin-1 -*-\r\n# f\xfcr\r\nx = 1\r\n"
+    root = write(Package(name="latin", edits=(Raw(NODE, code),)), tmp_path)
+    submission = taken(root)
+    result = ask(submission, ASSIGNMENT)["source.shebang"]
+    assert patch_for(result, submission, ASSIGNMENT) == ""
+    assert contents(plan_of(root).new)[NODE] == code.replace(b"\r\n", b"\n")

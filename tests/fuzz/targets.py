@@ -1,0 +1,208 @@
+"""What is fuzzed: everything that reads bytes of a student's. Each target returns, or is a bug.
+
+Each takes any bytes; the faults that it may tell are its own exceptions, and none of those that
+Python raises by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+from grader.checks.build import python_error
+from grader.fix.case import Case
+from grader.fix.case import Finding
+from grader.fix.diff import diff
+from grader.fix.files import Files
+from grader.fix.mends import BY_MISTAKE
+from grader.fix.plan import first_mend
+from grader.fix.plan import mend_files
+from grader.fix.syntax import fault_of
+from grader.intake.model import SourceFile
+from grader.intake.model import Submission
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_traceback import recognise
+from grader.mistakes.node_source import read_node
+from grader.mistakes.raised import Raised
+from grader.mistakes.suspect import Suspect
+from grader.sandbox.base import Console
+from grader.source.entry_points import from_setup_cfg
+from grader.source.entry_points import from_setup_py
+from grader.source.manifest import ManifestError
+from grader.source.manifest import name_in
+from grader.source.manifest import read_manifest
+from grader.source.python import PythonFault
+from grader.source.python import parse_python
+from grader.source.setup_cfg import SetupCfgFault
+from grader.source.setup_cfg import read_setup_cfg
+from grader.source.setup_py import literal_name
+from grader.source.setup_py import read_setup_py
+from grader.terminal import Terminal
+from tests.corpus.build import SOLUTION
+from tests.corpus.model import CFG
+from tests.corpus.model import MANIFEST
+from tests.corpus.model import MARKER
+from tests.corpus.model import NODE
+from tests.corpus.model import SETUP
+from tests.static_bench import ASSIGNMENT
+
+Target = Callable[[bytes], None]
+RIGHT = {path: (SOLUTION / path).read_bytes() for path in (MANIFEST, SETUP, CFG, MARKER, NODE)}
+
+
+def python(found: bytes) -> None:
+    with suppress(PythonFault):
+        parse_python(found)
+
+
+def manifest(found: bytes) -> None:
+    name_in(found)
+    with suppress(ManifestError):
+        read = read_manifest(found)
+        assert read.fault or read.name
+        assert all(element.line > 0 for element in read.elements)
+
+
+def setup_py(found: bytes) -> None:
+    literal_name(found)
+    with suppress(PythonFault):
+        points = from_setup_py(read_setup_py(found))
+        for entries in points.groups.values():
+            assert all(entry.line > 0 and isinstance(entry.valid, bool) for entry in entries)
+
+
+def setup_cfg(found: bytes) -> None:
+    with suppress(SetupCfgFault):
+        points = from_setup_cfg(read_setup_cfg(found))
+        for entries in points.groups.values():
+            assert all(entry.line > 0 and isinstance(entry.valid, bool) for entry in entries)
+
+
+def build_log(found: bytes) -> None:
+    text = found.decode("utf-8", errors="replace")
+    error, _ = python_error(text, "setup.py")
+    assert len(error) <= 400
+    for kind in CATALOGUE.values():
+        if kind.pattern is not None:
+            kind.pattern.search(text)
+
+
+class _Recorded(Console):
+    """A console on which bytes come in pieces."""
+
+    def __init__(self, found: bytes) -> None:
+        size = max(1, len(found) // 5)
+        self._pieces = [found[n : n + size] for n in range(0, len(found), size)]
+
+    def wait(self, seconds: float) -> bool:
+        return True
+
+    def read(self) -> bytes:
+        return self._pieces.pop(0) if self._pieces else b""
+
+    def interrupt(self) -> None:
+        raise AssertionError("nobody pressed Ctrl+C")
+
+    def poll(self) -> tuple[int | None, int | None] | None:
+        return 0, None
+
+    def end(self) -> None:
+        self._pieces.clear()
+
+
+def terminal(found: bytes) -> None:
+    shown = Terminal(_Recorded(found), most=50_000)
+    lines = shown.read(1)
+    assert all("\n" not in line.text and len(line.text) <= 4_000 for line in lines)
+    for line in lines:
+        if line.log is not None:
+            assert line.log[1] >= 0
+    assert len(shown.transcript) <= 50_000
+    error, _ = python_error(shown.transcript, "my_first_node.py")
+    source = read_node(RIGHT[NODE])
+    assert source is not None
+    recognise(Raised(error, NODE, None, source, ASSIGNMENT.node_name, 1.0))
+
+
+def diagnosis(found: bytes) -> None:
+    source = read_node(found)
+    if source is not None:
+        suspect = Suspect(source, NODE, ASSIGNMENT.node_name, 1.0, 0, 1)
+        for look in LOOKS.values():
+            told = look(suspect)
+            assert told is None or told.kind in CATALOGUE
+
+
+def _with(path: str, found: bytes) -> Submission:
+    files = {**RIGHT, path: found}
+    return Submission(
+        path=Path("/nowhere"),
+        name="fuzzed",
+        origin="directory",
+        modes="recorded",
+        sha256="",
+        root=".",
+        files=tuple(SourceFile(p, "file", 0o755, data) for p, data in sorted(files.items())),
+    )
+
+
+def _mended(path: str, check: str) -> Target:
+    def target(found: bytes) -> None:
+        submission = _with(path, found)
+        plan = mend_files(submission, ASSIGNMENT, check)
+        diff(plan.old, plan.new)
+        again = mend_files(plan.new.put_into(submission), ASSIGNMENT, check)
+        assert not again.mended, (again.mended, plan.mended)
+        new = plan.new.data(path)
+        if path.endswith(".py") and fault_of(found) is None:
+            assert new is not None
+            assert fault_of(new) is None
+
+    return target
+
+
+def node_mends(found: bytes) -> None:
+    files = Files.of(_with(NODE, found))
+    for mistake, mends in BY_MISTAKE.items():
+        new = first_mend(Case(files, Finding("run.output", mistake), ASSIGNMENT), mends)
+        if new is not None:
+            diff(files, new)
+
+
+TARGETS: dict[str, Target] = {
+    "python": python,
+    "manifest": manifest,
+    "setup_py": setup_py,
+    "setup_cfg": setup_cfg,
+    "build_log": build_log,
+    "terminal": terminal,
+    "diagnosis": diagnosis,
+    "mend_manifest": _mended(MANIFEST, "package.manifest"),
+    "mend_setup_py": _mended(SETUP, "entry_point.mapping"),
+    "mend_setup_cfg": _mended(CFG, "package.setup_cfg"),
+    "mend_node": _mended(NODE, "source.node_file"),
+    "mend_first_line": _mended(NODE, "source.shebang"),
+    "mend_data_files": _mended(SETUP, "package.marker"),
+    "node_mends": node_mends,
+}
+SEEDS: dict[str, bytes] = {
+    "python": RIGHT[NODE],
+    "manifest": RIGHT[MANIFEST],
+    "setup_py": RIGHT[SETUP],
+    "setup_cfg": RIGHT[CFG],
+    "build_log": b'Traceback (most recent call last):\n  File "setup.py", line 3, in <module>\n'
+    b"NameError: name 'x' is not defined\n---\nSummary: 0 packages finished [1.0s]\n",
+    "terminal": b"[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0\r\n\x1b[31mTraceback"
+    b' (most recent call last):\r\n  File "a/b.py", line 1\r\nTypeError: f() missing\r\n',
+    "diagnosis": RIGHT[NODE],
+    "mend_manifest": RIGHT[MANIFEST],
+    "mend_setup_py": RIGHT[SETUP],
+    "mend_setup_cfg": RIGHT[CFG],
+    "mend_node": RIGHT[NODE],
+    "mend_first_line": RIGHT[NODE],
+    "mend_data_files": RIGHT[SETUP],
+    "node_mends": RIGHT[NODE],
+}
+"""A right example for each target, to begin from."""

@@ -1,0 +1,115 @@
+"""A short fuzzing of all that reads a student's bytes; `python -m tests.fuzz.atheris` goes deeper.
+
+Time is the processor's: how busy the machine is does not matter.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+import tracemalloc
+
+import pytest
+from hypothesis import HealthCheck
+from hypothesis import given
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from tests.corpus.broken import BROKEN
+from tests.corpus.model import Replace
+from tests.fuzz.targets import SEEDS
+from tests.fuzz.targets import TARGETS
+
+SECONDS = 10.0  # of processor time for one input; what is not made to be slow takes 0.01
+MEGABYTES = 100  # beyond what the input itself takes
+WORDS = (
+    *(b"\r", b"\n", b"\r\n", b"\0", b"\t", b" ", b"'", b'"', b"'''", b"(", b")", b"[", b"]", b"{"),
+    *(b"}", b",", b":", b"=", b"==", b"#", b"\\", b"%", b"$", b"&", b"<", b">", b"</", b"<!--"),
+    *(b"f'", b"lambda: ", b"def f(self):\n", b"class A:\n", b"import os\n", b"self.", b"\xef\xbb\xbf"),
+    *(b"\xff\xfe", b"\xf0\x9f\x8c\xb7", b"# coding: latin-1\n", b"# coding: utf-7\n", b"console_scripts"),
+    *(b"<?xml version='1.0' encoding='latin-1'?>", b"<!DOCTYPE a>", b"]]>", b"<![CDATA[", b"[develop]"),
+    *(b"\x1b[31m", b"\x1b]0;", b"Traceback (most recent call last):\n", b"Error: ", b"\xc3\xa9"),
+)  # fmt: skip
+BROKEN_PARTS = sorted(
+    {e.new.encode() for p in BROKEN for e in p.edits if isinstance(e, Replace) and len(e.new) < 300}
+)
+
+
+@st.composite
+def altered(draw: st.DrawFn, seed: bytes) -> bytes:
+    """Draw a right file with some of it cut out, doubled, or replaced."""
+    found = seed
+    for _ in range(draw(st.integers(0, 5))):
+        start = draw(st.integers(0, len(found)))
+        end = min(len(found), start + draw(st.integers(0, 40)))
+        word = draw(
+            st.one_of(
+                st.sampled_from(WORDS),
+                st.sampled_from(BROKEN_PARTS),
+                st.binary(max_size=6),
+                st.just(found[start:end] * 2),
+            )
+        )
+        found = found[:start] + word + found[end:]
+    return found
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_no_crash_no_hang(name: str) -> None:
+    @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+    @given(found=st.one_of(altered(SEEDS[name]), st.binary(max_size=200)))
+    def run(found: bytes) -> None:
+        begin = time.process_time()
+        TARGETS[name](found)
+        assert time.process_time() - begin < SECONDS
+
+    run()
+
+
+HOSTILE = {
+    "deep brackets": b"(" * 5_000 + b")" * 5_000,
+    "deep lists": b"x = " + b"[" * 90 + b"]" * 90,
+    "long sum": b"x = " + b"'a' + " * 5_000 + b"'b'\n",
+    "long line": b"a" * 99_000,
+    "many lines": b"x=1\n" * 24_000,
+    "many quotes": b"'" * 50_000,
+    "many tags": b"<package>" + b"<a/>" * 10_000 + b"</package>",
+    "deep tags": b"<a>" * 10_000,
+    "entities": b"<!DOCTYPE a [<!ENTITY b 'cc'><!ENTITY d '&b;&b;&b;&b;'>]><package>&d;</package>",
+    "comments": b"<!--" * 20_000,
+    "sections": b"[a]\n" + b"b=1\n" * 1 + b"c = 2\n d\n" * 5_000,
+    "setup with many entries": b"setup(entry_points={'console_scripts': ['a = b:c'" + b", 'a = b:c'"
+    * 3_000 + b"]})\n",
+    "setup with joined entries": b"setup(entry_points={'console_scripts': ['a = b:c'"
+    + b" 'a = b:c'" * 3_000 + b"]})\n",
+    "names of names": b"".join(b"a%d = a%d + a%d\n" % (n, n + 1, n + 1) for n in range(200)),
+    "blanks": b" " * 90_000 + b"x",
+    "log lines": b"[INFO] [1.1] [" + b"[" * 40_000,
+    "escapes": b"\x1b[" * 20_000 + b"\x1b]" * 20_000,
+    "errors": b"aError: " * 10_000 + b"\n" + b"A.b." * 20_000,
+    "digits": b"[INFO] [" + b"1" * 90_000 + b".000000000] [a]: b",
+    "not closed": re.sub(rb"\)", b"", SEEDS["python"]) * 20,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TARGETS)
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_what_is_made_to_be_slow_is_bounded_in_time(kind: str, name: str) -> None:
+    TARGETS[name](SEEDS[name])  # (what is loaded at the first call does not count)
+    found = HOSTILE[kind]
+    begin = time.process_time()
+    TARGETS[name](found)
+    assert time.process_time() - begin < SECONDS
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("name", TARGETS)
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_what_is_made_to_be_large_takes_little_memory(kind: str, name: str) -> None:
+    TARGETS[name](SEEDS[name])
+    tracemalloc.start()
+    try:
+        TARGETS[name](HOSTILE[kind])
+        assert tracemalloc.get_traced_memory()[1] < MEGABYTES * 1_000_000
+    finally:
+        tracemalloc.stop()

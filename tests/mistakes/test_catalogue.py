@@ -1,0 +1,104 @@
+"""The catalogue is complete: every mistake that is named anywhere has its entry, and can be read."""
+
+from __future__ import annotations
+
+import ast
+import string
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from grader.locale.speaker import Speaker
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.catalogue import RANK
+from grader.mistakes.from_source import LOOKS
+from grader.mistakes.kind import Kind
+from grader.mistakes.recognise import filled
+from tests.corpus.broken import BROKEN
+from tests.corpus.hostile import HOSTILE
+
+ROOT = Path(__file__).resolve().parents[2]
+HOSTS = (
+    *("docs.ros.org", "design.ros2.org", "www.ros.org", "docs.python.org"),
+    *("setuptools.pypa.io", "colcon.readthedocs.io"),
+)
+
+
+def entries() -> list[object]:
+    return [pytest.param(kind, id=kind.id) for kind in CATALOGUE.values()]
+
+
+def named_in_the_code() -> set[str]:
+    """Return every mistake id that a check, the intake or a recogniser names in its source."""
+    prefixes = {kind.partition(".")[0] for kind in CATALOGUE}
+    files = {"setup.py", "setup.cfg", "setup.bash", "package.xml"}
+    named: set[str] = set()
+    for folder in ("grader/checks", "grader/intake", "grader/mistakes"):
+        for path in (ROOT / folder).glob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Call) and node.args:
+                    called = ast.unparse(node.func).rpartition(".")[2]
+                    first = node.args[0]
+                    if isinstance(first, ast.Constant) and isinstance(first.value, str):
+                        slug = first.value
+                        if called in ("finding", "_always"):
+                            named.add(f"node.{slug}")
+                        elif called in ("Failed", "Problem", "_failed"):
+                            named.add(slug)
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    head, dot, slug = node.value.partition(".")
+                    if head in prefixes and dot and slug.isidentifier():
+                        named.add(node.value)
+    checks = {"package.found", "package.manifest", "package.marker", "package.setup_cfg"}
+    checks |= {"source.node_file", "source.exec_bit", "source.shebang", "build.colcon"}
+    checks |= {"entry_point.mapping", "entry_point.executable", "run.starts", "run.node_name"}
+    checks |= {"run.output", "run.logger", "run.period", "run.interrupt"}
+    return named - files - checks
+
+
+def test_every_mistake_that_is_named_has_an_entry() -> None:
+    named = named_in_the_code()
+    assert len(named) > 150
+    assert named - set(CATALOGUE) == set()
+
+
+def test_every_mistake_of_the_corpus_has_an_entry() -> None:
+    expected = {m for p in (*BROKEN, *HOSTILE) for m in p.expect_failed.values() if m}
+    assert expected - set(CATALOGUE) == set()
+
+
+def test_there_are_many_kinds_over_all_stages() -> None:
+    stages = {kind.stage for kind in CATALOGUE.values()}
+    assert len(CATALOGUE) >= 60
+    assert stages >= {"manifest", "marker", "setup.cfg", "entry point", "file", "exec bit"}
+    assert stages >= {"first line", "build", "terminal", "start", "class", "timer", "callback"}
+    assert stages >= {"counter", "text", "logger", "spin", "shutdown"}
+
+
+@pytest.mark.parametrize("kind", entries())
+def test_an_entry_can_be_read_in_every_language(kind: Kind) -> None:
+    for lang in ("en", "ko"):
+        speak = Speaker(lang)
+        assert speak(kind.rationale(filled(kind.why, {}))).strip()
+        assert speak(kind.mend(filled(kind.fix, {}))).strip()
+        for variant, fix in kind.fixes.items():
+            assert speak(kind.mend(filled(fix, {}), variant)).strip()
+        for variant, why in kind.whys.items():
+            assert speak(kind.rationale(filled(why, {}), variant)).strip()
+    assert kind.title.strip()
+    assert not [field for _, field, _, _ in string.Formatter().parse(kind.title) if field]
+
+
+@pytest.mark.parametrize("kind", entries())
+def test_an_entry_leads_to_the_documentation(kind: Kind) -> None:
+    parts = urlsplit(kind.link)
+    assert parts.scheme == "https"
+    assert parts.hostname in HOSTS
+
+
+def test_a_cause_comes_before_what_it_causes() -> None:
+    for symptom in LOOKS:
+        for name, rank in RANK.items():
+            if name.startswith(("node.", "setup.", "source.", "package.")):
+                assert rank < RANK[symptom]

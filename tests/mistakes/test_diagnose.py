@@ -1,0 +1,200 @@
+"""A failed check says the root cause first, with its line; and looking for it costs next to nothing."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from dataclasses import field
+from pathlib import Path
+from typing import TYPE_CHECKING
+from typing import cast
+
+import pytest
+
+from grader.assignment import Assignment
+from grader.checks import source
+from grader.checks.registry import Failed
+from grader.locale.message import say
+from grader.mistakes.diagnose import diagnose
+from grader.mistakes.from_source import LOOKS
+from grader.mistakes.node_source import MOST_BYTES
+from grader.report.model import CheckResult
+from grader.report.model import Where
+from grader.running import Run
+from grader.submission import Submission
+from tests.corpus.build import SOLUTION
+from tests.static_bench import NODE
+from tests.static_bench import Bench
+
+if TYPE_CHECKING:
+    from grader.evidence import Evidence
+
+RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
+MOST_SECONDS = 0.15  # that a diagnosis may add to a verdict
+TRACEBACK = """\
+Traceback (most recent call last):
+  File "/ws/install/my_robot_controller/lib/my_robot_controller/test_node", line 33, in <module>
+    sys.exit(load_entry_point('my-robot-controller', 'console_scripts', 'test_node')())
+  File "/ws/build/my_robot_controller/my_robot_controller/my_first_node.py", line {line}, in main
+{error}
+"""
+
+
+@dataclass
+class StandIn:
+    """The part of the evidence that a diagnosis looks at."""
+
+    assignment: Assignment
+    submission: Submission
+    run: Run
+    results: dict[str, CheckResult] = field(default_factory=dict)
+
+
+def evidence(bench: Bench, source: str, transcript: str = "") -> Evidence:
+    bench.write(NODE, source)
+    static = bench.evidence()
+    run = Run(command="ros2 run", transcript=transcript)
+    return cast("Evidence", StandIn(static.assignment, static.submission, run))
+
+
+def failed(mistake: str) -> Failed:
+    words: dict[str, str | int | float] = {
+        "line": "Hello time: 0",
+        "start": 0,
+        "step": 1,
+        "wanted": "1.0",
+    }
+    return Failed(
+        mistake,
+        expected="a line",
+        actual="no line",
+        where=Where(file=NODE),
+        params={"text": "Hello time: {self.counter_}"} if mistake == "run.wrong_text" else {},
+        words=words,
+    )
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "my_robot_controller")
+
+
+def test_the_root_is_first_the_symptom_second_and_the_line_is_shown(bench: Bench) -> None:
+    source = RIGHT.replace("self.timer_callback)", "self.timer_calback)")
+    line = next(n for n, text in enumerate(source.splitlines(), 1) if "timer_calback" in text)
+    error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"
+    seen = evidence(bench, source, TRACEBACK.format(line=line, error=error))
+    told, cause = diagnose(failed("run.died_at_start"), seen)
+    assert [m.id for m in told.mistakes] == ["node.callback_misspelt", "run.died_at_start"]
+    assert told.where == Where(file=NODE, line=line)
+    assert "self.create_timer(1.0, self.timer_calback)" in told.actual
+    assert "self.timer_callback" in told.fix
+    lines = told.actual.split("\n")
+    at = lines.index("timer_calback")
+    assert set(lines[at + 1]) <= {" ", "^"}
+    assert lines[at + 2] == "timer_callback"
+    assert cause == ""
+
+
+def test_the_same_root_at_another_check_is_a_consequence(bench: Bench) -> None:
+    source = RIGHT.replace("self.timer_callback)", "self.timer_callback())")
+    seen = evidence(bench, source)
+    first, _ = diagnose(failed("run.by_hand"), seen)
+    seen.results["run.output"] = CheckResult(
+        id="run.output",
+        title="",
+        status="failed",
+        max_score=1,
+        mistakes=first.mistakes,
+        where=first.where,
+    )
+    _, cause = diagnose(failed("run.by_hand"), seen)
+    assert cause == "run.output"
+    _, cause = diagnose(failed("run.no_lines"), evidence(bench, RIGHT))
+    assert cause == ""
+
+
+def test_a_hidden_check_is_never_named_as_the_cause(bench: Bench) -> None:
+    seen = evidence(bench, RIGHT.replace("self.timer_callback)", "self.timer_callback())"))
+    first, _ = diagnose(failed("run.by_hand"), seen)
+    seen.results["run.output"] = CheckResult(
+        id="run.output",
+        title="",
+        status="failed",
+        max_score=1,
+        visibility="hidden",
+        mistakes=first.mistakes,
+        where=first.where,
+    )
+    assert diagnose(failed("run.by_hand"), seen)[1] == ""
+
+
+def test_a_module_that_was_not_installed_is_told_from_one_that_is_not_there(bench: Bench) -> None:
+    error = "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node'"
+    printed = TRACEBACK.format(line=5, error=error)
+    told, _ = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    assert told.mistakes[0].id == "setup.not_packaged"
+    (bench.root / "my_robot_controller/__init__.py").unlink()
+    told, _ = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    assert told.mistakes[0].id == "source.no_init_file"
+    assert "touch my_robot_controller/__init__.py" in told.fix
+
+
+def test_the_text_without_the_f_is_told_from_another_text(bench: Bench) -> None:
+    told, _ = diagnose(failed("run.wrong_text"), evidence(bench, RIGHT))
+    assert told.mistakes[0].id == "node.f_prefix"
+
+
+@pytest.mark.parametrize("source", ["def broken(:\n", "\0\0", "x = (\n" * 1000])
+def test_a_source_that_cannot_be_read_leaves_the_symptom(bench: Bench, source: str) -> None:
+    told, cause = diagnose(failed("run.no_lines"), evidence(bench, source))
+    assert [m.id for m in told.mistakes] == ["run.no_lines"]
+    assert cause == ""
+
+
+def test_a_node_in_a_module_of_its_own_is_looked_at_there(bench: Bench) -> None:
+    own = RIGHT.replace("        self.counter_ += 1\n", "")
+    bench.write("my_robot_controller/talker.py", own)
+    left = (
+        "from my_robot_controller.talker import main\n\n\nif __name__ == '__main__':\n    main()\n"
+    )
+    told, _ = diagnose(failed("run.constant_counter"), evidence(bench, left))
+    assert told.mistakes[0].id == "node.counter_not_increased"
+    assert told.where is not None
+    assert told.where.file == "my_robot_controller/talker.py"
+    for symptom in ("run.exits_at_once", "run.no_node"):
+        told, _ = diagnose(failed(symptom), evidence(bench, left))
+        assert [m.id for m in told.mistakes] == [symptom], "not looked at: nobody is accused"
+
+
+def test_a_check_of_another_stage_is_left_as_it_is(bench: Bench) -> None:
+    seen = Failed("package.setup_cfg_syntax", expected=say("pass"), actual="x")
+    told, cause = diagnose(seen, evidence(bench, RIGHT))
+    assert told is seen
+    assert cause == ""
+
+
+@pytest.mark.parametrize("mistake", [*LOOKS, "run.wrong_text", "run.died_at_start"])
+def test_a_diagnosis_adds_next_to_nothing_to_a_verdict(bench: Bench, mistake: str) -> None:
+    usual = RIGHT + "\n\ndef helper(x):\n    return x + 1\n" * 40
+    error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"
+    seen = evidence(bench, usual, TRACEBACK.format(line=14, error=error) * 20)
+    assert len(usual) < MOST_BYTES
+    told = failed(mistake)
+    begin = time.process_time()
+    diagnose(told, seen)
+    assert time.process_time() - begin < MOST_SECONDS
+
+
+def test_what_keeps_nothing_from_working_is_advice(bench: Bench) -> None:
+    for old, new, said in (
+        ("'__main__'", "'main'", "if __name__ == '__main__':"),
+        ("'__main__'", "'__mian__'", "if __name__ == '__main__':"),
+        ("rclpy.try_shutdown()", "rclpy.shutdown", "rclpy.try_shutdown()"),
+    ):
+        assert RIGHT.count(old) == 1
+        bench.write(NODE, RIGHT.replace(old, new))
+        (advice,) = bench.passes(source.node_file).advice
+        assert said in advice
+    bench.write(NODE, RIGHT)
+    assert not bench.passes(source.node_file).advice

@@ -1,0 +1,75 @@
+"""`grader explain`: an entry by its id, or the mistakes in what a terminal shows."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from grader.mistakes.catalogue import CATALOGUE
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def explain(*words: str, text: str = "", lang: str = "C") -> subprocess.CompletedProcess[str]:
+    clean = {k: v for k, v in os.environ.items() if k not in ("LC_ALL", "LANGUAGE", "LC_MESSAGES")}
+    return subprocess.run(
+        [sys.executable, "-m", "grader", "explain", *words],
+        input=text,
+        capture_output=True,
+        encoding="utf-8",
+        env={**clean, "LANG": lang, "PYTHONIOENCODING": "utf-8", "COLUMNS": "100"},
+        cwd=ROOT,
+        check=False,
+    )
+
+
+def test_an_entry_says_why_and_what_to_do_and_where_to_read_on() -> None:
+    done = explain("setup.missing_comma")
+    assert done.returncode == 0
+    for said in (
+        "no comma between them",
+        "Python joins two texts",
+        "Put a comma after",
+        "https://",
+    ):
+        assert said in done.stdout
+
+
+def test_the_language_comes_from_the_environment_or_the_option() -> None:
+    assert "쉼표" in explain("setup.missing_comma", lang="ko_KR.UTF-8").stdout
+    assert "쉼표" in explain("setup.missing_comma", "--lang", "ko").stdout
+    assert "comma" in explain("setup.missing_comma", "--lang", "en", lang="ko_KR.UTF-8").stdout
+
+
+def test_an_unknown_id_is_wrong_usage_and_the_nearest_is_proposed() -> None:
+    done = explain("setup.mising_comma")
+    assert done.returncode == 2
+    assert "did you mean 'setup.missing_comma'" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_what_a_terminal_shows_is_explained_root_first() -> None:
+    text = "RuntimeError: 'distutils.core.setup()' was never called\nNo executable found\n"
+    done = explain("-", text=text)
+    assert done.returncode == 0
+    assert done.stdout.index("build.entry_unreadable") < done.stdout.index("lab.no_executable")
+    assert "No executable found" in done.stdout
+
+
+def test_a_text_without_a_known_mistake_is_said_to_have_none() -> None:
+    done = explain("-", text="Hello time: 0\n")
+    assert done.returncode == 1
+    assert "No mistake" in done.stdout
+
+
+def test_control_characters_of_the_text_do_not_reach_the_terminal() -> None:
+    done = explain("-", text="\x1b[31mPermission\x1b[2J ./a.py: Permission denied\x07\n")
+    assert "\x1b" not in done.stdout
+    assert "\x07" not in done.stdout
+
+
+def test_all_entries_are_listed() -> None:
+    listed = explain().stdout
+    assert [kind for kind in CATALOGUE if f"{kind}: " not in listed] == []

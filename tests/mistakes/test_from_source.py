@@ -1,0 +1,199 @@
+"""The mistake behind a symptom is found in the source, however the node is written."""
+
+from __future__ import annotations
+
+import textwrap
+
+import pytest
+from hypothesis import given
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_traceback import RECOGNISERS
+from grader.mistakes.from_traceback import recognise
+from grader.mistakes.kind import Finding
+from grader.mistakes.node_source import MOST_BYTES
+from grader.mistakes.node_source import read_node
+from grader.mistakes.raised import Raised
+from grader.mistakes.suspect import Suspect
+from grader.report.model import Where
+from tests.corpus.build import SOLUTION
+from tests.corpus.model import NODE
+
+FILE = "my_robot_controller/my_first_node.py"
+RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
+OTHERWISE = textwrap.dedent(
+    """\
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.node import Node as RosNode
+
+
+    class Hello(RosNode):
+        def __init__(self):
+            super().__init__(node_name='my_first_node')
+            self.n = 0
+            self.timer = self.create_timer(callback=self.tick, timer_period_sec=1)
+
+        def tick(self):
+            self.get_logger().info(f"Hello time: {self.n}")
+            self.n = self.n + 1
+
+
+    def main(args=None):
+        rclpy.init(args=args)
+        hello = Hello()
+        executor = SingleThreadedExecutor()
+        executor.add_node(hello)
+        executor.spin()
+    """
+)
+
+
+def look(symptom: str, text: str) -> Finding | None:
+    source = read_node(text.encode())
+    assert source is not None
+    return LOOKS[symptom](Suspect(source, FILE, "my_first_node", 1.0, 0, 1))
+
+
+def raised(error: str, text: str, line: int | None) -> Finding | None:
+    source = read_node(text.encode())
+    assert source is not None
+    where = Where(file=FILE, line=line) if line else None
+    return recognise(Raised(error, FILE, where, source, "my_first_node", 1.0))
+
+
+def line_of(text: str, part: str) -> int:
+    (number,) = [n for n, line in enumerate(text.splitlines(), 1) if part in line]
+    return number
+
+
+@pytest.mark.parametrize(
+    ("symptom", "old", "new", "wanted", "at"),
+    [
+        ("run.exits_at_once", "executor.spin()", "pass", "spin_missing", "def main"),
+        ("run.exits_at_once", "executor.spin()", "executor.spin_once()", "spin_once", "spin_once"),
+        ("run.exits_at_once", "executor.spin()", "executor.spin", "spin_not_called",
+         "executor.spin"),
+        ("run.exits_at_once", "hello = Hello()", "hello = None", "main_empty", "def main"),
+        ("run.no_lines", "        self.timer = self.create_timer(callback=self.tick, "
+         "timer_period_sec=1)\n", "", "timer_missing", "def __init__"),
+        ("run.no_lines", "sec=1)", "sec=1000)", "period_milliseconds", "create_timer"),
+        ("run.no_lines", ".info(", ".debug(", "debug_level", "debug"),
+        ("run.constant_counter", "        self.n = self.n + 1\n", "", "counter_not_increased",
+         "Hello time"),
+        ("run.constant_counter", "self.n = self.n + 1", "self.n = +1", "plus_reversed", "+1"),
+        ("run.twice", "        self.n = 0\n", "        self.n = 0\n        self.create_timer(1.0, "
+         "self.tick)\n", "two_timers", "timer_period_sec"),
+        ("run.by_hand", "        self.n = 0\n", "        self.n = 0\n        self.tick()\n",
+         "called_by_hand", "self.tick()"),
+        ("run.by_hand", "callback=self.tick,", "callback=self.tick(),", "callback_called",
+         "create_timer"),
+        ("run.print_not_logger", "self.get_logger().info(", "print(", "print_used", "print("),
+        ("run.wrong_start", "self.n = 0", "self.n = 5", "starts_elsewhere", "self.n = 5"),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_found_in_a_node_that_is_written_otherwise(
+    symptom: str, old: str, new: str, wanted: str, at: str
+) -> None:
+    assert OTHERWISE.count(old) == 1
+    text = OTHERWISE.replace(old, new)
+    found = look(symptom, text)
+    assert found is not None
+    assert found.kind == f"node.{wanted}"
+    assert found.where == Where(file=FILE, line=line_of(text, at))
+
+
+def test_a_counter_is_found_where_the_text_is_put_together_before() -> None:
+    text = OTHERWISE.replace(
+        'self.get_logger().info(f"Hello time: {self.n}")',
+        'text = f"Hello time: {self.n}"\n        self.get_logger().info(text)',
+    ).replace("self.n = self.n + 1", "self.n += 2")
+    found = look("run.wrong_step", text)
+    assert found is not None
+    assert (found.kind, found.params["name"]) == ("node.other_step", "self.n")
+    assert found.where == Where(file=FILE, line=line_of(text, "+= 2"))
+
+
+@pytest.mark.parametrize("text", [RIGHT, OTHERWISE])
+@pytest.mark.parametrize(
+    "symptom",
+    ["run.exits_at_once", "run.no_node", "run.constant_counter", "run.wrong_step", "run.twice",
+     "run.by_hand", "run.stops", "run.ended_early", "run.print_not_logger"],
+)  # fmt: skip
+def test_a_right_node_is_not_accused(symptom: str, text: str) -> None:
+    assert look(symptom, text) is None
+
+
+@pytest.mark.parametrize(
+    ("error", "old", "new", "wanted", "close"),
+    [
+        ("AttributeError: 'Hello' object has no attribute 'tik'", "self.tick,", "self.tik,",
+         "callback_misspelt", "tick"),
+        ("AttributeError: 'Hello' object has no attribute 'N'", "{self.n}", "{self.N}",
+         "attribute_not_set", "n"),
+        ("AttributeError: 'Hello' object has no attribute 'get_loger'", "get_logger", "get_loger",
+         "method_misspelt", "get_logger"),
+        ("AttributeError: module 'rclpy' has no attribute 'Init'", "rclpy.init(", "rclpy.Init(",
+         "method_misspelt", "init"),
+        ("NameError: name 'Hallo' is not defined", "Hello()", "Hallo()", "name_unknown", "Hello"),
+        ("TypeError: Hello.tick() missing 1 required positional argument: 'msg'", "tick(self)",
+         "tick(self, msg)", "callback_parameter", ""),
+        ("ModuleNotFoundError: No module named 'rcply'", "import rclpy\n", "import rcply\n",
+         "import_misspelt", "rclpy"),
+        ("TypeError: float() argument must be a string or a real number, not 'method'",
+         "callback=self.tick, timer_period_sec=1", "self.tick, 1", "timer_arguments_swapped", ""),
+        ("AttributeError: module 'a.b' has no attribute 'main'", "def main(", "def mian(",
+         "main_misspelt", "main"),
+    ],
+)  # fmt: skip
+def test_an_exception_is_told_apart_and_the_right_name_proposed(
+    error: str, old: str, new: str, wanted: str, close: str
+) -> None:
+    assert OTHERWISE.count(old) == 1
+    text = OTHERWISE.replace(old, new)
+    at = next(n for n, line in enumerate(text.splitlines(), 1) if new.strip() in line)
+    found = raised(error, text, at)
+    assert found is not None
+    assert found.kind == f"node.{wanted}"
+    assert found.words["close"] == close
+    assert found.where is not None
+    assert found.where.line == at
+
+
+def test_an_exception_of_the_students_own_is_not_guessed_at() -> None:
+    assert raised("ValueError: that is not my number", RIGHT, 5) is None
+
+
+def test_the_missing_name_is_told_from_a_misspelt_init() -> None:
+    error = "TypeError: Node.__init__() missing 1 required positional argument: 'node_name'"
+    nameless = RIGHT.replace("__init__('my_first_node')", "__init__()")
+    assert getattr(raised(error, nameless, 13), "kind", "") == "node.super_without_name"
+    single = RIGHT.replace("def __init__(", "def _init_(")
+    found = raised(error, single, None)
+    assert found is not None
+    assert (found.kind, found.params["name"]) == ("node.init_underscores", "_init_")
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.data())
+def test_whatever_the_source_nothing_breaks(data: st.DataObject) -> None:
+    lines = RIGHT.splitlines()
+    kept = data.draw(st.lists(st.sampled_from(lines), max_size=40))
+    source = read_node("\n".join(kept).encode())
+    if source is None:
+        return
+    for find in LOOKS.values():
+        found = find(Suspect(source, FILE, "my_first_node", 1.0, 0, 1))
+        assert found is None or found.kind in CATALOGUE
+    errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]
+    error = data.draw(st.sampled_from(errors) | st.text(max_size=80))
+    found = recognise(Raised(error, FILE, Where(file=FILE, line=3), source, "n", 1.0))
+    assert found is None or found.kind in CATALOGUE
+
+
+def test_a_file_that_is_nobodys_first_node_has_no_facts() -> None:
+    assert read_node(b"def broken(:\n") is None
+    assert read_node(b"x = 1\n" * MOST_BYTES) is None

@@ -1,0 +1,67 @@
+"""Did you mean: the nearest name, and where two texts differ."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.locale.speaker import Speaker
+from grader.mistakes.likeness import compared
+from grader.mistakes.likeness import marks
+from grader.mistakes.likeness import meant
+from grader.mistakes.likeness import nearest
+from grader.mistakes.likeness import with_difference
+
+
+@pytest.mark.parametrize(
+    ("found", "wanted", "line"),
+    [
+        ("Hello Time: 0", "Hello time: 0", "      ^"),
+        ("Hello time:0", "Hello time: 0", "           ^"),
+        ("hello time 0", "Hello time: 0", "^         ^"),
+        ("Hello time: 0!", "Hello time: 0", "             ^"),
+        ("my_frist_node", "my_first_node", "    ^^"),
+        ("test_nod", "test_node", "        ^"),
+        ("mein", "main", " ^"),
+    ],
+)
+def test_the_difference_is_marked_where_it_is(found: str, wanted: str, line: str) -> None:
+    marked = marks(found, wanted)
+    if found == "my_frist_node":  # which of the two swapped letters is wrong is anybody's guess
+        assert marked.strip() in ("^", "^^", "^ ^")
+        assert marked.index("^") in (4, 5)
+    else:
+        assert marked == line
+
+
+@pytest.mark.parametrize(
+    ("found", "wanted"),
+    [("same", "same"), ("", "main"), ("tomato", "my_first_node"), ("안녕 시간", "안녕 시가")],
+)
+def test_where_marks_would_say_nothing_there_are_none(found: str, wanted: str) -> None:
+    assert marks(found, wanted) == ""
+    assert compared(found, wanted) == ""
+
+
+def test_what_was_found_stands_above_the_marks_and_what_was_meant_below() -> None:
+    assert compared("tset_node", "test_node").split("\n")[::2] == ["tset_node", "test_node"]
+    assert with_difference("mein", "mein", "main") == "mein\n ^\nmain"
+    assert with_difference("it is mein", "mein", "main") == "it is mein\nmein\n ^\nmain"
+    assert with_difference("it is so", "so", "") == "it is so"
+
+
+@given(st.text(max_size=120), st.text(max_size=120))
+def test_marks_never_reach_beyond_the_text(found: str, wanted: str) -> None:
+    line = marks(found, wanted)
+    assert len(line) <= len(found) + 1
+    assert set(line) <= {" ", "^"}
+
+
+def test_capitals_do_not_keep_a_name_from_being_near() -> None:
+    assert nearest("Timer_Callback", ["timer_callback", "main"]) == "timer_callback"
+    assert nearest("xyz", ["timer_callback"]) == ""
+    assert meant("") == ""
+    assert "'main'" in meant("main")
+    assert "main" in Speaker("ko")(meant("main"))
+    assert "mean" not in Speaker("ko")(meant("main"))

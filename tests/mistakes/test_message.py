@@ -1,0 +1,104 @@
+"""Texts that are English and can be said in another language."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import string
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.locale.message import Message
+from grader.locale.message import joined
+from grader.locale.message import msg
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import chosen_language
+
+DICTIONARY = {"a cat {what}": "eine Katze {what}", "in {place}": "in {place} drin", "red": "rot"}
+
+
+def german(template: str) -> str:
+    return DICTIONARY.get(template, template)
+
+
+def test_a_text_reads_as_english_wherever_a_string_goes() -> None:
+    text = say("there is no file {path}", path="setup.py")
+    assert text == "there is no file setup.py"
+    assert isinstance(text, str)
+    assert f"{text}!" == "there is no file setup.py!"
+
+
+def test_what_fills_a_text_is_translated_with_it() -> None:
+    text = say("a cat {what}", what=say("in {place}", place=say("red")))
+    assert text == "a cat in red"
+    assert text.told(german) == "eine Katze in rot drin"
+
+
+def test_joined_texts_are_translated_each_by_itself_and_empty_ones_left_out() -> None:
+    text = joined(say("red"), "", "42", say("in {place}", place="X"), by=", ")
+    assert text == "red, 42, in X"
+    assert text.told(german) == "rot, 42, in X drin"
+
+
+def test_a_sum_of_texts_can_still_be_translated() -> None:
+    for text in (say("red") + " 1", "1 " + say("red")):
+        assert isinstance(text, Message)
+        assert "rot" in text.told(german)
+
+
+@given(st.text())
+def test_what_a_student_wrote_is_never_taken_for_a_template(name: str) -> None:
+    assert say("a cat {what}", what=name).told(german) == f"eine Katze {name}"
+
+
+@given(st.text(alphabet=string.ascii_letters + "{} ", max_size=20))
+def test_a_value_with_braces_stays_as_it_is(value: str) -> None:
+    assert joined(say("red"), value or "x").told(german) == f"rot {value or 'x'}"
+
+
+def test_a_missing_value_is_an_error_at_once_and_not_at_the_reader() -> None:
+    with pytest.raises(KeyError):
+        say(msg("there is no {thing}"))
+
+
+@pytest.mark.parametrize("text", [say("in {place}", place="X"), joined(say("red"), "y")])
+def test_a_text_survives_being_copied_and_sent(text: Message) -> None:
+    for again in (copy.deepcopy(text), pickle.loads(pickle.dumps(text))):
+        assert again == text
+        assert again.told(german) == text.told(german)
+
+
+@pytest.mark.parametrize(
+    ("environment", "wanted"),
+    [
+        ({}, "en"),
+        ({"LANG": "ko_KR.UTF-8"}, "ko"),
+        ({"LANG": "ko"}, "ko"),
+        ({"LANG": "en_US.UTF-8"}, "en"),
+        ({"LANG": "de_DE.UTF-8"}, "en"),
+        ({"LANG": "en_US.UTF-8", "LC_ALL": "ko_KR.UTF-8"}, "ko"),
+        ({"LANG": "en_US.UTF-8", "LC_MESSAGES": "ko_KR.UTF-8"}, "ko"),
+        ({"LANG": "ko_KR.UTF-8", "LC_ALL": "C"}, "en"),
+        ({"LANG": "en_US.UTF-8", "LANGUAGE": "ko:en"}, "ko"),
+        ({"LANG": "ko_KR.UTF-8", "LANGUAGE": "de:en:ko"}, "en"),
+        ({"LANG": "C", "LANGUAGE": "ko"}, "en"),
+        ({"LC_ALL": "POSIX", "LANG": "ko_KR"}, "en"),
+    ],
+)
+def test_the_language_is_chosen_as_gnu_gettext_chooses_it(
+    environment: dict[str, str], wanted: str
+) -> None:
+    assert chosen_language(environment) == wanted
+
+
+def test_a_language_that_nobody_speaks_is_english() -> None:
+    assert Speaker("tlh").lang == "en"
+    assert Speaker("tlh")(say("there is no setup.cfg")) == "there is no setup.cfg"
+
+
+def test_korean_is_spoken() -> None:
+    assert Speaker("ko")(say("there is no setup.cfg")) == "setup.cfg가 없습니다"
+    assert Speaker("ko")("there is no setup.cfg") == "there is no setup.cfg", "not ours: as it is"

@@ -1,0 +1,231 @@
+"""What a terminal shows is recognised. The texts are those that ROS 2, colcon, Python and the shell
+print (recorded on rclpy 9.1.2, ros2cli and colcon-core 0.21.3; the table of beginners' mistakes).
+"""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.recognise import seen_in
+
+TRACE = 'Traceback (most recent call last):\n  File "/ws/install/x/lib/x/test_node", line 33\n'
+SHOWN = {
+    "lab.overlay_not_sourced": ["Package 'my_robot_controller' not found"],
+    "lab.ros_not_sourced": ["bash: ros2: command not found", "zsh: command not found: ros2"][:1],
+    "lab.wrong_folder": ["bash: install/local_setup.bash: No such file or directory"],
+    "lab.setup_executed": ["bash: ./install/local_setup.bash: Permission denied"],
+    "lab.no_executable": ["No executable found"],
+    "build.entry_unreadable": [
+        "  raise RuntimeError(\nRuntimeError: 'distutils.core.setup()' was never called -- "
+        "perhaps 'setup.py' is not a Distutils setup script?"
+    ],
+    "source.syntax_error": [
+        "SyntaxError: invalid syntax. Maybe you meant '==' or ':=' instead of '='?",
+        "TabError: inconsistent use of tabs and spaces in indentation",
+        "IndentationError: unindent does not match any outer indentation level",
+    ],
+    "setup.misspelt_module": [
+        "ModuleNotFoundError: No module named 'my_robot_controller.my_frist_node'"
+    ],
+    "node.import_misspelt": ["ModuleNotFoundError: No module named 'my_first_node'"],
+    "setup.py_in_target": [
+        "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node.py'; "
+        "'my_robot_controller.my_first_node' is not a package"
+    ],
+    "setup.dot_for_colon": [
+        "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node.main'; "
+        "'my_robot_controller.my_first_node' is not a package"
+    ],
+    "setup.no_function": ["TypeError: 'module' object is not callable"],
+    "node.main_missing": [
+        "AttributeError: module 'my_robot_controller.my_first_node' has no attribute 'main'"
+    ],
+    "lab.stale_script": [TRACE + "StopIteration"],
+    "package.marker_missing": [
+        "error: can't copy 'resource/my_robot_controller': doesn't exist or not a regular file"
+    ],
+    "package.marker_not_installed": [
+        "WARNING:colcon.colcon_ros.task.ament_python.build:Package 'x' doesn't explicitly install "
+        "a marker in the package index (colcon-ros currently does it implicitly)"
+    ],
+    "package.build_type": [
+        'CMake Error: The source directory "/ws/src/x" does not appear to contain CMakeLists.txt.'
+    ],
+    "lab.build_type_forgotten": ["creating ./my_robot_controller/CMakeLists.txt"],
+    "lab.build_type_misspelt": [
+        "ros2 pkg create: error: argument --build-type: invalid choice: 'ament_pyton' (choose from"
+    ],
+    "lab.package_name": [
+        'WARNING: Package name "My Robot" does not follow the naming conventions.'
+    ],
+    "lab.build_in_src": ["Starting >>> x\n/home/a/ros2_ws/src/install/x: created"],
+    "lab.nothing_built": ["Summary: 0 packages finished [0.16s]"],
+    "package.duplicate": [
+        "ERROR:colcon:colcon build: Duplicate package names not supported:\n- my_robot_controller:"
+    ],
+    "lab.unknown_select": [
+        "WARNING:colcon.colcon_core.package_selection:ignoring unknown package 'my_robot' in "
+        "--packages-select"
+    ],
+    "lab.colcon_arguments": [
+        "colcon: error: unrecognized arguments: --symlink_install",
+        "colcon: error: argument verb_name: invalid choice: 'biuld' (choose from 'build', 'edit')",
+    ],
+    "lab.editable": ["error: option --editable not recognized"],
+    "lab.setuptools_warning": [
+        "SetuptoolsDeprecationWarning: setup.py install is deprecated. Use build and pip."
+    ],
+    "node.super_missing": [
+        "AttributeError: 'MyNode' object has no attribute '_default_callback_group'"
+    ],
+    "node.super_without_name": [
+        "TypeError: Node.__init__() missing 1 required positional argument: 'node_name'"
+    ],
+    "node.not_a_node": [
+        "TypeError: object.__init__() takes exactly one argument (the instance to initialize)"
+    ],
+    "node.callback_called": [
+        "UnboundLocalError: cannot access local variable 'arg_name' where it is not associated",
+        "TypeError: 'NoneType' object is not callable",
+    ],
+    "node.attribute_unknown": [
+        "AttributeError: 'MyNode' object has no attribute 'timer_calback'. Did you mean: 'x'?"
+    ],
+    "node.init_missing": [
+        "rclpy.exceptions.NotInitializedException: rclpy.init() has not been called. msg:cannot "
+        "create node"
+    ],
+    "node.spin_of_class": ["TypeError: 'property' object is not iterable"],
+    "node.str_plus_int": ['TypeError: can only concatenate str (not "int") to str'],
+    "node.counter_local": [
+        "UnboundLocalError: cannot access local variable 'counter' where it is not associated "
+        "with a value"
+    ],
+    "node.timer_at_class_level": ["NameError: name 'self' is not defined"],
+    "node.name_unknown": ["NameError: name 'string' is not defined"],
+    "node.import_missing": [],
+    "node.callback_no_self": [
+        "ValueError: invalid method signature",
+        "TypeError: MyNode.timer_callback() takes 0 positional arguments but 1 was given",
+    ],
+    "node.callback_parameter": [
+        "TypeError: MyNode.timer_callback() missing 1 required positional argument: 'msg'"
+    ],
+    "node.timer_argument_missing": [
+        "TypeError: Node.create_timer() missing 1 required positional argument: 'callback'"
+    ],
+    "node.timer_arguments_swapped": [
+        "TypeError: float() argument must be a string or a real number, not 'method'"
+    ],
+    "node.period_text": ["ValueError: could not convert string to float: '1.0s'"],
+    "node.logger_not_called": ["AttributeError: 'function' object has no attribute 'info'"],
+    "node.logger_arguments": [
+        "TypeError: RcutilsLogger.info() takes 2 positional arguments but 3 were given"
+    ],
+    "node.name_invalid": [
+        "rclpy.exceptions.InvalidNodeNameException: Invalid node name: node name must not contain "
+        "characters other than alphanumerics or '_':\n  'my-node'\n     ^"
+    ],
+    "node.import_node": [
+        "ImportError: cannot import name 'Node' from 'rclpy' (/opt/ros/jazzy/lib/python3.12/site-"
+        "packages/rclpy/__init__.py)"
+    ],
+    "node.import_name": ["ImportError: cannot import name 'Nod' from 'rclpy.node' (/opt/ros)"],
+    "lab.no_rclpy": ["ModuleNotFoundError: No module named 'rclpy'"],
+    "source.not_executable": ["bash: ./my_first_node.py: Permission denied"],
+    "source.no_shebang": [
+        "./my_first_node.py: line 1: import: command not found\n./my_first_node.py: line 4: "
+        "syntax error near unexpected token `('"
+    ],
+    "source.crlf": [
+        "/usr/bin/env: \u2018python3\\r\u2019: No such file or directory",
+        "/usr/bin/env: 'python3\\r': No such file or directory",
+    ],
+    "node.main_wants_args": ["TypeError: main() missing 1 required positional argument: 'args'"],
+    "run.shutdown_twice": [
+        "rclpy._rclpy_pybind11.RCLError: failed to shutdown: rcl_shutdown already called on the "
+        "given context, at ./src/rcl/init.c:333"
+    ],
+    "run.interrupt_traceback": [TRACE + "KeyboardInterrupt"],
+    "node.context_manager": [
+        "AttributeError: __enter__",
+        "TypeError: 'NoneType' object does not support the context manager protocol",
+    ],
+    "lab.two_nodes": [
+        "WARNING: Be aware that there are nodes in the graph that share an exact name, which can "
+        "have unintended side effects."
+    ],
+    "lab.owned_by_root": ["Failed to save 'setup.py': EACCES: permission denied, open 'setup.py'"],
+    "source.not_utf8": ["SyntaxError: Non-UTF-8 code starting with '\\xe4' in file my_first_node.py"],
+    "package.setup_cfg_syntax": ["configparser.MissingSectionHeaderError: File contains no section "
+                                 "headers."],
+    "setup.missing": ["python3: can't open file '/ws/src/x/setup.py': [Errno 2] No such file"],
+}  # fmt: skip
+CASES = [(mistake, text) for mistake, texts in SHOWN.items() for text in texts]
+
+
+@pytest.mark.parametrize(("mistake", "text"), CASES)
+def test_a_mistake_is_recognised_in_what_the_terminal_shows(mistake: str, text: str) -> None:
+    around = f"[INFO] [1795226661.262229158] [other]: hello\n{text}\n[ros2run]: Process exited\n"
+    assert mistake in [seen.kind.id for seen in seen_in(around)]
+    (first, *_) = seen_in(text)
+    assert first.kind.id == mistake
+    assert first.line in text
+
+
+def test_every_entry_with_a_pattern_is_shown_by_some_text() -> None:
+    patterns = {kind.id for kind in CATALOGUE.values() if kind.seen}
+    assert patterns - {mistake for mistake, texts in SHOWN.items() if texts} == set()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0",
+        "Starting >>> my_robot_controller\nFinished <<< my_robot_controller [1.46s]\n\n"
+        "Summary: 1 package finished [1.61s]",
+        "my_robot_controller test_node",
+        "",
+    ],
+)
+def test_in_what_is_right_no_mistake_is_seen(text: str) -> None:
+    assert seen_in(text) == []
+
+
+def test_the_root_comes_before_its_consequences() -> None:
+    text = "No executable found\n'distutils.core.setup()' was never called\n"
+    assert [s.kind.id for s in seen_in(text)] == ["build.entry_unreadable", "lab.no_executable"]
+
+
+def test_what_the_text_says_becomes_a_parameter() -> None:
+    (seen,) = seen_in("NameError: name 'Nod' is not defined. Did you mean: 'Node'?")
+    assert seen.params == {"name": "Nod"}
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(
+        st.one_of(st.text(max_size=80), st.sampled_from([text for _, text in CASES])), max_size=30
+    )
+)
+def test_any_text_is_looked_through(parts: list[str]) -> None:
+    for seen in seen_in("\n".join(parts)):
+        assert seen.kind.id in CATALOGUE
+
+
+@pytest.mark.parametrize(
+    "part",
+    ["a", "\n", "'", "ModuleNotFoundError: No module named '", "install/", "/src/a/", "a.",
+     "AttributeError: module 'a' has no attribute 'b'\n", "python3", "import: ", "TypeError: a"],
+)  # fmt: skip
+def test_a_hostile_text_takes_no_time_worth_speaking_of(part: str) -> None:
+    text = part * (1_000_000 // len(part))
+    begin = time.process_time()
+    seen_in(text)
+    assert time.process_time() - begin < 2

@@ -1,0 +1,63 @@
+"""Every text has its Korean: complete, with the same placeholders, compiled."""
+
+from __future__ import annotations
+
+import re
+import string
+
+import pytest
+
+from grader.locale import update
+from grader.locale.speaker import LANGUAGES
+
+OTHERS = [lang for lang in LANGUAGES if lang != "en"]
+# what is to be typed or written word for word, and what is all placeholders
+CODE = (
+    "'{entry}': {because}",
+    "[develop] script_dir={wanted} and [install] install_scripts={wanted}",
+    "chmod +x {path}",
+    "source install/local_setup.bash",
+    "colcon build --symlink-install",
+    "ros2 pkg create --build-type ament_python <package>",
+    "What {title}:",
+)
+
+
+def placeholders(template: str) -> list[str]:
+    return sorted(name for _, name, _, _ in string.Formatter().parse(template) if name is not None)
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
+    catalog = update.read(lang)
+    for template, place in update.templates():
+        message = catalog.get(template)
+        assert message is not None, f"{place}: {template!r}: run python -m grader.locale.update"
+        assert message.string, f"{place}: {template!r} has no translation"
+        assert placeholders(str(message.string)) == placeholders(template), template
+
+
+def test_korean_texts_are_korean() -> None:
+    for message in update.read("ko"):
+        if message.id and message.id not in CODE:
+            assert re.search("[가-힣]", str(message.string)), message.id
+
+
+def test_korean_sentences_are_in_the_formal_polite_style() -> None:
+    plain = re.compile(r"(?<![니마])다(?:[.)]|$)|(?:하라|해라|[하세되]요)(?:[.)]|$)")
+    for message in update.read("ko"):
+        assert not plain.search(str(message.string)), message.string
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang: str) -> None:
+    path = update.po_path(lang)
+    catalog = update.gathered(lang)
+    again = "run python -m grader.locale.update"
+    assert path.read_bytes() == update.po_bytes(catalog), again
+    assert path.with_suffix(".mo").read_bytes() == update.mo_bytes(catalog), again
+
+
+def test_there_are_no_texts_left_over() -> None:
+    known = {template for template, _ in update.templates()}
+    assert {str(m.id) for m in update.read("ko") if m.id} == known
