@@ -211,7 +211,9 @@ def fix(
 @commands.command()
 @click.argument("assignment", metavar="ASSIGNMENT")
 @click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
-@click.option("--jobs", type=click.IntRange(1), help="How many are run at once (default: cores + 1).")
+@click.option(
+    "--jobs", type=click.IntRange(1), help="How many are run at once (default: cores + 1)."
+)
 @click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
 @click.option(
     "--json",

@@ -73,10 +73,9 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
     if not chosen:
         raise UsageError(f"no mutant has a name like '{wish.only}'")
     marked, waiting = _by_files(chosen, original, wish.order)
-    left_out = 0
     ends: list[Marked | None] = [None, None]
     if wish.static:
-        left_out, waiting = len(waiting), []
+        waiting = []
     else:
         jobs = wish.jobs or (os.cpu_count() or 1) + 1
         say(
@@ -93,7 +92,7 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
         checks=tuple(c for c in CHECKS if c in {use.id for use in assignment.checks}),
         max_score=assignment.max_score,
         rows=ordered(rows, [m.name for m in chosen]),
-        left_out=left_out,
+        left_out=len(mutants) - len(rows),
         solution=ends[0],
         starter=ends[1],
         seconds=time.monotonic() - begin,

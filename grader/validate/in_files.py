@@ -46,8 +46,6 @@ def _layout(tree: Tree, assignment: Assignment) -> Iterator[Made]:
             yield f"move {path} up", (Copy(path, name + "_", moved=True),), ANY
         if entry.data:
             yield f"empty {path}", (Write(path, b""),), ANY
-            half = entry.data[: len(entry.data) // 2]
-            yield f"half of {path}", (Write(path, half),), ANY
             yield f"Word document for {path}", (Write(path, b"PK\3\4\x14\0\6\0\0\0!\0"),), ANY
     package = assignment.package
     for folder in sorted({path.partition("/")[0] for path in tree if "/" in path}):

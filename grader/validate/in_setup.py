@@ -138,5 +138,5 @@ def _calls(code: Code) -> Iterator[Made]:
     call = _setup(code)
     yield "setup.py does not call setup", code.put(call.func, "dict"), ANY
     yield "setup.py no bracket at the end", code.put(call, code.of(call)[:-1]), ("build.colcon",)
-    for line in ("print('hello')", "import numpi", "1 / 0", "raise SystemExit(1)", "exit()"):
+    for line in ("print('hello')", "import numpi", "raise SystemExit(1)"):
         yield f"setup.py {line}", code.put(call, f"{line}\n{code.of(call)}"), ("build.colcon",)

@@ -15,7 +15,7 @@ from grader.validate.spots import Code
 Made = tuple[str, str, tuple[str, ...]]
 ANY = ("run.", "source.", "entry_point.")
 COUNTS = ("run.output", "run.period", "run.starts")
-LEVELS = ("debug", "warning", "error", "fatal")
+LEVELS = ("debug", "warning", "error")
 PERIODS = ("0.1", "0.5", "0.99", "1.01", "2.0", "10.0")
 
 
@@ -126,7 +126,6 @@ def _texts(code: Code) -> Iterator[Made]:
             "blank before": f" {text}",
             "blank doubled": text.replace(" ", "  "),
             "empty": "",
-            "other": "other",
         }.items():
             if new != text:
                 families = ("run.output", "run.node_name", "run.starts")
@@ -179,7 +178,6 @@ def _definitions(code: Code) -> Iterator[Made]:
 def _imports(code: Code) -> Iterator[Made]:
     for node in code.tree.body:
         if isinstance(node, ast.Import | ast.ImportFrom):
-            yield f"drop {code.shown(node)}", code.put(node, "pass"), ANY
             for alias in node.names:
                 new = f"{alias.name[:-2]}{alias.name[-1]}"
                 yield f"misspell {code.shown(node)}", code.put(alias, new), ANY

@@ -138,7 +138,7 @@ def summary(matrix: Matrix) -> str:
         f"{'right all the same':<24}{figures['equivalent']}, each explained",
     ]
     if matrix.left_out:
-        lines.append(f"{'not marked':<24}{matrix.left_out} (they have to be run)")
+        lines.append(f"{'not marked':<24}{matrix.left_out}")
     if matrix.never_failed:
         lines.append(f"{'no mutant fails':<24}{', '.join(matrix.never_failed)}")
     lines.append(f"{'time':<24}{matrix.seconds:.0f} s")

@@ -1,0 +1,106 @@
+"""mutants.yaml: what it may say, and errors with file and line for all else."""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from grader.errors import AssignmentError
+from grader.validate.named import Catalogued
+from grader.validate.named import read_mutants
+from grader.validate.tree import Chmod
+from grader.validate.tree import Copy
+from grader.validate.tree import Delete
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
+CHECKS = ("package.found", "source.exec_bit")
+MISTAKES = ("package.empty", "source.not_executable")
+GOOD = """\
+schema: 1
+mutants:
+  - name: no_bit
+    check: source.exec_bit
+    mistake: source.not_executable
+    edits:
+      - {chmod: a/b.py, mode: "0644"}
+"""
+
+
+def read(folder: Path, text: str) -> Catalogued:
+    path = folder / "mutants.yaml"
+    path.write_text(text)
+    return read_mutants(path, checks=CHECKS, mistakes=MISTAKES)
+
+
+def edits(*lines: str) -> str:
+    return GOOD.replace(
+        '      - {chmod: a/b.py, mode: "0644"}\n', "".join(f"      - {x}\n" for x in lines)
+    )
+
+
+def test_a_mutant_is_read_with_its_place(tmp_path: Path) -> None:
+    (mutant,) = read(tmp_path, GOOD).mutants
+    assert mutant.name == "no_bit"
+    assert mutant.families == ("source.exec_bit",)
+    assert mutant.mistake == "source.not_executable"
+    assert mutant.edits == (Chmod("a/b.py", 0o644),)
+    assert mutant.where == f"{tmp_path}/mutants.yaml:3"
+
+
+def test_every_edit_can_be_written_down(tmp_path: Path) -> None:
+    text = edits(
+        "{replace: f, old: x, new: ''}",
+        '{write: f, text: "t\\n", mode: "0755"}',
+        "{write: f, base64: AAE=}",
+        "{delete: f}",
+        "{rename: f, to: g}",
+        "{copy: f, to: g}",
+    )
+    assert read(tmp_path, text).mutants[0].edits == (
+        Replace("f", "x", ""),
+        Write("f", b"t\n", 0o755),
+        Write("f", b"\0\1"),
+        Delete("f"),
+        Copy("f", "g", moved=True),
+        Copy("f", "g"),
+    )
+
+
+def test_survivors_are_explained_by_name(tmp_path: Path) -> None:
+    text = GOOD + "equivalent:\n  - {mutant: drop x, why: nobody reads it}\n"
+    assert read(tmp_path, text).equivalent == {"drop x": "nobody reads it"}
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "says"),
+    [
+        (GOOD.replace("schema: 1", "schema: 2"), 1, "schema"),
+        (GOOD.replace("mutants:", "mutant:"), 2, "did you mean 'mutants'"),
+        (GOOD.replace("source.exec_bit", "source.exec_bti"), 4, "did you mean 'source.exec_bit'"),
+        (GOOD.replace("not_executable", "not_executabel"), 5, "'source.not_executable'"),
+        (GOOD.replace("    name", "    nam").replace("- name", "- nam"), 3, "did you mean 'name'"),
+        (GOOD + GOOD[GOOD.index("  - ") :], 8, "two mutants"),
+        (GOOD[: GOOD.index("    edits")], 3, "edit"),
+        (edits("{chmdo: f}"), 7, "did you mean 'chmod'"),
+        (edits("{delete: f}", "{chmod: f}"), 8, "mode"),
+        (edits('{chmod: f, mode: "9"}'), 7, "octal"),
+        (edits("{chmod: f, mode: 420}"), 7, "text"),
+        (edits("{delete: ../f}"), 7, "inside"),
+        (edits("{delete: /etc/passwd}"), 7, "inside"),
+        (edits("{rename: f, to: ../g}"), 7, "inside"),
+        (edits("{write: f}"), 7, "'text' or 'base64'"),
+        (edits("{write: f, base64: '%'}"), 7, "base64"),
+        (edits("delete"), 7, "mapping"),
+        (GOOD + "equivalent:\n  - {mutant: x}\n", 9, "why"),
+    ],
+)
+def test_a_fault_is_told_with_file_and_line(
+    text: str, line: int, says: str, tmp_path: Path
+) -> None:
+    with pytest.raises(AssignmentError) as caught:
+        read(tmp_path, textwrap.dedent(text))
+    assert str(caught.value).startswith(f"{tmp_path}/mutants.yaml:{line}: ")
+    assert says in str(caught.value)

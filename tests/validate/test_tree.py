@@ -1,0 +1,119 @@
+"""The edits that make a mutant: each does what its name says, and none that does not fit passes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.validate.tree import Chmod
+from grader.validate.tree import Copy
+from grader.validate.tree import Crlf
+from grader.validate.tree import Delete
+from grader.validate.tree import Edit
+from grader.validate.tree import EditError
+from grader.validate.tree import Entry
+from grader.validate.tree import Link
+from grader.validate.tree import Nest
+from grader.validate.tree import Replace
+from grader.validate.tree import Tree
+from grader.validate.tree import Write
+from grader.validate.tree import apply_all
+from grader.validate.tree import digest
+from grader.validate.tree import read_tree
+from grader.validate.tree import write_tree
+
+TREE: Tree = {
+    "a.py": Entry(b"#!x\none two\n", 0o755),
+    "in/b.txt": Entry(b"b\n"),
+    "in/c.txt": Entry(b"c\n"),
+}
+
+
+def files(folder: Path) -> dict[str, str]:
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes().decode()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def test_a_tree_goes_to_disk_and_back(tmp_path: Path) -> None:
+    write_tree(TREE, tmp_path / "out")
+    assert files(tmp_path / "out") == {
+        "a.py": "#!x\none two\n",
+        "in/b.txt": "b\n",
+        "in/c.txt": "c\n",
+    }
+    assert (tmp_path / "out/a.py").stat().st_mode & 0o777 == 0o755
+    assert read_tree(tmp_path / "out") == TREE
+
+
+def test_scripts_are_executable_where_the_disk_keeps_no_modes(tmp_path: Path) -> None:
+    (tmp_path / "node.py").write_text("#!/usr/bin/env python3\n")
+    (tmp_path / "setup.py").write_text("pass\n")
+    (tmp_path / "node.py").chmod(0o644)
+    (tmp_path / "setup.py").chmod(0o755)
+    assert {path: entry.mode for path, entry in read_tree(tmp_path).items()} == {
+        "node.py": 0o755,
+        "setup.py": 0o644,
+    }
+
+
+def test_each_edit_does_what_its_name_says() -> None:
+    edits: tuple[Edit, ...] = (
+        Replace("a.py", "two", "three"),
+        Write("new/d.txt", b"d"),
+        Delete("in/c.txt"),
+        Copy("in", "out"),
+        Copy("in/b.txt", "b.txt", moved=True),
+        Chmod("out/b.txt", 0o600),
+        Crlf("b.txt"),
+        Link("out/l", "/nowhere"),
+        Nest("src/p"),
+    )
+    assert apply_all(edits, TREE) == {
+        "src/p/a.py": Entry(b"#!x\none three\n", 0o755),
+        "src/p/new/d.txt": Entry(b"d"),
+        "src/p/out/b.txt": Entry(b"b\n", 0o600),
+        "src/p/b.txt": Entry(b"b\r\n"),
+        "src/p/out/l": Entry(b"", 0o777, "/nowhere"),
+    }
+    assert TREE["a.py"].data == b"#!x\none two\n"
+
+
+def test_a_file_that_is_written_again_keeps_its_mode() -> None:
+    assert Write("a.py", b"x").apply(TREE)["a.py"] == Entry(b"x", 0o755)
+    assert Write("a.py", b"x", 0o640).apply(TREE)["a.py"] == Entry(b"x", 0o640)
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [
+        Replace("a.py", "three", ""),
+        Replace("a.py", "o", ""),
+        Replace("gone", "o", ""),
+        Delete("gone"),
+        Delete("i"),
+        Copy("gone", "x"),
+        Copy("a.py", "in"),
+        Chmod("in", 0o600),
+        Crlf("gone"),
+    ],
+)
+def test_an_edit_that_does_not_fit_is_an_error(edit: Edit) -> None:
+    with pytest.raises(EditError):
+        apply_all((edit,), TREE)
+
+
+def test_a_link_is_a_link_on_disk(tmp_path: Path) -> None:
+    write_tree(apply_all((Link("a.py", "in/b.txt"),), TREE), tmp_path / "out")
+    assert (tmp_path / "out/a.py").readlink() == Path("in/b.txt")
+
+
+@pytest.mark.parametrize(
+    "edit", [Chmod("a.py", 0o644), Link("a.py", "x"), Delete("a.py"), Write("a.py", b"y")]
+)
+def test_packages_that_differ_in_anything_have_other_digests(edit: Edit) -> None:
+    assert digest(apply_all((edit,), TREE)) != digest(TREE)
+    assert digest(dict(reversed(list(TREE.items())))) == digest(TREE)

@@ -1,0 +1,146 @@
+"""`grader validate`: every mutant fails where it must, and an assignment that does not is told of."""
+
+from __future__ import annotations
+
+import json
+import resource
+import shutil
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from grader.validate.command import KEYS
+from tests import stage
+
+HELLO = KEYS / "hello_time"
+QUICK = 20.0  # seconds in which the files of all mutants are looked at
+WHOLE = 600.0  # seconds of the whole matrix
+CORES = 2
+CHECKED = """\
+schema: 1
+mutants:
+  - name: mine
+    check: source.exec_bit
+    mistake: source.not_executable
+    edits:
+"""
+
+
+def validate(*words: str | Path, timeout: float = 120) -> tuple[int, str, str]:
+    done = stage.run(stage.grader("validate", *words), timeout=timeout)
+    return done.returncode, done.stdout, done.stderr
+
+
+def keys(folder: Path, mutants: str) -> Path:
+    """Return a copy of the keys with other mutants."""
+    shutil.copytree(HELLO, folder / "keys")
+    (folder / "keys/mutants.yaml").write_text(mutants)
+    return folder / "keys"
+
+
+def test_all_mutants_of_the_files_fail_where_and_why_they_must(tmp_path: Path) -> None:
+    begin = time.monotonic()
+    status, shown, errors = validate("hello_time", "--static", "--json", tmp_path / "m.json")
+    assert time.monotonic() - begin < QUICK
+    assert status == 0, shown[-2000:] + errors
+    figures = json.loads((tmp_path / "m.json").read_text())["figures"]
+    assert figures["failed_where_they_must"] == figures["that_must_fail"] >= 120
+    assert figures["mistake_named_first"] == figures["named"] >= 60
+
+
+@pytest.mark.parametrize("name", ["text_capital", "spin_missing", "period_half"])
+def test_a_mutant_that_has_to_be_run_fails_where_and_why_it_must(name: str, tmp_path: Path) -> None:
+    status, shown, errors = validate("hello_time", "--only", name, "--json", tmp_path / "m.json")
+    assert status == 0, shown[-2000:] + errors
+    (row,) = json.loads((tmp_path / "m.json").read_text())["rows"]
+    assert row["ran"]
+    assert row["status"][row["expected"]["checks"][0]] == "failed"
+    assert "solution" in shown
+    assert "100 of 100" in shown
+
+
+def test_a_mutant_that_survives_is_told(tmp_path: Path) -> None:
+    harmless = CHECKED + "      - {write: README.md, text: hello}\n"
+    found = keys(tmp_path, harmless)
+    status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine")
+    assert status == 1
+    assert "mine: survived" in shown
+
+
+def test_a_mutant_that_fails_elsewhere_is_told(tmp_path: Path) -> None:
+    other = CHECKED + "      - {delete: resource/my_robot_controller}\n"
+    found = keys(tmp_path, other)
+    status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine")
+    assert status == 1
+    assert "mine: failed elsewhere than at source.exec_bit" in shown
+
+
+def test_another_mistake_than_the_named_one_is_told(tmp_path: Path) -> None:
+    mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
+    wrong = CHECKED.replace("source.not_executable", "source.crlf") + mode
+    found = keys(tmp_path, wrong)
+    status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine", "--static")
+    assert status == 1
+    assert "mine: named source.not_executable, not source.crlf" in shown
+
+
+def test_a_solution_that_does_not_get_full_marks_is_told(tmp_path: Path) -> None:
+    mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
+    found = keys(tmp_path, CHECKED + mode)
+    package = found / "solution/my_robot_controller"
+    cfg = package / "setup.cfg"
+    cfg.write_text(cfg.read_text().replace("[develop]", "[devel]"))
+    status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine")
+    assert status == 1
+    assert "the solution does not get full marks: package.setup_cfg" in shown
+
+
+def test_a_right_mutant_needs_to_be_right(tmp_path: Path) -> None:
+    text = "schema: 1\nequivalent:\n  - {mutant: drop rclpy.spin(node), why: I thought so}\n"
+    found = keys(tmp_path, text)
+    status, shown, _ = validate("hello_time", "--keys", found, "--only", "drop rclpy.spin*")
+    assert status == 1
+    assert "explained as right, and failed all the same" in shown
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("schema: 1\nequivalent:\n  - {mutant: drop nothing, why: x}\n", "drop nothing"),
+        (CHECKED + "      - {delete: gone.py}\n", "mutants.yaml:3"),
+        (CHECKED + "      - {erase: setup.py}\n", "mutants.yaml:7"),
+    ],
+)
+def test_a_fault_in_mutants_yaml_is_wrong_usage(text: str, says: str, tmp_path: Path) -> None:
+    status, _, errors = validate("hello_time", "--keys", keys(tmp_path, text), "--static")
+    assert status == 2
+    assert says in errors
+    assert "Traceback" not in errors
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("hello_tiem",), ("hello_time", "--only", "nobody"), ("hello_time", "--keys", "/none")],
+)
+def test_wrong_words_are_wrong_usage(words: tuple[str, ...]) -> None:
+    status, _, errors = validate(*words)
+    assert status == 2
+    assert "Traceback" not in errors
+
+
+@pytest.mark.full
+def test_the_whole_matrix_is_as_expected_within_ten_minutes(tmp_path: Path) -> None:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    status, shown, errors = validate("hello_time", "--json", tmp_path / "m.json", timeout=2400)
+    assert status == 0, shown[-4000:] + errors[-1000:]
+    matrix: dict[str, Any] = json.loads((tmp_path / "m.json").read_text())
+    figures = matrix["figures"]
+    assert figures["failed_where_they_must"] == figures["that_must_fail"] >= 120
+    assert figures["mistake_named_first"] >= 0.95 * figures["named"]
+    assert matrix["never_failed"] == []
+    # what it takes of two cores, not the wall's clock: other work may share the machine
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    taken = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    assert taken / CORES < WHOLE
