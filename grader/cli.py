@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING
 import click
 
 import grader
+from grader.batch.commands import COMMANDS as CLASS_COMMANDS
 from grader.entry import run
+from grader.gradebook.commands import COMMANDS as GRADEBOOK_COMMANDS
 
 if TYPE_CHECKING:
     from grader.report.model import Report
@@ -191,6 +193,10 @@ def images(
         size = f"{row.size / 1e6:,.0f} MB" if row.size is not None else "not here"
         click.echo(f"{row.name:<{width}}  {size:>10}  {row.id}".rstrip())
     return 0
+
+
+for _command in (*CLASS_COMMANDS, *GRADEBOOK_COMMANDS):
+    commands.add_command(_command)
 
 
 def _hidden(count: int) -> str:

@@ -59,6 +59,9 @@ class Order:
     name: str | None = None
     limits: Limits = field(default_factory=Limits)
     own_code: bool = False
+    student_id: str = ""
+    modes_kept: bool = True
+    """False where the way here lost the exec bits of the files (see `take_in`)."""
 
 
 def grade(order: Order, listener: events.Listener) -> model.Report:
@@ -67,13 +70,24 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
     Raises UsageError for a path that does not exist or cannot be read, SurroundingsError where
     the grader's own surroundings fail; everything else is in the report.
     """
-    started = datetime.now(timezone.utc)
     begin = time.monotonic()
-    assignment = order.assignment
     submission = take_in(
-        order.path, package=assignment.package, node_file=assignment.node_file, name=order.name
+        order.path,
+        package=order.assignment.package,
+        node_file=order.assignment.node_file,
+        name=order.name,
+        modes_kept=order.modes_kept,
     )
-    intake = time.monotonic() - begin
+    return mark(submission, order, listener, intake=time.monotonic() - begin)
+
+
+def mark(
+    submission: Submission, order: Order, listener: events.Listener, *, intake: float = 0
+) -> model.Report:
+    """Mark what was taken in before, which took `intake` seconds; all else as `grade`."""
+    started = datetime.now(timezone.utc)
+    begin = time.monotonic() - intake
+    assignment = order.assignment
     listener(events.StageStarted("setup", f"opening the sandbox for ROS {order.distro.name}"))
     sandbox = open_sandbox(
         order.sandbox,
@@ -205,6 +219,7 @@ def _report(
         ),
         submission=model.SubmissionInfo(
             name=submission.name,
+            student_id=order.student_id or None,
             path=_printable(submission.path),
             sha256=submission.sha256,
             package=_package_name(submission),
@@ -226,7 +241,7 @@ def _report(
         score=sum(r.score for r in results),
         max_score=assignment.max_score,
         checks=list(results),
-        observed=_observed(run),
+        observed=_observed(run, assignment.output.period),
         evidence=model.Evidence(
             build_log=_cut(build.log) if build else "",
             transcript=_cut(run.transcript) if run else "",
@@ -247,7 +262,7 @@ def _package_name(submission: Submission) -> str | None:
     return None
 
 
-def _observed(run: Run | None) -> model.Observed:
+def _observed(run: Run | None, period: float) -> model.Observed:
     if run is None:
         return model.Observed()
     virtual = run.watch.clock == "virtual"
@@ -264,6 +279,8 @@ def _observed(run: Run | None) -> model.Observed:
         command=run.command,
         clock=run.watch.clock,
         ticks=ticks,
+        period=period,
+        due=[round(due, 3) for due in run.watch.dues[:200]],
         nodes=[node.name for node in run.nodes],
         exit=model.Exit(
             status=run.status,

@@ -7,12 +7,15 @@ of the folder or archive.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from dataclasses import field
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import Literal
 
+from grader.report.model import Evidence
 from grader.report.model import Report
 
 System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
@@ -37,7 +40,8 @@ class HandedIn:
 
     `problem` says why there is nothing that could be marked (a corrupt archive, say); `notes` what
     the instructor should know. `submitted` is the course system's own time stamp, None if it does
-    not tell; `late` is its own word on it.
+    not tell; `late` is its own word on it. `modes_kept` is False where the way here lost the exec
+    bits of loose files (an upload of file by file, say): `take_in` wants to know.
     """
 
     student: Student
@@ -47,6 +51,7 @@ class HandedIn:
     late: bool | None = None
     notes: tuple[str, ...] = ()
     problem: str = ""
+    modes_kept: bool = True
 
 
 @dataclass(frozen=True)
@@ -96,6 +101,17 @@ class Entry:
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     same_as: tuple[str, ...] = ()
+    verdict: int | None = None
+    """The number of the report's verdict in the ledger."""
+    read_evidence: Callable[[], Evidence] | None = field(default=None, compare=False, repr=False)
+    """Where the report's evidence is kept, if not in it: a class of thousands has too much of it."""
+
+    def whole(self) -> Entry:
+        """Return the same entry with the evidence in its report."""
+        if self.report is None or self.read_evidence is None:
+            return self
+        report = self.report.model_copy(update={"evidence": self.read_evidence()})
+        return replace(self, report=report, read_evidence=None)
 
 
 @dataclass(frozen=True)
