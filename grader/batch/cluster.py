@@ -6,6 +6,7 @@ disk, and what it runs is this grader, the same source on both sides.
 
 from __future__ import annotations
 
+import asyncio
 import json
 import time
 from collections import Counter
@@ -95,8 +96,11 @@ class Cluster:
                 if not running:
                     return
                 try:
-                    done = wait(list(running), timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED")
-                except TimeoutError:
+                    with self._client.as_current():
+                        done = wait(
+                            list(running), timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED"
+                        )
+                except asyncio.TimeoutError:  # another one than Python's own before 3.11
                     continue
                 for future in done.done:
                     trial = running.pop(future)
@@ -232,6 +236,4 @@ def _heard(future: Future[str]) -> Answer:
 
 
 async def _sleep(seconds: float) -> None:
-    import asyncio  # noqa: PLC0415
-
     await asyncio.sleep(seconds)

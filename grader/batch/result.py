@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable
+from collections.abc import Iterable
 from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,7 +33,7 @@ NOT_YET = "not marked yet"
 
 @dataclass(frozen=True)
 class Found:
-    """One attempt of a student: when it was handed in, and the verdict on it if there is one."""
+    """One attempt of a student: when it was handed in (else first seen), and its verdict's number."""
 
     at: datetime | None
     attempt: Attempt
@@ -55,7 +56,8 @@ def class_result(
     overrides = defaultdict(list)
     for override in ledger.overrides(assignment.id):
         overrides[override.student].append(override)
-    earlier = _earlier(ledger, items, assignment.id)
+    seen = {(row.student, row.submission): row for row in ledger.seen(assignment.id)}
+    earlier = _earlier(ledger, items, seen.values(), assignment.id)
     own: dict[str, list[Item]] = defaultdict(list)
     students: dict[str, Student] = {}
     for item in items:
@@ -64,7 +66,7 @@ def class_result(
     entries = []
     submissions: dict[str, str] = {}
     for key, student in students.items():
-        found = [_of_item(ledger, item, verdicts) for item in own[key]]
+        found = [_of_item(ledger, item, verdicts, seen) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
         entry, counts = _entry(student, found, overrides[key], assignment)
         if counts is not None and counts.verdict is not None:
@@ -100,7 +102,12 @@ def _entry(
     return entry, counts
 
 
-def _of_item(ledger: Ledger, item: Item, verdicts: Mapping[tuple[str, str], VerdictRow]) -> Found:
+def _of_item(
+    ledger: Ledger,
+    item: Item,
+    verdicts: Mapping[tuple[str, str], VerdictRow],
+    seen: Mapping[tuple[str, str], HandedInRow],
+) -> Found:
     given = item.handed_in
     row = verdicts.get((item.student, item.key))
     notes, problem = list(given.notes), item.problem
@@ -117,7 +124,9 @@ def _of_item(ledger: Ledger, item: Item, verdicts: Mapping[tuple[str, str], Verd
         problem=problem,
         notes=tuple(notes),
     )
-    return Found(given.submitted, attempt, item.submission, row.id if row else None)
+    noted = seen.get((item.student, item.submission))
+    at = given.submitted or (noted.first_seen if noted else None)
+    return Found(at, attempt, item.submission, row.id if row else None)
 
 
 def _of_row(ledger: Ledger, seen: HandedInRow, assignment: str) -> Found:
@@ -136,12 +145,12 @@ def _of_row(ledger: Ledger, seen: HandedInRow, assignment: str) -> Found:
 
 
 def _earlier(
-    ledger: Ledger, items: Sequence[Item], assignment: str
+    ledger: Ledger, items: Sequence[Item], seen: Iterable[HandedInRow], assignment: str
 ) -> dict[str, list[HandedInRow]]:
     """Return what students handed in before that is no longer there, and was marked."""
     here = {(item.student, item.submission) for item in items}
     found: dict[str, list[HandedInRow]] = defaultdict(list)
-    for row in ledger.seen(assignment):
+    for row in seen:
         if (row.student, row.submission) in here:
             continue
         if ledger.verdict_of(assignment, row.student, row.submission) is not None:
