@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import time
 from collections import Counter
 from collections import deque
@@ -53,6 +54,7 @@ class Cluster:
         self._job = job
         self._say = say
         self._checked: dict[str, Checked] = {}
+        self._sent: dict[object, set[str]] = {}
         self._client = _connect(scheduler)
         self.surroundings = ""
         """The key of what the workers mark in (see `keys`)."""
@@ -83,26 +85,21 @@ class Cluster:
     def run(
         self, tasks: Iterable[Task], *, started: Callable[[Task], None]
     ) -> Generator[Done, None, None]:
-        """Mark them and yield each when it is done; closing the generator cancels the others."""
-        from distributed import wait  # noqa: PLC0415
+        """Mark them and yield each when it is done; closing the generator cancels the others.
 
+        Raises SurroundingsError where the scheduler, or every worker for a while, is gone.
+        """
         waiting = iter(tasks)
         again: deque[Trial] = deque()
         running: dict[Future[str], Trial] = {}
         try:
             while True:
+                again.extend(self._stranded(running))
                 for trial in self._next(waiting, again, len(running), started):
                     running[self._submit(trial)] = trial
                 if not running:
                     return
-                try:
-                    with self._client.as_current():
-                        done = wait(
-                            list(running), timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED"
-                        )
-                except asyncio.TimeoutError:  # another one than Python's own before 3.11
-                    continue
-                for future in done.done:
+                for future in self._wait(list(running)):
                     trial = running.pop(future)
                     finished = trial.hear(_heard(future))
                     if finished is None:
@@ -110,7 +107,41 @@ class Cluster:
                     else:
                         yield finished
         finally:
-            self._client.cancel(list(running))
+            if not self._is_lost():
+                self._client.cancel(list(running))
+
+    def _wait(self, futures: list[Future[str]]) -> list[Future[str]]:
+        """Return those that are done; none where it takes long, so that workers are looked at."""
+        from distributed import wait  # noqa: PLC0415
+
+        try:
+            with self._client.as_current():
+                done = wait(futures, timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED").done
+        except asyncio.TimeoutError:  # another one than Python's own before 3.11
+            return []
+        except (asyncio.CancelledError, OSError):
+            self._need_scheduler()
+            return []
+        self._need_scheduler()  # where it is gone, everything counts as done
+        return list(done)
+
+    def _stranded(self, running: dict[Future[str], Trial]) -> list[Trial]:
+        """Take back what waits for workers that are all gone."""
+        here = set(self._workers())
+        gone = [future for future in running if not self._sent[future.key] & here]
+        if gone:
+            self._client.cancel(gone)
+        return [running.pop(future) for future in gone]
+
+    def _is_lost(self) -> bool:
+        return self._client.status not in ("running", "connecting")
+
+    def _need_scheduler(self) -> None:
+        if self._is_lost() or not self._client.scheduler_info().get("id"):
+            raise SurroundingsError(
+                f"the scheduler {self._scheduler} is gone",
+                remedy="What was marked is kept. Start it and run the same command again.",
+            )
 
     def prove(self) -> None:
         """Have every worker checked anew; SurroundingsError where none can be used any more."""
@@ -142,19 +173,23 @@ class Cluster:
 
     def _submit(self, trial: Trial) -> Future[str]:
         trial.tries += 1
-        return self._client.submit(
+        workers = set(self._usable())
+        future = self._client.submit(
             mark_here,
             self._job.to_text(),
             trial.task.to_text(),
             pure=False,
-            workers=list(self._usable()),
+            workers=list(workers),
             allow_other_workers=False,
         )
+        self._sent[future.key] = workers
+        return future
 
     def _room(self) -> int:
         """Return for how many submissions there is room; waits a while where no worker is left."""
         deadline = time.monotonic() + ALONE_SECONDS
         while True:
+            self._need_scheduler()
             self._look()
             usable = self._usable()
             if usable:
@@ -177,9 +212,9 @@ class Cluster:
         }
 
     def _workers(self) -> Mapping[str, Mapping[str, Any]]:
-        found: Mapping[str, Mapping[str, Any]] = self._client.scheduler_info(n_workers=-1)[
-            "workers"
-        ]
+        found: Mapping[str, Mapping[str, Any]] = self._client.scheduler_info(n_workers=-1).get(
+            "workers", {}
+        )
         return found
 
     def _look(self) -> None:
@@ -217,6 +252,7 @@ def _connect(scheduler: str) -> Client:
             "Dask is not installed, and --scheduler needs it",
             remedy="pip install 'distributed' into the grader's environment (docs/cluster.md).",
         ) from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it says, we say in words
     try:
         return Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, ValueError) as error:

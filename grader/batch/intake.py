@@ -79,4 +79,5 @@ def _take_in(attempt: HandedIn, assignment: Assignment) -> Submission:
         package=assignment.package,
         node_file=assignment.node_file,
         name=attempt.student.name or attempt.student.key,
+        modes_kept=attempt.modes_kept,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sqlite3
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -109,3 +110,16 @@ def measured(
         raise AssertionError(done.stdout[-1000:] + done.stderr[-3000:])
     found = json.loads(done.stdout.strip().splitlines()[-1])
     return found["status"], found["peak"]
+
+
+def verdicts_beside(path: Path) -> int:
+    """Return how many verdicts a ledger has that another process has open; 0 before it is made."""
+    if not path.is_file():
+        return 0
+    connection = sqlite3.connect(path, timeout=20)
+    try:
+        return int(connection.execute("SELECT count(*) FROM verdict").fetchone()[0])
+    except sqlite3.OperationalError:  # its tables are being made
+        return 0
+    finally:
+        connection.close()

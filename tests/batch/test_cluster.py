@@ -23,9 +23,11 @@ from grader.errors import SurroundingsError
 from grader.ros.prefix import Ros
 from tests.batch.classes import grade_all
 from tests.batch.classes import of_corpus
+from tests.batch.classes import verdicts_beside
 from tests.batch.works import JOB
 from tests.batch.works import tasks
 from tests.stage import ROOT
+from tests.stage import grader
 
 pytestmark = [pytest.mark.prefix, pytest.mark.full]
 
@@ -103,6 +105,32 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
                 os.kill(first, signal.SIGKILL)
     expected = {f"{name}-{n}": 100 if name == "solution" else 50 for n, name in enumerate(names)}
     assert _scores(found) == expected
+
+
+def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
+    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"] * 3)
+    with ExitStack() as stack:
+        scheduler, address = stack.enter_context(process(*words, ready="Scheduler at:"))
+        worker = ("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+        stack.enter_context(process(*worker, ready="Registered to:"))
+        command = grader("grade-all", folder, "--out", tmp_path / "out", "--scheduler", address)
+        with subprocess.Popen(
+            [*command, "--quiet"], cwd=ROOT, stderr=subprocess.PIPE, text=True
+        ) as begun:
+            assert begun.stderr is not None
+            while not verdicts_beside(tmp_path / "out" / "ledger.sqlite"):
+                assert begun.poll() is None
+                os.sched_yield()
+            os.kill(scheduler, signal.SIGKILL)
+            _, said = begun.communicate(timeout=120)
+    assert begun.returncode == 3, said
+    assert "is gone" in said
+    assert "Traceback" not in said
+    again = grade_all(folder, tmp_path / "out")
+    assert again.returncode == 1, again.stderr
+    with Ledger(tmp_path / "out" / "ledger.sqlite") as ledger:
+        assert ledger.count() == 6
 
 
 def test_a_class_is_marked_on_the_cluster_and_kept_here(

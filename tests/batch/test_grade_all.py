@@ -7,7 +7,6 @@ import json
 import os
 import shutil
 import signal
-import sqlite3
 import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
 from tests.batch.classes import grade_all
 from tests.batch.classes import of_corpus
+from tests.batch.classes import verdicts_beside
 from tests.batch.works import workers_of
 from tests.stage import ROOT
 from tests.stage import grader
@@ -268,7 +268,7 @@ def test_it_can_be_interrupted_and_goes_on_from_there(
 ) -> None:
     process, folder, out = begun
     ledger = out / "ledger.sqlite"
-    while _verdicts_beside(ledger) < 1:
+    while verdicts_beside(ledger) < 1:
         os.sched_yield()
     workers = workers_of(process.pid)
     process.send_signal(signal.SIGINT)
@@ -284,12 +284,3 @@ def test_it_can_be_interrupted_and_goes_on_from_there(
     assert f"{statuses.count('pending')} to mark" in again.stderr
     with Ledger(ledger) as opened:
         assert opened.count() == 6, "none twice"
-
-
-def _verdicts_beside(path: Path) -> int:
-    """Return how many verdicts a ledger has that another process has open."""
-    connection = sqlite3.connect(path, timeout=20)
-    try:
-        return int(connection.execute("SELECT count(*) FROM verdict").fetchone()[0])
-    finally:
-        connection.close()
