@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from datetime import datetime
+from datetime import timezone
 from typing import Annotated
 from typing import Literal
 from zoneinfo import ZoneInfo
@@ -60,12 +61,12 @@ class Policy(_Part):
 
     @property
     def deadline(self) -> datetime | None:
-        """The due date as an instant."""
+        """The due date as an instant (UTC)."""
         return self._instant(self.due)
 
     @property
     def end(self) -> datetime | None:
-        """The instant from which nothing is accepted any more."""
+        """The instant (UTC) from which nothing is accepted any more."""
         return self._instant(self.late.until)
 
     @property
@@ -74,9 +75,12 @@ class Policy(_Part):
         return duration(self.grace) or 0
 
     def _instant(self, value: datetime | None) -> datetime | None:
-        if value is None or value.tzinfo is not None:
-            return value
-        return value.replace(tzinfo=ZoneInfo(self.time_zone))
+        if value is None:
+            return None
+        if value.tzinfo is None:
+            value = value.replace(tzinfo=ZoneInfo(self.time_zone))
+        # two times of one zone would be subtracted as the clocks on the wall show them
+        return value.astimezone(timezone.utc)
 
 
 def duration(text: str) -> float | None:
@@ -103,9 +107,12 @@ def policy_faults(policy: Policy) -> Iterator[tuple[tuple[str | int, ...], str]]
         return
     places = {("due",): policy.due, ("late", "until"): policy.late.until}
     for place, instant in places.items():
+        name = ".".join(place)
         if instant is not None and instant.tzinfo is None and not policy.time_zone:
-            name = ".".join(place)
             yield place, f"{name} has no time zone: add +09:00, say, or a time_zone of its own"
+            return
+        if instant is not None and not 1 < instant.year < 9999:
+            yield place, f"{name} is in the year {instant.year}"
             return
     if duration(policy.grace) is None:
         yield ("grace",), f"grace must be a duration such as 15 min, not '{policy.grace}'"

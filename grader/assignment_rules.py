@@ -47,7 +47,7 @@ TYPES = {
     "string": "text (put it in quotes)",
     "int": "a whole number",
     "float": "a number",
-    "datetime": "a date and time such as 2026-11-20T23:59:00+09:00",
+    "datetime": "a date and time such as 2026-11-20T23:59:00+09:00, without quotes",
     "tuple": "a list",
     "dict": "a block of `key: value`",
     "model": "a block of `key: value`",

@@ -24,6 +24,7 @@ from grader.batch.model import Student
 from grader.errors import SurroundingsError
 from grader.report.model import Report
 
+MOST_KEPT = 250  # reports in memory: up to 0.1 MB each
 VERDICT = "SELECT id, student, key, submission, score, max_score FROM verdict"
 
 
@@ -33,6 +34,7 @@ class Ledger:
     def __init__(self, path: Path, *, makes: bool = True) -> None:
         """Open the ledger at `path`; all else as `LedgerFile`."""
         self._file = LedgerFile(path, makes=makes)
+        self._kept: dict[int, Report] = {}
         self.path = path
 
     def __enter__(self) -> Ledger:
@@ -104,7 +106,19 @@ class Ledger:
         return VerdictRow(*rows[0]) if rows else None
 
     def report(self, verdict: int) -> Report:
-        """Return the report of a verdict. KeyError if there is none of this id."""
+        """Return the report of a verdict. KeyError if there is none of this id.
+
+        The last few are kept, since every output goes through a class from its first to its last.
+        """
+        if verdict in self._kept:
+            return self._kept[verdict]
+        report = self._read(verdict)
+        while len(self._kept) >= MOST_KEPT:
+            del self._kept[next(iter(self._kept))]
+        self._kept[verdict] = report
+        return report
+
+    def _read(self, verdict: int) -> Report:
         rows = self._file.rows("SELECT report FROM verdict WHERE id = ?", (verdict,))
         if not rows:
             raise KeyError(verdict)

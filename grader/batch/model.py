@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from dataclasses import field
-from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import Literal
+from typing import overload
 
-from grader.report.model import Evidence
 from grader.report.model import Report
 
 System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
@@ -77,6 +76,29 @@ class Override:
     at: datetime | None = None
 
 
+class Held:
+    """A report, or what fetches it each time that it is asked for: those of thousands of students
+    are too much to be kept in memory.
+    """
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = f"_{name}"
+
+    @overload
+    def __get__(self, entry: None, owner: type) -> None: ...
+    @overload
+    def __get__(self, entry: object, owner: type) -> Report | None: ...
+    def __get__(self, entry: object | None, owner: type) -> Report | None:
+        """Return the report, None if there is none (and for the class, as the field's default)."""
+        if entry is None:
+            return None
+        held: Report | Callable[[], Report] | None = entry.__dict__[self._name]
+        return held() if callable(held) else held
+
+    def __set__(self, entry: object, value: Report | Callable[[], Report] | None) -> None:
+        entry.__dict__[self._name] = value
+
+
 @dataclass(frozen=True)
 class Entry:
     """What one student gets: the report that counts, and what was made of its score.
@@ -88,7 +110,7 @@ class Entry:
 
     student: Student
     status: EntryStatus
-    report: Report | None = None
+    report: Held = Held()
     score: float | None = None
     penalty: float = 0
     final: float | None = None
@@ -103,15 +125,6 @@ class Entry:
     same_as: tuple[str, ...] = ()
     verdict: int | None = None
     """The number of the report's verdict in the ledger."""
-    read_evidence: Callable[[], Evidence] | None = field(default=None, compare=False, repr=False)
-    """Where the report's evidence is kept, if not in it: a class of thousands has too much of it."""
-
-    def whole(self) -> Entry:
-        """Return the same entry with the evidence in its report."""
-        if self.report is None or self.read_evidence is None:
-            return self
-        report = self.report.model_copy(update={"evidence": self.read_evidence()})
-        return replace(self, report=report, read_evidence=None)
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,7 @@ def write_all(
 def _write_report(entry: Entry, out: Path) -> Path:
     from grader.report.files import write_report  # noqa: PLC0415
 
-    report = entry.whole().report
+    report = entry.report
     assert report is not None
     name = report.submission.name
     # a student may be called as one of our folders is
@@ -84,7 +84,7 @@ def _write_report(entry: Entry, out: Path) -> Path:
 def _digest(result: ClassResult, sheets: Sheets) -> str:
     """Return the hash of all that the files are made of."""
     bare = replace(result, entries=(), started=None, seconds=0)
-    entries = [asdict(replace(e, report=None, read_evidence=None)) for e in result.entries]
+    entries = [asdict(replace(e, report=None)) for e in result.entries]
     own = [path.read_bytes() for path in (sheets.worksheet, sheets.canvas) if path is not None]
     parts = [asdict(bare), entries, asdict(sheets), source_digest(GRADER)]
     text = json.dumps(parts, default=str, sort_keys=True).encode()

@@ -23,6 +23,7 @@ from grader.report.model import Report
 
 DAY, HOUR = 86_400.0, 3_600.0
 UNKNOWN_TIME = "it is not known when it was handed in: nothing was taken for lateness"
+NO_VERDICT = "the grader failed on it"
 CALLED_LATE = "the course's system calls it late"
 
 
@@ -119,6 +120,9 @@ def _rate(
     )
     if attempt.report is None:
         return entry
+    if attempt.report.status == "error":
+        problem = attempt.problem or attempt.report.message or NO_VERDICT
+        return replace(entry, status="ungradable", problem=problem)
     score = rounded(sum(mark.points or 0 for mark in marks(entry)))
     taken = penalty(score, max_score, attempt.submitted, policy)
     final = rounded(score - taken)
@@ -134,7 +138,7 @@ def _chosen(rated: Sequence[Entry], policy: Policy) -> int:
     worth = [-1.0 if entry.final is None else entry.final for entry in rated]
     best = worth.index(max(worth))
     # where none has a verdict, the last one is what the instructor is shown
-    return best if rated[best].report is not None else len(rated) - 1
+    return best if rated[best].final is not None else len(rated) - 1
 
 
 def _corrected(entry: Entry) -> Entry:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable
 from collections.abc import Iterable
+from collections.abc import Iterator
 from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import replace
 from datetime import datetime
+from functools import partial
 
 from grader.assignment import Assignment
 from grader.batch.intake import Item
@@ -24,7 +25,6 @@ from grader.batch.model import Student
 from grader.batch.policy import Attempt
 from grader.batch.policy import standing
 from grader.batch.similar import groups
-from grader.report.model import Evidence
 from grader.report.model import Report
 
 GONE = "handed in before, and no longer in the class' folder"
@@ -51,7 +51,9 @@ def class_result(
     started: datetime | None = None,
     seconds: float = 0,
 ) -> ClassResult:
-    """Return the result of a class as the ledger has it now, without each report's evidence."""
+    """Return the result of a class as the ledger has it now; the ledger must stay open as
+    long as its reports are asked for.
+    """
     verdicts = ledger.verdicts()
     overrides = defaultdict(list)
     for override in ledger.overrides(assignment.id):
@@ -63,25 +65,25 @@ def class_result(
     for item in items:
         own[item.student].append(item)
         students.setdefault(item.student, item.handed_in.student)
-    entries = []
+    entries: list[Entry] = []
     submissions: dict[str, str] = {}
     for key, student in students.items():
         found = [_of_item(ledger, item, verdicts, seen) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
         entry, counts = _entry(student, found, overrides[key], assignment)
-        if counts is not None and counts.verdict is not None:
+        if counts is not None:
             submissions[key] = counts.submission
-            reader = _reader(ledger, counts.verdict)
-            entry = replace(entry, verdict=counts.verdict, read_evidence=reader)
-        entries.append(entry)
+        verdict = counts.verdict if counts is not None else None
+        entries.append(replace(entry, report=None, verdict=verdict))
     for student in folder.missing:
         entry, _ = _entry(student, [], overrides[student.key], assignment)
         entries.append(entry)
+    identical = _identical(ledger, submissions)
     return ClassResult(
         title=assignment.title,
         assignment=assignment.id,
         system=folder.system,
-        entries=tuple(_same_as(entries, identical := _identical(ledger, submissions))),
+        entries=tuple(_with_reports(ledger, entries, identical)),
         max_score=assignment.max_score,
         distros=(distro,),
         started=started,
@@ -159,14 +161,7 @@ def _earlier(
 
 
 def _report(ledger: Ledger, row: VerdictRow | None) -> Report | None:
-    """Return a verdict's report without its evidence, which is most of it."""
-    if row is None:
-        return None
-    return ledger.report(row.id).model_copy(update={"evidence": Evidence()})
-
-
-def _reader(ledger: Ledger, verdict: int) -> Callable[[], Evidence]:
-    return lambda: ledger.report(verdict).evidence
+    return None if row is None else ledger.report(row.id)
 
 
 def _identical(ledger: Ledger, submissions: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:
@@ -174,6 +169,11 @@ def _identical(ledger: Ledger, submissions: Mapping[str, str]) -> tuple[tuple[st
     return groups({key: known.get(found, "") for key, found in submissions.items()})
 
 
-def _same_as(entries: Sequence[Entry], identical: Sequence[Sequence[str]]) -> list[Entry]:
+def _with_reports(
+    ledger: Ledger, entries: Sequence[Entry], identical: Sequence[Sequence[str]]
+) -> Iterator[Entry]:
+    """Yield the entries with what fetches each report, and with whose submission is the same."""
     others = {key: tuple(o for o in group if o != key) for group in identical for key in group}
-    return [replace(entry, same_as=others.get(entry.student.key, ())) for entry in entries]
+    for entry in entries:
+        fetch = None if entry.verdict is None else partial(ledger.report, entry.verdict)
+        yield replace(entry, report=fetch, same_as=others.get(entry.student.key, ()))

@@ -64,7 +64,7 @@ def _write_students(
     for before, entry, after in around:
         if entry is None:
             continue
-        view = student_view(entry.whole(), show_hidden=show_hidden)
+        view = student_view(entry, show_hidden=show_hidden)
         logs = [("transcript", view.transcript), ("build-log", view.build_log)]
         page = renderer.page(
             "student.html.j2",

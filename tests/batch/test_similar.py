@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import time
 import tokenize
 from dataclasses import replace
 
@@ -93,6 +94,36 @@ def test_groups_are_those_of_two_and_more() -> None:
 @given(st.dictionaries(st.sampled_from([NODE, "a.xml", "b.cfg", "c"]), st.binary(max_size=200)))
 def test_whatever_is_in_a_file_has_a_fingerprint(files: dict[str, bytes]) -> None:
     assert fingerprint(having(files)) == fingerprint(having(files))
+
+
+@pytest.mark.parametrize(
+    ("path", "data"),
+    [
+        ("package.xml", b"<!--" * 50_000),
+        ("setup.cfg", b"\n" * 200_000),
+        ("setup.cfg", b" \t" * 100_000),
+        (NODE, b"a\n" * 2_000_000),
+        (NODE, b"(" * 4_000_000),
+        (NODE, b"'''" + b"\\\n" * 2_000_000),
+    ],
+)
+def test_nobody_can_hold_up_the_class_with_what_is_in_a_file(path: str, data: bytes) -> None:
+    before = time.process_time()
+    assert fingerprint(having({NODE: b"print()", path: data}))
+    assert time.process_time() - before < 5, "seconds of processor time; this is not linear"
+
+
+def test_long_code_is_compared_without_blanks_and_comments_too() -> None:
+    code = b"count = 1\n" * 50_000
+    plain, remarked = having({NODE: code}), having({NODE: b"# mine\n\n" + code})
+    assert fingerprint(plain) == fingerprint(remarked)
+    assert fingerprint(plain) != fingerprint(having({NODE: code + b"print()\n"}))
+
+
+def test_a_comment_that_never_ends_hides_nothing() -> None:
+    one = having({NODE: b"print()", "package.xml": b"<a><!-- b"})
+    other = having({NODE: b"print()", "package.xml": b"<a><!-- c"})
+    assert fingerprint(one) != fingerprint(other)
 
 
 NAMES = st.sampled_from(["a", "b", "count", "self", "print", "7", "'t'"])
