@@ -100,10 +100,11 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
         written = write_all(result, asked.out, asked.sheets, ledger, say=_say)
         _show(result, plan, ledger, asked, written=written)
         failed = any(ledger.fault(item.student, item.key) for item in plan.todo)
+        status = _status(result, failed=failed)
     if interrupted:
         _say("interrupted: what was marked is kept, and the same command goes on from there")
         raise KeyboardInterrupt
-    return _status(result, failed=failed)
+    return status
 
 
 @contextlib.contextmanager

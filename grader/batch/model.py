@@ -123,6 +123,7 @@ class Entry:
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     same_as: tuple[str, ...] = ()
+    """Some of those with the same content; all are in the class' `identical`."""
     verdict: int | None = None
     """The number of the report's verdict in the ledger."""
 

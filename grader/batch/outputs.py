@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable
 from dataclasses import asdict
 from dataclasses import dataclass
@@ -66,6 +67,7 @@ def write_all(
     )
     files.append(write_site(result, out))
     files += [_write_report(entry, out) for entry in result.entries if entry.report is not None]
+    os.sync()  # once for all of them: only then is it noted that they are there
     kept = {"digest": digest, "files": [str(file.resolve()) for file in files]}
     ledger.note(name, json.dumps(kept))
     return True
@@ -78,7 +80,7 @@ def _write_report(entry: Entry, out: Path) -> Path:
     assert report is not None
     name = report.submission.name
     # a student may be called as one of our folders is
-    return write_report(report, out, f"{name}-1" if name in CLASS_FOLDERS else name)
+    return write_report(report, out, f"{name}-1" if name in CLASS_FOLDERS else name, durable=False)
 
 
 def _digest(result: ClassResult, sheets: Sheets) -> str:

@@ -27,6 +27,7 @@ from grader.batch.policy import standing
 from grader.batch.similar import groups
 from grader.report.model import Report
 
+MOST_SAME = 10  # of the others with the same content, in one student's line
 GONE = "handed in before, and no longer in the class' folder"
 NOT_YET = "not marked yet"
 
@@ -173,7 +174,12 @@ def _with_reports(
     ledger: Ledger, entries: Sequence[Entry], identical: Sequence[Sequence[str]]
 ) -> Iterator[Entry]:
     """Yield the entries with what fetches each report, and with whose submission is the same."""
-    others = {key: tuple(o for o in group if o != key) for group in identical for key in group}
+    # each names a few of the others: all of them, for all of a large group, is a number squared
+    others = {
+        key: tuple(other for other in group[: MOST_SAME + 1] if other != key)[:MOST_SAME]
+        for group in identical
+        for key in group
+    }
     for entry in entries:
         fetch = None if entry.verdict is None else partial(ledger.report, entry.verdict)
         yield replace(entry, report=fetch, same_as=others.get(entry.student.key, ()))

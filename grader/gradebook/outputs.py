@@ -47,7 +47,8 @@ def write_outputs(
 
     `worksheet` and `canvas` are the teacher's own files, of which filled copies are made; what
     could not be filled in is told to `say`. Nothing is written if one of them is refused
-    (UsageError). SurroundingsError if the folder cannot be written.
+    (UsageError). SurroundingsError if the folder cannot be written. They may reach the disk a while
+    later.
     """
     warnings: list[str] = []
     files = {GRADEBOOK: gradebook_csv(result, bom=True), JUNIT: class_xml(result)}
@@ -95,7 +96,7 @@ def _write(
     written = [out / name for name in files]
     try:
         out.mkdir(mode=0o700, parents=True, exist_ok=True)
-        with Folder.open(out) as folder:
+        with Folder.open(out, durable=False) as folder:
             for name, content in files.items():
                 folder.replace(name, content)
             with folder.private(FEEDBACK) as inside:
