@@ -37,6 +37,7 @@ from grader.report.surface import width_of
 from grader.runner import Order
 
 UNPACKED = "unpacked"
+MOST_A_CORE = 2  # workers, while cores have nothing to do
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +114,9 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
     order = asked.order
     if not asked.scheduler:
         setting = run.prove(order, say=_say)
-        yield setting, LocalPool(setting.job, asked.workers or run.workers_here())
+        cores = run.cores_here()
+        most = asked.workers or MOST_A_CORE * cores
+        yield setting, LocalPool(setting.job, asked.workers or cores, most=most)
         return
     from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
 

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import IO
 
 import grader
+from grader.batch.idleness import Idleness
 from grader.batch.trial import Trial
 from grader.batch.work import Answer
 from grader.batch.work import Done
@@ -35,6 +36,8 @@ from grader.sandbox.choose import open_sandbox
 ROOT = Path(grader.__file__).resolve().parent.parent
 END_SECONDS = 10.0  # in which a worker that is asked to ends, with its sandbox
 CHUNK = 1 << 20
+LOOK_SECONDS = 0.5  # over which a core must be idle
+IDLE_CORES = 0.5
 MOST_SAID = 2_000  # characters of a dead worker's last words
 
 
@@ -60,11 +63,21 @@ class LocalPool:
     """So many workers on this machine."""
 
     def __init__(
-        self, job: Job, workers: int, *, command: tuple[str, ...] = (), seconds: float | None = None
+        self,
+        job: Job,
+        workers: int,
+        *,
+        most: int = 0,
+        command: tuple[str, ...] = (),
+        seconds: float | None = None,
     ) -> None:
-        """`command` is another program that speaks as a worker does, `seconds` another time limit."""
+        """`most` is up to how many workers there may be while cores have nothing to do, `command`
+        another program that speaks as a worker does, `seconds` another time limit.
+        """
         self._job = job
         self._count = workers
+        self._most = max(workers, most)
+        self._idleness = Idleness(LOOK_SECONDS)
         self._command = command or (sys.executable, "-m", "grader.batch.worker")
         self._seconds = job.seconds if seconds is None else seconds
         self._workers: list[Worker] = []
@@ -101,9 +114,10 @@ class LocalPool:
     ) -> None:
         """Give every idle worker something to do, and start workers while there is more to do."""
         while True:
-            idle = next((worker for worker in self._workers if worker.trial is None), None)
-            if idle is None and len(self._workers) >= self._count:
+            busy = sum(worker.trial is not None for worker in self._workers)
+            if busy >= self._count and not self._may_one_more(busy):
                 return
+            idle = next((worker for worker in self._workers if worker.trial is None), None)
             trial = self._again.popleft() if self._again else None
             if trial is None:
                 task = next(waiting, None)
@@ -114,6 +128,10 @@ class LocalPool:
             if trial.tries == 0:
                 started(trial.task)
             self._give(worker, trial)
+
+    def _may_one_more(self, busy: int) -> bool:
+        """Whether a core has nothing to do: a node on the wall clock, or one that hangs, waits."""
+        return busy < self._most and self._idleness.cores() > IDLE_CORES
 
     def _start(self, selector: selectors.BaseSelector) -> Worker:
         errors = tempfile.TemporaryFile()  # noqa: SIM115 - it is closed with its worker
@@ -147,6 +165,7 @@ class LocalPool:
     ) -> Iterator[Done]:
         """Wait for the next answer, death or deadline, and yield what is done with it."""
         until = min(worker.deadline for worker in busy) - time.monotonic()
+        until = min(until, LOOK_SECONDS) if self._most > self._count else until
         ready = [key.data for key, _ in selector.select(max(0.0, until))]
         for worker in ready:
             heard = self._read(worker, selector)

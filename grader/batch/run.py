@@ -161,11 +161,8 @@ def carry_out(
                 in_a_row = 0
 
 
-def workers_here() -> int:
-    """Return how many workers keep this machine's cores busy: one each, as was measured.
-
-    (In virtual time a node does not idle; one more worker than cores was 8 % slower on two.)
-    """
+def cores_here() -> int:
+    """Return how many cores this process may use."""
     return len(os.sched_getaffinity(0))
 
 
