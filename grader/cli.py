@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 import grader
+from grader import options
 from grader.batch.commands import COMMANDS as CLASS_COMMANDS
 from grader.entry import run
 from grader.gradebook.commands import COMMANDS as GRADEBOOK_COMMANDS
@@ -37,31 +38,11 @@ def commands() -> None:
     """
 
 
-_assignment = click.option(
-    "--assignment",
-    default="hello_time",
-    show_default=True,
-    metavar="ID|FILE",
-    help="The assignment: its id, or the path of an assignment.yaml.",
-)
 _distro = click.option(
     "--distro",
     default="jazzy",
     show_default=True,
     help="The ROS 2 distro to mark on; several with commas between them.",
-)
-_sandbox = click.option(
-    "--sandbox",
-    default="auto",
-    show_default=True,
-    help="Where the student's code runs: auto, docker, bubblewrap, account or none.",
-)
-_limit = click.option(
-    "--limit",
-    "limits",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated.",
 )
 _out = click.option(
     "--out",
@@ -75,11 +56,11 @@ _verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence
 
 @commands.command()
 @click.argument("path", type=click.Path(path_type=Path))
-@_assignment
+@options.assignment
 @_distro
-@_sandbox
+@options.sandbox
 @click.option("--name", help="The student's name in the report (default: the folder's).")
-@_limit
+@options.limits
 @_out
 @_verbose
 def grade(
@@ -101,10 +82,10 @@ def grade(
 
 @commands.command()
 @click.argument("path", type=click.Path(path_type=Path), required=False)
-@_assignment
+@options.assignment
 @_distro
-@_sandbox
-@_limit
+@options.sandbox
+@options.limits
 @_verbose
 def check(
     path: Path | None,

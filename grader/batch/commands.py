@@ -6,16 +6,10 @@ from pathlib import Path
 
 import click
 
+from grader import options
 from grader.errors import UsageError
 
 _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
-_assignment = click.option(
-    "--assignment",
-    default="hello_time",
-    show_default=True,
-    metavar="ID|FILE",
-    help="The assignment: its id, or the path of an assignment.yaml.",
-)
 _ledger = click.option(
     "--ledger",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -25,21 +19,10 @@ _ledger = click.option(
 
 @click.command("grade-all")
 @click.argument("path", type=click.Path(path_type=Path))
-@_assignment
-@click.option("--distro", default="jazzy", show_default=True, help="The ROS 2 distro to mark on.")
-@click.option(
-    "--sandbox",
-    default="auto",
-    show_default=True,
-    help="Where the students' code runs: auto, docker, bubblewrap, account or none.",
-)
-@click.option(
-    "--limit",
-    "limits",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated.",
-)
+@options.assignment
+@options.one_distro
+@options.sandbox
+@options.limits
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -142,7 +125,7 @@ def grade_all(
 @click.option("--remove", is_flag=True, help="Take the correction back.")
 @click.option("--list", "list_all", is_flag=True, help="List the corrections that hold.")
 @click.option("--force", is_flag=True, help="Also points below 0 or beyond what it is worth.")
-@_assignment
+@options.assignment
 @_ledger
 @click.option(
     "--out", type=click.Path(path_type=Path, file_okay=False), help="The class' --out folder."
