@@ -2,12 +2,12 @@
 # GNU make's own rule: every failure is exit status 2. Scripts call .venv/bin/grader.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lab images grade check test test-all bench lock lint clean
+.PHONY: help setup lab images grade grade-all check test test-all bench lock lint clean
 SHELL := /bin/sh
 
 # A variable's raw text goes to the recipes through the environment, never through make or a shell.
 VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
-  PIP_INDEX_URL PYTHON PYTEST_ARGS
+  PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS SCHEDULER
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
@@ -25,6 +25,8 @@ help:  ## Show this help
 	@echo "Variables: STUDENT=path PACKAGE=path ASSIGNMENT=hello_time DISTRO=jazzy[,kilted]"
 	@echo "           SANDBOX=auto NAME=student OUT=reports PYTHON=python3"
 	@echo "           WORKSPACE=~/ros2_ws BASE=ros|wheels (see docs/images.md for networks)"
+	@echo "           SUBMISSIONS=path ROSTER=csv WORKSHEET=csv CANVAS=csv WORKERS=n REGRADE=1"
+	@echo "           SCHEDULER=tcp://host:8786 (see docs/classes.md, docs/cluster.md)"
 
 setup:  ## Make the grader's environment and the ROS prefix, once (DISTRO=jazzy)
 	@$(BOOTSTRAP)
@@ -46,6 +48,16 @@ grade:  ## Mark one package: make grade STUDENT=path
 	  echo "make grade: say which package: make grade STUDENT=path/to/package" >&2; exit 2; fi
 	@$(BOOTSTRAP)
 	@$(GRADER) grade $(OPTIONS) $${NAME:+--name "$$NAME"} $${OUT:+--out "$$OUT"} -- "$$STUDENT"
+
+grade-all:  ## Mark a class: make grade-all SUBMISSIONS=path [ROSTER=csv] [REGRADE=1]
+	@if [ -z "$$SUBMISSIONS" ]; then \
+	  echo "make grade-all: say which class: make grade-all SUBMISSIONS=path/to/downloads" >&2; \
+	  exit 2; fi
+	@$(BOOTSTRAP)
+	@$(GRADER) grade-all $(OPTIONS) $${OUT:+--out "$$OUT"} $${ROSTER:+--roster "$$ROSTER"} \
+	  $${WORKERS:+--workers "$$WORKERS"} $${REGRADE:+--regrade} \
+	  $${WORKSHEET:+--worksheet "$$WORKSHEET"} $${CANVAS:+--canvas "$$CANVAS"} \
+	  $${SCHEDULER:+--scheduler "$$SCHEDULER"} -- "$$SUBMISSIONS"
 
 check:  ## Check your own package before handing it in: make check [PACKAGE=path]
 	@$(BOOTSTRAP)
@@ -75,7 +87,8 @@ lint:
 bench:  ## Measure a verdict against the bare commands, as ratios in one run (with Docker, as root)
 	@$(BOOTSTRAP) --tests
 	@trap '.venv/bin/python -m tests.engine down' EXIT; \
-	  .venv/bin/python -m tests.engine up && .venv/bin/python -m tests.bench
+	  .venv/bin/python -m tests.engine up && .venv/bin/python -m tests.bench && \
+	  .venv/bin/python -m tests.bench_class
 
 lock:  ## Write the lock files anew from their .in files (needs uv)
 	@sh grader/ros/locks/lock.sh

@@ -19,7 +19,9 @@ setup(
     version="0.1.0",
     packages=find_namespace_packages(include=["grader", "grader.*"]),
     include_package_data=True,
-    package_data={"": ["*.toml", "*.json", "*.txt", "*.in", "*.yaml", "*.mo"]},
+    package_data={
+        "": ["*.toml", "*.json", "*.txt", "*.in", "*.yaml", "*.mo", "*.j2", "*.css", "*.js"]
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
@@ -31,6 +33,6 @@ setup(
     maintainer_email="maintainers@users.noreply.h-seed-bdf1a219.example",
     description="A ROS 2 teaching lab, and the autograder that marks its exercises.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"test": ["pytest"], "cluster": ["distributed"]},
     entry_points={"console_scripts": ["grader = grader.cli:main"]},
 )

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 from pydantic import ConfigDict
 from pydantic import Field
 
+from grader.assignment_policy import Policy
 from grader.report.model import Visibility
 
 
@@ -57,6 +58,7 @@ class Assignment(_Part):
     hidden_checks: int = Field(default=0, ge=0)
     limits: dict[str, float] = Field(default_factory=dict)
     checks: tuple[CheckUse, ...]
+    policy: Policy = Field(default_factory=Policy)
     sha256: str = ""
 
     @property
@@ -95,7 +97,10 @@ def load_assignment(
 
 
 def _digest(assignment: Assignment) -> str:
-    """Return the hash of what the assignment says, however its files are laid out."""
-    content = assignment.model_dump(mode="json", by_alias=True, exclude={"sha256"})
+    """Return the hash of what the assignment asks for, however its files are laid out.
+
+    The policy is no part of it: a due date that moves changes no verdict.
+    """
+    content = assignment.model_dump(mode="json", by_alias=True, exclude={"sha256", "policy"})
     canonical = json.dumps(content, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()

@@ -18,6 +18,9 @@ from pydantic import ValidationError
 from grader.assignment import Assignment
 from grader.assignment import CheckUse
 from grader.assignment import Output
+from grader.assignment_policy import Late
+from grader.assignment_policy import Policy
+from grader.assignment_policy import policy_faults
 from grader.errors import AssignmentError
 from grader.positioned_yaml import Document
 from grader.positioned_yaml import Loc
@@ -44,6 +47,7 @@ TYPES = {
     "string": "text (put it in quotes)",
     "int": "a whole number",
     "float": "a number",
+    "datetime": "a date and time such as 2026-11-20T23:59:00+09:00, without quotes",
     "tuple": "a list",
     "dict": "a block of `key: value`",
     "model": "a block of `key: value`",
@@ -74,6 +78,10 @@ def check_content(
         *_output(assignment.output),
         *_limits(assignment.limits, known_limits),
         *_uses(assignment.checks, known_checks),
+        *(
+            (("policy", *place), f"policy.{text}")
+            for place, text in policy_faults(assignment.policy)
+        ),
     ]
     if found:
         raise _all_of(document, found)
@@ -181,6 +189,8 @@ def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:
     keys: dict[Loc, tuple[str, ...]] = {(): own, ("checks", "*"): tuple(CheckUse.model_fields)}
     if "output" in own:
         keys["output",] = tuple(Output.model_fields)
+        keys["policy",] = tuple(Policy.model_fields)
+        keys["policy", "late"] = tuple(Late.model_fields)
     return keys
 
 

@@ -4,7 +4,6 @@ usage, 3 the grader's own surroundings failed, 130/143 interrupted/terminated.
 
 from __future__ import annotations
 
-import os
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -13,11 +12,16 @@ from typing import TYPE_CHECKING
 import click
 
 import grader
+from grader import options
+from grader.batch.commands import COMMANDS as CLASS_COMMANDS
 from grader.entry import run
+from grader.fix.commands import COMMANDS as FIX_COMMANDS
+from grader.gradebook.commands import COMMANDS as GRADEBOOK_COMMANDS
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
-from grader.locale.speaker import chosen_language
 from grader.locale.speaker import errors_in
+from grader.mistakes.commands import COMMANDS as MISTAKE_COMMANDS
+from grader.validate.commands import COMMANDS as VALIDATE_COMMANDS
 
 if TYPE_CHECKING:
     from grader.report.model import Report
@@ -40,32 +44,6 @@ def commands() -> None:
     """
 
 
-_assignment = click.option(
-    "--assignment",
-    default="hello_time",
-    show_default=True,
-    metavar="ID|FILE",
-    help="The assignment: its id, or the path of an assignment.yaml.",
-)
-_distro = click.option(
-    "--distro",
-    default="jazzy",
-    show_default=True,
-    help="The ROS 2 distro to mark on; several with commas between them.",
-)
-_sandbox = click.option(
-    "--sandbox",
-    default="auto",
-    show_default=True,
-    help="Where the student's code runs: auto, docker, bubblewrap, account or none.",
-)
-_limit = click.option(
-    "--limit",
-    "limits",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated.",
-)
 _out = click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -73,23 +51,18 @@ _out = click.option(
     show_default=True,
     help="The folder that reports are written to.",
 )
-_lang = click.option(
-    "--lang",
-    type=click.Choice(["en", "ko"]),
-    help="The language of the texts (default: what LC_ALL, LANG and LANGUAGE ask for).",
-)
 _verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence of every check.")
 
 
 @commands.command()
 @click.argument("path", type=click.Path(path_type=Path))
-@_assignment
-@_distro
-@_sandbox
+@options.assignment
+@options.distros
+@options.sandbox
 @click.option("--name", help="The student's name in the report (default: the folder's).")
-@_limit
+@options.limits
 @_out
-@_lang
+@options.lang
 @_verbose
 def grade(
     path: Path,
@@ -112,11 +85,11 @@ def grade(
 
 @commands.command()
 @click.argument("path", type=click.Path(path_type=Path), required=False)
-@_assignment
-@_distro
-@_sandbox
-@_limit
-@_lang
+@options.assignment
+@options.distros
+@options.sandbox
+@options.limits
+@options.lang
 @_verbose
 def check(
     path: Path | None,
@@ -143,129 +116,6 @@ def check(
         if not named:
             click.echo(Speaker(orders[0].lang)(say("checking {path}", path=str(path))), err=True)
         return _mark(orders, None, verbose=verbose, show_hidden=False)
-
-
-@commands.command()
-@click.argument("mistake", metavar="[MISTAKE-ID | -]", required=False)
-@_lang
-def explain(mistake: str | None, lang: str | None) -> int:
-    """Explain a mistake of the catalogue, or what a terminal shows (-: read from standard input).
-
-    For example: ros2 run my_robot_controller test_node 2>&1 | grader explain -
-    """
-    from grader.mistakes import explain as texts  # noqa: PLC0415
-
-    lang = lang or chosen_language(os.environ)
-    if mistake is None:
-        texts.print_list(file=sys.stdout, lang=lang)
-        return 0
-    if mistake == "-":
-        text = sys.stdin.buffer.read(texts.MOST_BYTES).decode("utf-8", "replace")
-        return 0 if texts.print_recognised(text, file=sys.stdout, lang=lang) else 1
-    texts.print_entry(mistake, file=sys.stdout, lang=lang)
-    return 0
-
-
-@commands.command()
-@click.argument("path", type=click.Path(path_type=Path))
-@click.option(
-    "--dry-run/--apply",
-    "dry_run",
-    default=True,
-    help="Show the change as a diff (the default), or write it; the old files are kept.",
-)
-@_assignment
-@_distro
-@_sandbox
-@click.option("--check", "only", default="", metavar="ID", help="Mend this check only.")
-@click.option(
-    "--no-run", is_flag=True, help="Look at the files only: build nothing and run nothing."
-)
-@_limit
-def fix(
-    path: Path,
-    dry_run: bool,
-    assignment: str,
-    distro: str,
-    sandbox: str,
-    only: str,
-    no_run: bool,
-    limits: tuple[str, ...],
-) -> int:
-    """Mend your own package where only one mend is possible, as a diff that is shown first.
-
-    PATH is your package or workspace. Exit status: 0 nothing is wrong any more, 1 something is left
-    that cannot be mended by itself (it is named).
-    """
-    from grader.fix.command import Wish  # noqa: PLC0415
-    from grader.fix.command import fix as mend  # noqa: PLC0415
-    from grader.ordering import make_orders  # noqa: PLC0415
-
-    orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True)
-    if len(orders) > 1:
-        raise click.UsageError("fix runs the node on one distro: name one")
-    wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
-    return mend(wish, say=lambda text: click.echo(text, err=True))
-
-
-@commands.command()
-@click.argument("assignment", metavar="ASSIGNMENT")
-@click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
-@click.option(
-    "--jobs", type=click.IntRange(1), help="How many are run at once (default: cores + 1)."
-)
-@click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
-@click.option(
-    "--json",
-    "json_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Write the matrix to this file as well.",
-)
-@click.option(
-    "--keys",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="The folder with the solution and mutants.yaml (default: the grader's own).",
-)
-@_distro
-@_sandbox
-@_limit
-def validate(
-    assignment: str,
-    static: bool,
-    jobs: int | None,
-    only: str,
-    json_file: Path | None,
-    keys: Path | None,
-    distro: str,
-    sandbox: str,
-    limits: tuple[str, ...],
-) -> int:
-    """Mark an assignment's own solution, starter and mutants: does it mark what it claims to?
-
-    Exit status: 0 everything is as expected, 1 something is not.
-    """
-    from grader.ordering import make_orders  # noqa: PLC0415
-    from grader.validate import command  # noqa: PLC0415
-    from grader.validate import matrix  # noqa: PLC0415
-
-    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, lang="en")
-    if others:
-        raise click.UsageError("validate marks on one distro: name one")
-    wish = command.Wish(
-        order=order,
-        keys=keys or command.KEYS / order.assignment.id,
-        starter=command.starter_of(assignment),
-        static=static,
-        jobs=jobs or 0,
-        only=only,
-    )
-    found = command.validate(wish, say=lambda text: click.echo(text, err=True))
-    click.echo(matrix.table(found))
-    click.echo()
-    click.echo(matrix.summary(found))
-    if json_file is not None:
-        command.write_json(found, json_file)
-    return 1 if found.faults else 0
 
 
 @commands.command()
@@ -332,6 +182,16 @@ def images(
         size = f"{row.size / 1e6:,.0f} MB" if row.size is not None else "not here"
         click.echo(f"{row.name:<{width}}  {size:>10}  {row.id}".rstrip())
     return 0
+
+
+for _command in (
+    *CLASS_COMMANDS,
+    *GRADEBOOK_COMMANDS,
+    *MISTAKE_COMMANDS,
+    *FIX_COMMANDS,
+    *VALIDATE_COMMANDS,
+):
+    commands.add_command(_command)
 
 
 def _hidden(count: int) -> str:

@@ -199,6 +199,7 @@ class VirtualClock:
         answer = observer.probe.ask("clock", seconds=seconds, at=self._at, until_log=enough)
         self._slow = self._slow or time.time() - published > SLOW_BARRIER
         events = observer.take(answer, seconds=0.02 if wait else 0)
+        events += observer.catch_up(answer.logs)
         events = self._where_they_belong(events, published)
         silent = answer.barrier is False and not events
         self._unanswered = self._unanswered + 1 if silent else 0

@@ -97,6 +97,7 @@ class Observer:
         self._shown: set[int] = set()  # the stamps of the records that the terminal showed
         self.now = 0.0  # virtual seconds
         self._linked: float | None = None
+        self._mirrored = True  # whether the terminal shows what the logger says
 
     def linked(self, nodes: Sequence[NodeSeen]) -> None:
         """Note when the probe could first hear a node's log records: older ones come late."""
@@ -157,6 +158,22 @@ class Observer:
             return time.time() - self._linked > LATE_GRACE
         return time.time() - line.wall > GRACE
 
+    def catch_up(self, records: Sequence[LogRecord]) -> list[Event]:
+        """Return what was printed before the records, or right after them, and came later.
+
+        A container's terminal is slower than its network. A record's own line follows on the
+        terminal what was printed before it; what was printed after it may take as long again.
+        """
+        began = time.monotonic()
+        events: list[Event] = []
+        while self._mirrored and self._has_unshown(records):
+            late = time.monotonic() - began
+            self._mirrored = late < LATE_GRACE
+            events += self.take(seconds=GRACE / 4)
+            if not self._has_unshown(records):
+                events += self.take(seconds=max(late, GRACE / 4))
+        return events
+
     def settle(self) -> list[Event]:
         """Give every line that is still waiting for its log record its grace time, and every record
         that is still waiting for its line: a container's terminal is slower than its network.
@@ -164,15 +181,16 @@ class Observer:
         events: list[Event] = []
         deadline = time.monotonic() + 2 * LATE_GRACE
         while (
-            (self._unmatched or self._has_unshown_records())
+            (self._unmatched or self._has_unshown(self.records[-4000:]))
             and not self.terminal.flooded
             and time.monotonic() < deadline
         ):
             events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
         return events
 
-    def _has_unshown_records(self) -> bool:
+    def _has_unshown(self, records: Sequence[LogRecord]) -> bool:
         """Whether a record's line may still come on the terminal."""
-        return not self.terminal.ended and any(
-            record.stamp not in self._shown for record in self.records[-4000:]
+        terminal = self.terminal
+        return not (terminal.ended or terminal.flooded) and any(
+            record.stamp not in self._shown for record in records
         )

@@ -35,7 +35,7 @@ def make_orders(
     if not distros:
         raise UsageError(say("no distro was named"), remedy=say("For example: --distro jazzy"))
     given = _limit_values(limits)
-    file, hidden = _assignment_files(assignment)
+    file, hidden = assignment_files(assignment)
     if own_code:
         hidden = None
     wanted = load_assignment(file, hidden=hidden, known_limits=tuple(UNITS))
@@ -68,7 +68,7 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
     return values
 
 
-def _assignment_files(assignment: str) -> tuple[Path, Path | None]:
+def assignment_files(assignment: str) -> tuple[Path, Path | None]:
     """Return the assignment's file and its hidden checks, if this side has any."""
     if "/" in assignment or assignment.endswith((".yaml", ".yml")):
         return Path(assignment), None

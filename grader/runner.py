@@ -5,10 +5,8 @@ It prints nothing: it emits events, and returns the report.
 
 from __future__ import annotations
 
-import os
 import time
 import traceback
-from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
 from datetime import datetime
@@ -16,7 +14,6 @@ from datetime import timezone
 from pathlib import Path
 from typing import cast
 
-import grader
 from grader import events
 from grader.assignment import Assignment
 from grader.assignment import CheckUse
@@ -28,21 +25,20 @@ from grader.checks.registry import Inconclusive
 from grader.checks.registry import Passed
 from grader.errors import SurroundingsError
 from grader.evidence import Evidence
+from grader.fix.plan import patch_for
 from grader.limits import Limits
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.mistakes.diagnose import diagnose
 from grader.observer import Event
 from grader.report import model
+from grader.report.compose import compose
 from grader.ros.distro import Distro
-from grader.ros.prefix import Ros
-from grader.running import Run
 from grader.sandbox.choose import open_sandbox
 from grader.session import Session
 from grader.submission import Submission
 from grader.submission import take_in
 
-MOST_EVIDENCE = 40_000  # characters of build log and of transcript in the report
 STAGES = {
     "package": ("intake", say("looking at the package")),
     "source": ("intake", say("looking at the package")),
@@ -64,6 +60,9 @@ class Order:
     limits: Limits = field(default_factory=Limits)
     own_code: bool = False
     lang: str = "en"
+    student_id: str = ""
+    modes_kept: bool = True
+    """False where the way here lost the exec bits of the files (see `take_in`)."""
 
 
 def grade(order: Order, listener: events.Listener) -> model.Report:
@@ -72,13 +71,24 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
     Raises UsageError for a path that does not exist or cannot be read, SurroundingsError where
     the grader's own surroundings fail; everything else is in the report.
     """
-    started = datetime.now(timezone.utc)
     begin = time.monotonic()
-    assignment = order.assignment
     submission = take_in(
-        order.path, package=assignment.package, node_file=assignment.node_file, name=order.name
+        order.path,
+        package=order.assignment.package,
+        node_file=order.assignment.node_file,
+        name=order.name,
+        modes_kept=order.modes_kept,
     )
-    intake = time.monotonic() - begin
+    return mark(submission, order, listener, intake=time.monotonic() - begin)
+
+
+def mark(
+    submission: Submission, order: Order, listener: events.Listener, *, intake: float = 0
+) -> model.Report:
+    """Mark what was taken in before, which took `intake` seconds; all else as `grade`."""
+    started = datetime.now(timezone.utc)
+    begin = time.monotonic() - intake
+    assignment = order.assignment
     speak = Speaker(order.lang)
     opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
     listener(events.StageStarted("setup", speak(opening)))
@@ -95,7 +105,7 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
         evidence = _evidence(session, submission, listener)
         results = _decide(evidence, assignment, listener, speak)
         limits = sandbox.limit_report()
-    report = _report(order, evidence, results, sandbox.ros, speak)
+    report = compose(evidence, results, order.distro, sandbox.ros, speak)
     environment = report.environment.model_copy(update={"sandbox": sandbox.name, "limits": limits})
     timing = model.Timing(
         setup=round(setup, 3),
@@ -104,8 +114,14 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
         run=round(session.timing["run"], 3),
         total=round(time.monotonic() - begin, 3),
     )
+    whose = report.submission.model_copy(update={"student_id": order.student_id or None})
     return report.model_copy(
-        update={"environment": environment, "timing": timing, "started": started.isoformat()}
+        update={
+            "submission": whose,
+            "environment": environment,
+            "timing": timing,
+            "started": started.isoformat(),
+        }
     )
 
 
@@ -139,6 +155,8 @@ def _decide(
             listener(events.StageStarted(stage, speak(title)))
         listener(events.CheckStarted(check.id, speak(check.title), use.visibility))
         result = _said(_ask(check, use, evidence, uses), speak)
+        if result.status == "failed":
+            result = result.model_copy(update={"patch": _patch(result, evidence)})
         evidence.results[check_id] = result
         listener(events.CheckFinished(result))
     listener(events.StageFinished(stage, time.monotonic() - begin))
@@ -150,6 +168,13 @@ def _said(found: dict[str, object], speak: Speaker) -> model.CheckResult:
     texts = {name: speak(text) for name, text in found.items() if isinstance(text, str)}
     advice = [speak(text) for text in cast("list[str]", found.get("advice", []))]
     return model.CheckResult.model_validate({**found, **texts, "advice": advice})
+
+
+def _patch(result: model.CheckResult, evidence: Evidence) -> str:
+    try:
+        return patch_for(result, evidence.submission, evidence.assignment)
+    except Exception:
+        return ""
 
 
 def _ask(
@@ -206,98 +231,3 @@ def _skipped(common: dict[str, object], by: str, evidence: Evidence) -> dict[str
         title = say("a hidden check")
     actual = say("not asked, because of: {title}", title=title)
     return {**common, "status": "skipped", "blocked_by": root, "actual": actual}
-
-
-def _report(
-    order: Order,
-    evidence: Evidence,
-    results: Sequence[model.CheckResult],
-    ros: Ros,
-    speak: Speaker,
-) -> model.Report:
-    assignment, submission = order.assignment, evidence.submission
-    build = evidence.build if evidence.was_built else None
-    run = evidence.run if evidence.has_run else None
-    open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
-    unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
-    return model.Report(
-        assignment=model.AssignmentInfo(
-            id=assignment.id, title=assignment.title, sha256=assignment.sha256
-        ),
-        submission=model.SubmissionInfo(
-            name=submission.name,
-            path=_printable(submission.path),
-            sha256=submission.sha256,
-            package=_package_name(submission),
-            origin=submission.origin,
-            modes=submission.modes,
-            notes=[speak(note) for note in submission.notes],
-        ),
-        environment=model.Environment.model_validate(
-            {
-                "distro": order.distro.name,
-                "ros": ros.kind,
-                "sandbox": "none",
-                "grader": grader.__version__,
-                **ros.versions,
-            }
-        ),
-        status="graded",
-        message=speak(unknown) if open_ else "",
-        lang=speak.lang,
-        score=sum(r.score for r in results),
-        max_score=assignment.max_score,
-        checks=list(results),
-        observed=_observed(run),
-        evidence=model.Evidence(
-            build_log=_cut(build.log) if build else "",
-            transcript=_cut(run.transcript) if run else "",
-        ),
-        started="",
-    )
-
-
-def _printable(path: Path) -> str:
-    """Return a path as text that JSON can hold; bytes that are no UTF-8 are spelled out."""
-    return os.fsencode(path).decode("utf-8", "backslashreplace")
-
-
-def _package_name(submission: Submission) -> str | None:
-    for candidate in submission.candidates:
-        if candidate.path == submission.root:
-            return candidate.name
-    return None
-
-
-def _observed(run: Run | None) -> model.Observed:
-    if run is None:
-        return model.Observed()
-    virtual = run.watch.clock == "virtual"
-    ticks = [
-        model.Tick(
-            n=event.n,
-            text=event.text[:500],
-            virtual=round(event.virtual, 3) if virtual else None,
-            wall=round(event.wall, 6),
-        )
-        for event in run.watch.counted[:200]
-    ]
-    return model.Observed(
-        command=run.command,
-        clock=run.watch.clock,
-        ticks=ticks,
-        nodes=[node.name for node in run.nodes],
-        exit=model.Exit(
-            status=run.status,
-            signal=run.signal,
-            seconds=None if run.stop_seconds is None else round(run.stop_seconds, 3),
-        ),
-    )
-
-
-def _cut(text: str) -> str:
-    """Return a text cut in its middle: how it began and how it ended tell the most."""
-    if len(text) <= MOST_EVIDENCE:
-        return text
-    half = MOST_EVIDENCE // 2
-    return f"{text[:half]}\n… {len(text) - 2 * half} characters left out …\n{text[-half:]}"

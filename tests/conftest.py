@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,6 +17,9 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 
 ROOT = Path(__file__).resolve().parent.parent
+
+# A shell that starts us in the background has Ctrl+C ignored, and all that we start would inherit it
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

@@ -41,7 +41,7 @@ def make(*words: str, cwd: Path = stage.ROOT) -> tuple[int, str, str]:
 def test_help_is_the_default_and_names_every_target() -> None:
     status, said, _ = make()
     assert status == 0
-    for target in ("setup", "grade", "check", "test", "test-all", "bench"):
+    for target in ("setup", "grade", "grade-all", "check", "test", "test-all", "bench"):
         assert f"make {target} " in said
     assert make("help")[1] == said
 
@@ -72,6 +72,38 @@ def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None
     status, _, _ = make(target, f"STUDENT={tmp_path}/none", f"{variable}={hostile}")
     assert status == 2
     assert not (tmp_path / "HACKED").exists()
+
+
+@pytest.mark.parametrize("variable", ["SUBMISSIONS", "ROSTER", "WORKERS", "WORKSHEET", "SCHEDULER"])
+def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> None:
+    hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
+    words = {"SUBMISSIONS": f"{tmp_path}/none", "OUT": f"{tmp_path}/out", variable: hostile}
+    status, _, said = make("grade-all", *(f"{name}={value}" for name, value in words.items()))
+    assert status == 2
+    assert "Traceback" not in said
+    assert not (tmp_path / "HACKED").exists()
+
+
+def test_grade_all_without_a_class_says_how() -> None:
+    status, _, said = make("grade-all")
+    assert status == 2
+    assert "make grade-all SUBMISSIONS=path/to/downloads" in said
+
+
+@pytest.mark.prefix
+def test_a_class_is_marked_through_make(tmp_path: Path) -> None:
+    solution(tmp_path / "the class")
+    folder, out = tmp_path / "the class", tmp_path / "out put"
+    status, said, err = make(
+        "grade-all", f"SUBMISSIONS={folder}", f"OUT={out}", "SANDBOX=bubblewrap"
+    )
+    assert status == 0, err
+    assert "100 / 100" in said
+    status, said, err = make(
+        *("grade-all", f"SUBMISSIONS={folder}", f"OUT={out}", "SANDBOX=bubblewrap", "REGRADE=1")
+    )
+    assert status == 0, err
+    assert "Marked again: 1, of which 1 as before." in said
 
 
 def test_a_variable_of_the_environment_works_as_well(tmp_path: Path) -> None:

@@ -7,11 +7,13 @@ of the folder or archive.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from dataclasses import field
 from datetime import datetime
 from pathlib import Path
 from typing import Literal
+from typing import overload
 
 from grader.report.model import Report
 
@@ -37,7 +39,8 @@ class HandedIn:
 
     `problem` says why there is nothing that could be marked (a corrupt archive, say); `notes` what
     the instructor should know. `submitted` is the course system's own time stamp, None if it does
-    not tell; `late` is its own word on it.
+    not tell; `late` is its own word on it. `modes_kept` is False where the way here lost the exec
+    bits of loose files (an upload of file by file, say): `take_in` wants to know.
     """
 
     student: Student
@@ -47,6 +50,7 @@ class HandedIn:
     late: bool | None = None
     notes: tuple[str, ...] = ()
     problem: str = ""
+    modes_kept: bool = True
 
 
 @dataclass(frozen=True)
@@ -72,6 +76,29 @@ class Override:
     at: datetime | None = None
 
 
+class Held:
+    """A report, or what fetches it each time that it is asked for: those of thousands of students
+    are too much to be kept in memory.
+    """
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = f"_{name}"
+
+    @overload
+    def __get__(self, entry: None, owner: type) -> None: ...
+    @overload
+    def __get__(self, entry: object, owner: type) -> Report | None: ...
+    def __get__(self, entry: object | None, owner: type) -> Report | None:
+        """Return the report, None if there is none (and for the class, as the field's default)."""
+        if entry is None:
+            return None
+        held: Report | Callable[[], Report] | None = entry.__dict__[self._name]
+        return held() if callable(held) else held
+
+    def __set__(self, entry: object, value: Report | Callable[[], Report] | None) -> None:
+        entry.__dict__[self._name] = value
+
+
 @dataclass(frozen=True)
 class Entry:
     """What one student gets: the report that counts, and what was made of its score.
@@ -83,7 +110,7 @@ class Entry:
 
     student: Student
     status: EntryStatus
-    report: Report | None = None
+    report: Held = Held()
     score: float | None = None
     penalty: float = 0
     final: float | None = None
@@ -96,6 +123,9 @@ class Entry:
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     same_as: tuple[str, ...] = ()
+    """Some of those with the same content; all are in the class' `identical`."""
+    verdict: int | None = None
+    """The number of the report's verdict in the ledger."""
 
 
 @dataclass(frozen=True)

@@ -9,22 +9,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from grader import options
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 
 if TYPE_CHECKING:
     from grader.report.model import Report
 
-_assignment = click.option(
-    "--assignment",
-    default="hello_time",
-    show_default=True,
-    metavar="ID|FILE",
-    help="The assignment: its id, or the path of an assignment.yaml.",
-)
-_distro = click.option(
-    "--distro", default="jazzy", show_default=True, help="The ROS 2 distro to mark on."
-)
 _sandbox = click.option(
     "--sandbox",
     default="account",
@@ -35,8 +26,8 @@ _sandbox = click.option(
 
 @click.command("gradescope")
 @click.argument("autograder", type=click.Path(path_type=Path), default=Path("/autograder"))
-@_assignment
-@_distro
+@options.assignment
+@options.one_distro
 @_sandbox
 def gradescope(autograder: Path, assignment: str, distro: str, sandbox: str) -> int:
     """Mark the submission in Gradescope's container, results.json always up to date.
@@ -50,8 +41,8 @@ def gradescope(autograder: Path, assignment: str, distro: str, sandbox: str) -> 
 
 @click.command("gradescope-zip")
 @click.argument("out", type=click.Path(path_type=Path), default=Path("autograder.zip"))
-@_assignment
-@_distro
+@options.assignment
+@options.one_distro
 @_sandbox
 def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str) -> int:
     """Make the autograder archive that is uploaded to Gradescope. It holds the solution.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import html
 from dataclasses import replace
 
@@ -82,7 +83,7 @@ def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
     view = feedback_view(entry, show_hidden=show_hidden)
     logs = [("transcript", "What ros2 run printed", view.transcript)]
     logs.append(("build-log", "What colcon build printed", view.build_log))
-    return Renderer(heading=one_line(title), pages={}).page(
+    return _renderer(one_line(title)).page(
         "feedback.html.j2",
         script=False,
         view=view,
@@ -90,6 +91,12 @@ def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
         logs=[log for log in logs if log[2].strip()],
         log_titles={place: words for place, words, _ in logs},
     )
+
+
+@functools.lru_cache(maxsize=1)
+def _renderer(heading: str) -> Renderer:
+    """Return the renderer of a class: templates are compiled once for all students."""
+    return Renderer(heading=heading, pages={})
 
 
 def _check(one: CheckView) -> str:

@@ -52,8 +52,8 @@ def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
 
 def check_ids(result: ClassResult) -> list[str]:
     """Return the ids of all checks that anybody was asked, in the order of the reports."""
-    reports = [entry.report for entry in result.entries if entry.report is not None]
-    return list(dict.fromkeys(check.id for report in reports for check in report.checks))
+    reports = (entry.report for entry in result.entries)
+    return list(dict.fromkeys(c.id for report in reports if report for c in report.checks))
 
 
 def _row(entry: Entry, checks: Sequence[str]) -> list[str]:

@@ -13,12 +13,15 @@ import sys
 import traceback
 from dataclasses import dataclass
 from dataclasses import field
+from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import click
 
 from grader import events
+from grader.batch.policy import penalty
 from grader.errors import GraderError
 from grader.gradebook import gradescope
 from grader.ordering import make_orders
@@ -32,6 +35,7 @@ from grader.runner import grade
 
 RESULTS = "results.json"
 METADATA = "submission_metadata.json"
+CLONED = ("GitHub", "Bitbucket")
 MOST_METADATA = 10_000_000  # bytes; earlier results are in it
 OUR_FAULT = (
     "The grader failed, not your package. Please tell your instructor: the reason is in the "
@@ -102,7 +106,7 @@ def run(
     results = autograder / "results"
     metadata = read_metadata(autograder / METADATA)
     try:
-        order = _order(autograder, metadata, assignment, distro, sandbox)
+        order = order_for(autograder, metadata, assignment, distro, sandbox)
     except GraderError as error:
         click.echo(f"grader: {error}", err=True)
         _write_problem(results)
@@ -111,7 +115,7 @@ def run(
     file.start()
     try:
         report = grade(order, file)
-        file.write(gradescope.results(report))
+        file.write(gradescope.results(report, penalty=late_points(report, metadata, order)))
     except GraderError as error:
         click.echo(f"grader: {error}", err=True)
         file.failed()
@@ -141,12 +145,27 @@ def student_name(metadata: dict[str, Any]) -> str | None:
     return ", ".join(names) or None
 
 
-def _order(
+def order_for(
     autograder: Path, metadata: dict[str, Any], assignment: str, distro: str, sandbox: str
 ) -> Order:
+    """Return what is to be marked, by what Gradescope says of it."""
     submission = autograder / "submission"
     name = student_name(metadata)
-    return make_orders(submission, assignment, distro, sandbox, (), name=name)[0]
+    order = make_orders(submission, assignment, distro, sandbox, (), name=name)[0]
+    # what was uploaded file by file has lost its exec bits on the way, a clone has not
+    cloned = metadata.get("submission_method") in CLONED
+    return replace(order, modes_kept=cloned)
+
+
+def late_points(report: Report, metadata: dict[str, Any], order: Order) -> float:
+    """Return what the assignment's policy takes, by Gradescope's own time stamp."""
+    try:
+        submitted = datetime.fromisoformat(str(metadata.get("created_at")).replace("Z", "+00:00"))
+    except ValueError:
+        return 0
+    if submitted.tzinfo is None:
+        return 0
+    return penalty(report.score, report.max_score, submitted, order.assignment.policy)
 
 
 def _extra(metadata: dict[str, Any]) -> dict[str, Any]:

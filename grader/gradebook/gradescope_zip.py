@@ -56,7 +56,7 @@ chmod go-rwx "$autograder/source" "$autograder/run_autograder" "$autograder/subm
 rm -f "$results"
 cd "$autograder/source" || exit 3
 export GRADER_DISPOSABLE=1 PYTHONDONTWRITEBYTECODE=1
-.venv/bin/python -m grader.gradebook gradescope {words} "$autograder"
+.venv/bin/python -m grader gradescope {words} "$autograder"
 status=$?
 if [ ! -s "$results" ]; then
   mkdir -p "$autograder/results"

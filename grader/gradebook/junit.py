@@ -26,6 +26,8 @@ from grader.report.plain import points
 SUBMISSION = "submission"  # the test case of what could not be marked
 MOST = 200  # characters of a name
 NOTHING = {"missing": "nothing was handed in", "pending": "not marked yet"}
+COUNTS = ("tests", "failures", "errors", "skipped")
+CLOSED = b"</testsuites>"
 
 
 def report_xml(report: Report) -> bytes:
@@ -39,19 +41,27 @@ def class_xml(result: ClassResult) -> bytes:
 
 
 def _document(title: str, entries: Sequence[Entry]) -> bytes:
-    top = ET.Element("testsuites", name=one_line(title, most=MOST))
+    """Return the document; each suite becomes text at once, a class of them is too much of a tree."""
+    totals = dict.fromkeys(COUNTS, 0)
+    suites = []
     for entry in entries:
-        _suite(top, entry)
-    for name in ("tests", "failures", "errors", "skipped"):
-        top.set(name, str(sum(int(suite.get(name, "0")) for suite in top)))
-    ET.indent(top, space=" ")
-    text: bytes = ET.tostring(top, encoding="utf-8", xml_declaration=True)
-    return text + b"\n"
+        suite = _suite(entry)
+        for name in COUNTS:
+            totals[name] += int(suite.get(name, "0"))
+        ET.indent(suite, space=" ", level=1)
+        text: bytes = ET.tostring(suite, encoding="utf-8", xml_declaration=False)
+        suites.append(b" " + text.strip() + b"\n")
+    top = ET.Element("testsuites", name=one_line(title, most=MOST))
+    for name, value in totals.items():
+        top.set(name, str(value))
+    top.text = "\n"
+    opened: bytes = ET.tostring(top, encoding="utf-8", xml_declaration=True)
+    return opened.replace(CLOSED, b"".join(suites) + CLOSED) + b"\n"
 
 
-def _suite(top: ET.Element, entry: Entry) -> None:
+def _suite(entry: Entry) -> ET.Element:
     report, student = entry.report, entry.student
-    suite = ET.SubElement(top, "testsuite", name=one_line(student.key or student.name, most=MOST))
+    suite = ET.Element("testsuite", name=one_line(student.key or student.name, most=MOST))
     _properties(suite, entry)
     seconds = 0.0
     if report is not None:
@@ -67,6 +77,7 @@ def _suite(top: ET.Element, entry: Entry) -> None:
     suite.set("tests", str(len(cases)))
     for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(name, str(sum(case.find(tag) is not None for case in cases)))
+    return suite
 
 
 def _properties(suite: ET.Element, entry: Entry) -> None:

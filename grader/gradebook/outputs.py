@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from collections.abc import Iterable
+from collections.abc import Iterator
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -45,7 +47,8 @@ def write_outputs(
 
     `worksheet` and `canvas` are the teacher's own files, of which filled copies are made; what
     could not be filled in is told to `say`. Nothing is written if one of them is refused
-    (UsageError). SurroundingsError if the folder cannot be written.
+    (UsageError). SurroundingsError if the folder cannot be written. They may reach the disk a while
+    later.
     """
     warnings: list[str] = []
     files = {GRADEBOOK: gradebook_csv(result, bom=True), JUNIT: class_xml(result)}
@@ -76,31 +79,33 @@ def write_outputs(
     return _write(out, files, feedback)
 
 
-def _feedback(result: ClassResult, *, show_hidden: bool) -> dict[str, bytes]:
-    """Return each student's two files; two students never share a name."""
+def _feedback(result: ClassResult, *, show_hidden: bool) -> Iterator[tuple[str, bytes]]:
+    """Yield each student's two files, by name; two students never share one."""
     title = result.title or result.assignment
     pages = page_names(entry.student.key for entry in result.entries)
-    found: dict[str, bytes] = {}
     for entry in result.entries:
         page = pages[entry.student.key]
-        found[page] = html_page(entry, title, show_hidden=show_hidden)
+        yield page, html_page(entry, title, show_hidden=show_hidden)
         text = markdown(entry, title, show_hidden=show_hidden)
-        found[f"{page.removesuffix('.html')}.md"] = text.encode()
-    return found
+        yield f"{page.removesuffix('.html')}.md", text.encode()
 
 
-def _write(out: Path, files: Mapping[str, bytes], feedback: Mapping[str, bytes]) -> list[Path]:
+def _write(
+    out: Path, files: Mapping[str, bytes], feedback: Iterable[tuple[str, bytes]]
+) -> list[Path]:
+    written = [out / name for name in files]
     try:
         out.mkdir(mode=0o700, parents=True, exist_ok=True)
-        with Folder.open(out) as folder:
+        with Folder.open(out, durable=False) as folder:
             for name, content in files.items():
                 folder.replace(name, content)
             with folder.private(FEEDBACK) as inside:
-                for name, content in feedback.items():
+                for name, content in feedback:
                     inside.replace(name, content)
+                    written.append(out / FEEDBACK / name)
     except OSError as error:
         raise could_not_write(error, out, what="the files of the class") from error
-    return [*(out / name for name in files), *(out / FEEDBACK / name for name in feedback)]
+    return written
 
 
 def _content(path: Path) -> bytes:

@@ -33,15 +33,16 @@ def report_json(report: Report) -> str:
     return report.model_dump_json(by_alias=True, indent=2) + "\n"
 
 
-def write_report(report: Report, out: Path, student: str) -> Path:
+def write_report(report: Report, out: Path, student: str, *, durable: bool = True) -> Path:
     """Write a report below `out` (made if it is not there) and return the path of its file.
 
     Killed at any moment, the file is the old report or the new one. It can be read by its owner
     only; a link in its place or in that of its folders is not followed. ValueError for a name
-    that is no file name; SurroundingsError if it cannot be written.
+    that is no file name; SurroundingsError if it cannot be written. `durable` as for a Folder.
     """
     distro = _file_name(report.environment.distro)
-    with _student_folder(out, student, report.submission.path) as (folder, locked):
+    path = report.submission.path
+    with _student_folder(out, student, path, durable=durable) as (folder, locked):
         with folder.private(distro) as place:
             if locked:
                 place.sweep()
@@ -63,11 +64,13 @@ def write_matrix(reports: Sequence[Report], out: Path, student: str) -> Path:
 
 
 @contextlib.contextmanager
-def _student_folder(out: Path, student: str, submission: str) -> Iterator[tuple[Folder, bool]]:
+def _student_folder(
+    out: Path, student: str, submission: str, *, durable: bool = True
+) -> Iterator[tuple[Folder, bool]]:
     """Open the submission's folder, locked against other writers, if the file system can."""
     names = _folder_names(_file_name(student), submission)
     try:
-        with _open_out(out) as top:
+        with _open_out(out, durable=durable) as top:
             locked = top.lock()
             name = _choose(top, names, submission)
             with top.private(name) as folder:
@@ -76,14 +79,14 @@ def _student_folder(out: Path, student: str, submission: str) -> Iterator[tuple[
         raise could_not_write(error, out) from error
 
 
-def _open_out(out: Path) -> Folder:
+def _open_out(out: Path, *, durable: bool) -> Folder:
     """Open the folder of all reports; one that we make is for its owner and ignored by git."""
     out.parent.mkdir(parents=True, exist_ok=True)
     try:
         out.mkdir(mode=0o700)
     except FileExistsError:
-        return Folder.open(out)
-    folder = Folder.open(out)
+        return Folder.open(out, durable=durable)
+    folder = Folder.open(out, durable=durable)
     folder.replace(".gitignore", b"*\n")
     return folder
 

@@ -22,16 +22,21 @@ TEMPORARY = ".unfinished-"  # what begins so was left by a writer that was kille
 
 
 class Folder:
-    """An open folder; close it (or use it as a context manager). Its methods raise OSError."""
+    """An open folder; close it (or use it as a context manager). Its methods raise OSError.
 
-    def __init__(self, fd: int, path: Path) -> None:
+    A file that was replaced in it is on the disk when that returns, unless it is not `durable`:
+    then whoever writes many sees to it once, at the end.
+    """
+
+    def __init__(self, fd: int, path: Path, *, durable: bool = True) -> None:
         self._fd = fd
         self.path = path
+        self._durable = durable
 
     @classmethod
-    def open(cls, path: Path) -> Folder:
+    def open(cls, path: Path, *, durable: bool = True) -> Folder:
         """Open a folder that a user named: here a link is followed, the user meant it."""
-        return cls(os.open(path, OPEN_FOLDER), path)
+        return cls(os.open(path, OPEN_FOLDER), path, durable=durable)
 
     def __enter__(self) -> Folder:
         return self
@@ -70,7 +75,8 @@ class Folder:
 
     def sub(self, name: str) -> Folder:
         """Open a folder in this one; OSError (ELOOP, ENOTDIR) if it is a link."""
-        return Folder(os.open(name, OPEN_FOLDER | os.O_NOFOLLOW, dir_fd=self._fd), self.path / name)
+        fd = os.open(name, OPEN_FOLDER | os.O_NOFOLLOW, dir_fd=self._fd)
+        return Folder(fd, self.path / name, durable=self._durable)
 
     def private(self, name: str) -> Folder:
         """Open a folder in this one for its owner only, made if it is not there."""
@@ -113,7 +119,7 @@ class Folder:
     def replace(self, name: str, content: bytes) -> None:
         """Put a file in the place of `name`: at each moment there is the old one or the new one.
 
-        It is on the disk when this returns, readable by its owner only.
+        It is readable by its owner only.
         """
         temporary = f"{TEMPORARY}{secrets.token_hex(8)}"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
@@ -122,7 +128,8 @@ class Folder:
             with open(fd, "wb") as file:  # noqa: PTH123 - it is a descriptor
                 file.write(content)
                 file.flush()
-                os.fsync(fd)
+                if self._durable:
+                    os.fsync(fd)
             os.rename(temporary, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
         except BaseException:
             with contextlib.suppress(OSError):
@@ -138,6 +145,8 @@ class Folder:
                     os.unlink(name, dir_fd=self._fd)
 
     def _sync(self) -> None:
+        if not self._durable:
+            return
         try:
             os.fsync(self._fd)
         except OSError as error:

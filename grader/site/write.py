@@ -34,13 +34,14 @@ def write_site(result: ClassResult, out: Path, *, show_hidden: bool = True) -> P
     They are a pure function of the result and can be read by their owner only. The page of a student
     who was in the class at an earlier run and is no more is removed. `show_hidden` shows the checks
     that students do not see. SurroundingsError if the folder cannot be written.
+    They may reach the disk a while later.
     """
     pages = page_names(entry.student.key for entry in result.entries)
     renderer = Renderer(result=result, pages=pages, heading=_heading(result))
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         out.mkdir(mode=0o700, exist_ok=True)
-        with Folder.open(out) as folder:
+        with Folder.open(out, durable=False) as folder:
             with folder.private(STUDENTS) as students:
                 _write_students(students, renderer, result, pages, show_hidden=show_hidden)
                 _remove_old(students, set(pages.values()))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
 import stat
+import subprocess
 import tarfile
 import zipfile
 from collections.abc import Iterable
@@ -118,3 +120,32 @@ def zip_of(entries: Iterable[tuple[zipfile.ZipInfo, bytes]]) -> bytes:
         for info, data in entries:
             archive.writestr(info, data)
     return stream.getvalue()
+
+
+def git(folder: Path, *words: str, at: str = "2026-03-04T10:20:30+01:00") -> str:
+    """Run git in a folder, as somebody of its own, at an instant of its own."""
+    who = {"GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null", "HOME": "/nowhere"}
+    for role in ("AUTHOR", "COMMITTER"):
+        who |= {f"GIT_{role}_NAME": "A", f"GIT_{role}_EMAIL": "a@b", f"GIT_{role}_DATE": at}
+    environment = {**who, "PATH": os.environ["PATH"]}
+    done = subprocess.run(
+        ["git", *words], cwd=folder, env=environment, check=True, capture_output=True, text=True
+    )
+    return done.stdout.strip()
+
+
+def repository(folder: Path, *, at: str = "2026-03-04T10:20:30+01:00", depth: int = 1) -> Path:
+    """Make a repository with a package in it, committed so often, each an hour after the last."""
+    write(folder, package())
+    git(folder, "init", "-q", "-b", "main")
+    for n in range(depth):
+        (folder / "setup.cfg").write_text(f"# {n}\n")
+        git(folder, "add", "-A")
+        git(folder, "commit", "-q", "-m", f"step {n}", at=at)
+    return folder
+
+
+def class_zip(path: Path, files: Mapping[str, bytes], *, system: int = UNIX) -> Path:
+    """Write the zip of a whole class."""
+    path.write_bytes(zipped(files, system=system))
+    return path

@@ -22,7 +22,7 @@ from tests.report import samples
 
 
 def outputs(*words: str | Path) -> subprocess.CompletedProcess[str]:
-    return stage.run([sys.executable, "-m", "grader.gradebook", *words])
+    return stage.run([sys.executable, "-m", "grader", *words])
 
 
 @pytest.fixture

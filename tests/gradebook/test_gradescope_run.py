@@ -23,10 +23,12 @@ from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.gradebook import gradescope_run
 from grader.gradebook.gradescope_zip import gradescope_zip
+from grader.ordering import make_orders
 from grader.report.model import Report
 from grader.ros.prefix import Ros
 from grader.runner import Order
 from grader.runner import grade
+from grader.submission import take_in
 from tests import stage
 from tests.corpus.build import write
 from tests.corpus.model import Package
@@ -257,3 +259,47 @@ def test_an_archive_of_nothing_is_refused(tmp_path: Path) -> None:
         gradescope_zip(assignment="hello_tme")
     with pytest.raises(UsageError, match="no assignment"):
         gradescope_zip(assignment=str(tmp_path / "none.yaml"))
+
+
+def policy(tmp_path: Path) -> Order:
+    """An order by an assignment that takes a tenth a day from 2026-11-20 12:00 in Los Angeles on."""
+    text = (stage.ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "assignment.yaml"
+    file.write_text(f"{text}policy: {{due: 2026-11-20T12:00:00-08:00, late: {{per_day: 10%}}}}\n")
+    (order,) = make_orders(tmp_path, str(file), "jazzy", "account", ())
+    return order
+
+
+@pytest.mark.parametrize(
+    ("created", "taken"),
+    [
+        ("2026-11-20T19:00:00.000000-08:00", 10),
+        ("2026-11-20T12:00:00.000000-08:00", 0),
+        ("2026-11-22T19:00:00.000Z", 20),
+        ("yesterday", 0),
+        (None, 0),
+    ],
+)
+def test_lateness_is_told_by_gradescope_s_time_stamp(
+    tmp_path: Path, created: str | None, taken: float
+) -> None:
+    metadata = {"created_at": created}
+    assert gradescope_run.late_points(samples.report(), metadata, policy(tmp_path)) == taken
+
+
+@pytest.mark.parametrize(
+    ("method", "modes"), [("upload", "unknown"), ("GitHub", "recorded"), (None, "unknown")]
+)
+def test_an_exec_bit_that_an_upload_has_lost_is_not_the_student_s(
+    tmp_path: Path, method: str | None, modes: str
+) -> None:
+    write(SOLUTION, tmp_path / "submission")
+    metadata = {} if method is None else {"submission_method": method}
+    order = gradescope_run.order_for(tmp_path, metadata, "hello_time", "jazzy", "account")
+    found = take_in(
+        order.path,
+        package=order.assignment.package,
+        node_file=order.assignment.node_file,
+        modes_kept=order.modes_kept,
+    )
+    assert found.modes == modes

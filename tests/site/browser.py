@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
-import os
-import shutil
-import subprocess
-import tempfile
 from collections.abc import Callable
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,7 +14,8 @@ from playwright.sync_api import Browser
 from playwright.sync_api import Page
 from playwright.sync_api import sync_playwright
 
-CHROMIUM = Path("/usr/bin/chromium")
+from tests.installed import installed
+
 FLAGS = (
     "--disable-gpu",
     "--disable-quic",
@@ -28,22 +24,6 @@ FLAGS = (
     "--disable-component-update",
     "--disable-sync",
 )
-
-
-def installed(program: str, package: str) -> Path:
-    """Return a program of Debian's packages, installed now if it is missing and we are root."""
-    if found := shutil.which(program):
-        return Path(found)
-    if os.geteuid() != 0:
-        raise RuntimeError(f"the tests need {program}: apt-get install {package}")
-    lock = Path(tempfile.gettempdir()) / "ros2_teaching_lab-apt.lock"
-    with lock.open("a") as handle:  # several test processes at once
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        if not shutil.which(program):
-            env = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-            for words in (["update"], ["install", "-y", "--no-install-recommends", package]):
-                subprocess.run(["apt-get", "-q", *words], env=env, check=True, capture_output=True)
-    return Path(shutil.which(program) or f"{program} is still missing")
 
 
 @contextmanager

@@ -10,4 +10,5 @@ for distro in jazzy kilted; do
   compile "grader/ros/locks/$distro.in" "grader/ros/locks/$distro.txt"
 done
 compile grader/requirements.in grader/requirements.txt
+compile grader/requirements-cluster.in grader/requirements-cluster.txt
 compile tests/requirements.in tests/requirements.txt

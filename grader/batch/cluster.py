@@ -1,0 +1,275 @@
+"""Workers on other machines: a Dask cluster, each worker checked before it is used.
+
+Submissions travel by content and verdicts come back, both as text: nothing is read from a worker's
+disk, and what it runs is this grader, the same source on both sides.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+import time
+from collections import Counter
+from collections import deque
+from collections.abc import Callable
+from collections.abc import Generator
+from collections.abc import Iterable
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+from typing import Any
+
+from grader.batch.cluster_worker import Checked
+from grader.batch.cluster_worker import check_here
+from grader.batch.cluster_worker import mark_here
+from grader.batch.keys import GRADER
+from grader.batch.keys import NOT_MARKING
+from grader.batch.keys import source_digest
+from grader.batch.trial import Trial
+from grader.batch.work import Answer
+from grader.batch.work import Done
+from grader.batch.work import Job
+from grader.batch.work import Task
+from grader.errors import SurroundingsError
+
+if TYPE_CHECKING:
+    from distributed import Client
+    from distributed import Future
+
+CONNECT_SECONDS = 20.0
+CHECK_SECONDS = 600.0  # a worker may have to make its ROS prefix first
+LOOK_SECONDS = 5.0  # between two looks at which workers there are
+ALONE_SECONDS = 60.0  # without any worker, after which the run ends
+
+
+class Cluster:
+    """A Dask cluster of which the workers that agree are used; use it as a context manager."""
+
+    def __init__(self, scheduler: str, job: Job, *, say: Callable[[str], None]) -> None:
+        """Connect and check every worker.
+
+        Raises SurroundingsError where the scheduler does not answer, or no worker can be used.
+        """
+        self._scheduler = scheduler
+        self._job = job
+        self._say = say
+        self._checked: dict[str, Checked] = {}
+        self._sent: dict[object, set[str]] = {}
+        self._client = _connect(scheduler)
+        self.surroundings = ""
+        """The key of what the workers mark in (see `keys`)."""
+        self.sandbox = ""
+
+    def __enter__(self) -> Cluster:
+        self._look()
+        usable = Counter(c.surroundings for c in self._checked.values() if not c.problem)
+        if not usable:
+            self._client.close()
+            problems = dict.fromkeys(c.problem for c in self._checked.values())
+            raise SurroundingsError(
+                f"no worker of {self._scheduler} can mark: "
+                + ("\n".join(problems) or "there is none"),
+                remedy="Start workers where this grader is installed (docs/cluster.md).",
+            )
+        self.surroundings = usable.most_common(1)[0][0]
+        self.sandbox = next(
+            c.sandbox for c in self._checked.values() if c.surroundings == self.surroundings
+        )
+        for address in self._checked:
+            self._tell(address)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._client.close()
+
+    def run(
+        self, tasks: Iterable[Task], *, started: Callable[[Task], None]
+    ) -> Generator[Done, None, None]:
+        """Mark them and yield each when it is done; closing the generator cancels the others.
+
+        Raises SurroundingsError where the scheduler, or every worker for a while, is gone.
+        """
+        waiting = iter(tasks)
+        again: deque[Trial] = deque()
+        running: dict[Future[str], Trial] = {}
+        try:
+            while True:
+                again.extend(self._stranded(running))
+                for trial in self._next(waiting, again, len(running), started):
+                    running[self._submit(trial)] = trial
+                if not running:
+                    return
+                for future in self._wait(list(running)):
+                    trial = running.pop(future)
+                    finished = trial.hear(_heard(future))
+                    if finished is None:
+                        again.append(trial)
+                    else:
+                        yield finished
+        finally:
+            if not self._is_lost():
+                self._client.cancel(list(running))
+
+    def _wait(self, futures: list[Future[str]]) -> list[Future[str]]:
+        """Return those that are done; none where it takes long, so that workers are looked at."""
+        from distributed import wait  # noqa: PLC0415
+
+        try:
+            with self._client.as_current():
+                done = wait(futures, timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED").done
+        except asyncio.TimeoutError:  # another one than Python's own before 3.11
+            return []
+        except (asyncio.CancelledError, OSError):
+            self._need_scheduler()
+            return []
+        self._need_scheduler()  # where it is gone, everything counts as done
+        return list(done)
+
+    def _stranded(self, running: dict[Future[str], Trial]) -> list[Trial]:
+        """Take back what waits for workers that are all gone."""
+        here = set(self._workers())
+        gone = [future for future in running if not self._sent[future.key] & here]
+        if gone:
+            self._client.cancel(gone)
+        return [running.pop(future) for future in gone]
+
+    def _is_lost(self) -> bool:
+        return self._client.status not in ("running", "connecting")
+
+    def _need_scheduler(self) -> None:
+        if self._is_lost() or not self._client.scheduler_info().get("id"):
+            raise SurroundingsError(
+                f"the scheduler {self._scheduler} is gone",
+                remedy="What was marked is kept. Start it and run the same command again.",
+            )
+
+    def prove(self) -> None:
+        """Have every worker checked anew; SurroundingsError where none can be used any more."""
+        self._checked.clear()
+        self._look()
+        if not self._usable():
+            problems = dict.fromkeys(c.problem for c in self._checked.values() if c.problem)
+            raise SurroundingsError("no worker can mark any more: " + "\n".join(problems))
+
+    def _next(
+        self,
+        waiting: Iterable[Task],
+        again: deque[Trial],
+        running: int,
+        started: Callable[[Task], None],
+    ) -> Iterable[Trial]:
+        """Yield as many as the workers have room for, and one more each to go on with."""
+        slots = self._room()
+        while running < slots:
+            if again:
+                yield again.popleft()
+            else:
+                task = next(iter(waiting), None)
+                if task is None:
+                    return
+                started(task)
+                yield Trial(task)
+            running += 1
+
+    def _submit(self, trial: Trial) -> Future[str]:
+        trial.tries += 1
+        workers = set(self._usable())
+        future = self._client.submit(
+            mark_here,
+            self._job.to_text(),
+            trial.task.to_text(),
+            pure=False,
+            workers=list(workers),
+            allow_other_workers=False,
+        )
+        self._sent[future.key] = workers
+        return future
+
+    def _room(self) -> int:
+        """Return for how many submissions there is room; waits a while where no worker is left."""
+        deadline = time.monotonic() + ALONE_SECONDS
+        while True:
+            self._need_scheduler()
+            self._look()
+            usable = self._usable()
+            if usable:
+                return sum(threads + 1 for threads in usable.values())
+            if time.monotonic() > deadline:
+                raise SurroundingsError(
+                    f"every worker of {self._scheduler} is gone",
+                    remedy="What was marked is kept. Start workers and run the same command again.",
+                )
+            self._client.sync(_sleep, LOOK_SECONDS)
+
+    def _usable(self) -> Mapping[str, int]:
+        """Return the threads of every worker that is there and agrees."""
+        return {
+            address: int(info["nthreads"])
+            for address, info in self._workers().items()
+            if (found := self._checked.get(address)) is not None
+            and not found.problem
+            and found.surroundings == self.surroundings
+        }
+
+    def _workers(self) -> Mapping[str, Mapping[str, Any]]:
+        found: Mapping[str, Mapping[str, Any]] = self._client.scheduler_info(n_workers=-1).get(
+            "workers", {}
+        )
+        return found
+
+    def _look(self) -> None:
+        """Check the workers that have come since the last look."""
+        fresh = [address for address in self._workers() if address not in self._checked]
+        if not fresh:
+            return
+        said = self._client.run(check_here, self._job.to_text(), workers=fresh, on_error="return")
+        for address in fresh:
+            text = said.get(address)
+            if isinstance(text, str):
+                self._checked[address] = Checked(**json.loads(text))
+            else:
+                self._checked[address] = Checked(problem=f"it cannot run this grader: {text!r}")
+            if self.surroundings:
+                self._tell(address)
+
+    def _tell(self, address: str) -> None:
+        found = self._checked[address]
+        if found.problem:
+            self._say(f"{address} is not used: {found.problem}")
+        elif found.surroundings != self.surroundings:
+            same = found.grader == source_digest(GRADER, NOT_MARKING)
+            why = f"it has another ROS ({found.ros})" if same else "it has another grader"
+            self._say(f"{address} is not used: {why}")
+        else:
+            self._say(f"{address} marks in {found.sandbox} ({found.ros})")
+
+
+def _connect(scheduler: str) -> Client:
+    try:
+        from distributed import Client  # noqa: PLC0415 - it takes half a second
+    except ImportError:
+        raise SurroundingsError(
+            "Dask is not installed, and --scheduler needs it",
+            remedy="pip install 'distributed' into the grader's environment (docs/cluster.md).",
+        ) from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it says, we say in words
+    try:
+        return Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise SurroundingsError(
+            f"the scheduler {scheduler} does not answer: {error}",
+            remedy="Start one with `dask scheduler`, and name it as it says: tcp://host:8786.",
+        ) from None
+
+
+def _heard(future: Future[str]) -> Answer:
+    if future.status != "finished":
+        return Answer(fault=f"the worker that marked it was lost: {future.exception()!r}")
+    try:
+        return Answer.from_text(future.result())
+    except ValueError as error:
+        return Answer(fault=f"the worker said something else: {error}")
+
+
+async def _sleep(seconds: float) -> None:
+    await asyncio.sleep(seconds)

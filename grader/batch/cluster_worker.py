@@ -1,0 +1,57 @@
+"""What runs on the workers of a cluster: text in, text out."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+from grader.batch.keys import GRADER
+from grader.batch.keys import NOT_MARKING
+from grader.batch.keys import source_digest
+from grader.batch.keys import surroundings_key
+from grader.batch.work import Job
+from grader.batch.work import Task
+from grader.batch.work import answer
+from grader.errors import GraderError
+from grader.ros.distro import find_distro
+from grader.sandbox.choose import open_sandbox
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What a worker says of itself; `problem` why it cannot be used."""
+
+    surroundings: str = ""
+    sandbox: str = ""
+    grader: str = ""
+    ros: str = ""
+    problem: str = ""
+
+    def to_text(self) -> str:
+        """Return it as JSON."""
+        return json.dumps(vars(self))
+
+
+def check_here(job: str) -> str:
+    """Say what this machine would mark with: runs on a worker, and opens the sandbox once."""
+    wanted = Job.from_text(job)
+    own = source_digest(GRADER, NOT_MARKING)
+    try:
+        distro = find_distro(wanted.distro)
+        sandbox = open_sandbox(wanted.sandbox, distro, wanted.limits, say=_unheard)
+        sandbox.close()
+    except GraderError as error:
+        return Checked(grader=own, problem=str(error)).to_text()
+    key = surroundings_key(wanted.assignment, sandbox.ros, wanted.limits)
+    ros = ", ".join(f"{name} {value}" for name, value in sandbox.ros.versions.items())
+    return Checked(key, sandbox.name, own, f"{sandbox.ros.kind}: {ros}").to_text()
+
+
+def mark_here(job: str, task: str) -> str:
+    """Mark one submission: runs on a worker."""
+    return answer(Job.from_text(job), Task.from_text(task)).to_text()
+
+
+def _unheard(text: str) -> None:
+    """What a worker makes on the way is not told."""
+    del text

@@ -1,0 +1,220 @@
+"""What an instructor downloaded: whose submissions are in it, and where each of them is."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import replace
+from pathlib import Path
+
+from grader.batch.join import join
+from grader.batch.model import ClassFolder
+from grader.batch.model import HandedIn
+from grader.batch.model import System
+from grader.batch.roster import read_roster
+from grader.batch.systems import plain
+from grader.batch.systems.exec_bits import nobody_has_one
+from grader.batch.systems.gathered import Gatherer
+from grader.batch.systems.known import LAYOUTS
+from grader.batch.systems.known import NAMED_BY_HAND
+from grader.batch.systems.known import READERS
+from grader.batch.systems.known import WORDS
+from grader.batch.systems.known import check_system
+from grader.batch.systems.known import is_named_as_in
+from grader.batch.systems.known import recognised
+from grader.batch.systems.layout import Layout
+from grader.batch.systems.layout import Reading
+from grader.batch.systems.layout import look_at
+from grader.batch.systems.layout import seen
+from grader.batch.systems.one import is_class
+from grader.batch.systems.one import one_package
+from grader.batch.systems.words import Notes
+from grader.batch.systems.words import plain as plainly
+from grader.batch.unpack import Unpacked
+from grader.batch.unpack import unpack_class
+from grader.batch.unpack_members import NOT_UNPACKED
+from grader.errors import UsageError
+from grader.intake.given import resolved
+from grader.intake.notes import shown
+
+DEEPEST = 2  # folders around the class' folder that hold nothing else
+NO_BITS = (
+    "nobody's node is executable: it counts as unknown who made it so (the files came here by a "
+    "way that loses it)"
+)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What was asked for: `path` as it was given, resolved; a system's name or "auto"."""
+
+    path: Path
+    system: str
+    unpack: Path
+
+
+def discover(
+    path: Path, *, system: str = "auto", roster: Path | None = None, unpack: Path
+) -> ClassFolder:
+    """Return everything that a class handed in: `path` is a folder, or an archive of one.
+
+    `unpack` is a folder of ours, for what has to be unpacked or put together. Raises UsageError for
+    a path that is no class, a system that is not known, and a roster that cannot be used.
+    """
+    check_system(system)
+    asked = Asked(resolved(path), system, unpack.resolve())
+    students = None if roster is None else read_roster(roster)
+    notes = Notes()
+    unpacked = Unpacked(asked.path)
+    if not asked.path.is_dir():
+        unpacked = unpack_class(asked.path, asked.unpack)
+    layout, found_system, handed_in = _read(asked, unpacked, notes)
+    handed_in = _with_remarks(handed_in, unpacked, notes)
+    handed_in = _with_modes(found_system, handed_in, unpacked, notes)
+    joined = join(found_system, _numbered(handed_in), students)
+    for reason, names in layout.left_out.items():
+        notes.name(reason, names)
+    return ClassFolder(
+        system=found_system,
+        path=asked.path,
+        handed_in=joined.handed_in,
+        missing=joined.missing,
+        notes=(*notes.lines(), *joined.notes),
+    )
+
+
+def _look(path: Path, asked: Asked, unpacked: Unpacked) -> Layout:
+    """Look at a folder of the class; our own folder, and those around it, are no student's."""
+    below = path.relative_to(unpacked.folder).as_posix()
+    ours = [asked.unpack, *asked.unpack.parents]
+    return look_at(path, lost=_lost(unpacked, below), without=ours)
+
+
+def _read(asked: Asked, unpacked: Unpacked, notes: Notes) -> tuple[Layout, System, list[HandedIn]]:
+    layout = _look(unpacked.folder, asked, unpacked)
+    single = one_package(layout)
+    if single:
+        raise UsageError(
+            f"{shown(str(asked.path))} is {single}, and no class",
+            remedy="One submission is marked with: grader grade PATH.",
+        )
+    layout = _down(layout, asked, unpacked, notes)
+    found = recognised(asked.system, layout)
+    if found is None:
+        raise UsageError(
+            f"{shown(str(asked.path))} holds no submissions of a class: {seen(layout)}",
+            remedy=LAYOUTS,
+        )
+    reading = Reading(notes, Gatherer(asked.unpack))
+    read = READERS[found].read(layout, reading)
+    handed_in = [*read.handed_in]
+    if not handed_in:
+        raise UsageError(
+            f"{shown(str(asked.path))} is not {WORDS[found]}: {seen(layout)}", remedy=LAYOUTS
+        )
+    taken = {one.student.key for one in handed_in}
+    for one in plain.read_items(layout.path, read.rest, reading):
+        handed_in.append(_beside(one, taken, WORDS[found]))
+    how = "as was asked for" if asked.system != "auto" else "by its names"
+    notes.say(f"read as {WORDS[found]} ({found}), {how}")
+    return layout, found, handed_in
+
+
+def _beside(one: HandedIn, taken: set[str], words: str) -> HandedIn:
+    """Return what was put beside a system's own files; its name is no number of that system's."""
+    note = f"not named as in {words}: taken by the name that it has"
+    key = one.student.key
+    while key in taken:
+        key = f"{key} (by hand)"
+    return replace(one, student=replace(one.student, key=key), notes=(*one.notes, note))
+
+
+def _lost(unpacked: Unpacked, below: str) -> dict[str, str]:
+    """Return what should be in a folder of the class, and is not there because of a rule."""
+    start = "" if below == "." else f"{below}/"
+    beside = (
+        (where[len(start) :], what) for where, what in unpacked.remarks if where.startswith(start)
+    )
+    return {
+        name: what
+        for name, what in beside
+        if name
+        and "/" not in name
+        and what.startswith(NOT_UNPACKED)
+        and not os.path.lexists(unpacked.folder / start / name)
+    }
+
+
+def _down(layout: Layout, asked: Asked, unpacked: Unpacked, notes: Notes) -> Layout:
+    """Go into folders that are the only thing there, if the class is in them and no one student."""
+    if asked.system in NAMED_BY_HAND or is_named_as_in(asked.system, layout):
+        return layout
+    deeper, left_out = layout, dict(layout.left_out)
+    for _ in range(DEEPEST):
+        inner = deeper.submissions()
+        if len(inner) != 1 or inner[0].kind != "folder" or inner[0].problem:
+            break
+        try:
+            deeper = _look(deeper.path / inner[0].name, asked, unpacked)
+        except UsageError:
+            break
+        left_out.update(deeper.left_out)
+        by_hand = asked.system == "auto" and is_class(deeper)
+        if by_hand or is_named_as_in(asked.system, deeper):
+            place = os.path.relpath(deeper.path, layout.path)
+            notes.say(f"the class is in the folder {shown(plainly(place))}")
+            return replace(deeper, left_out=left_out)
+    return layout
+
+
+def _with_remarks(handed_in: list[HandedIn], unpacked: Unpacked, notes: Notes) -> list[HandedIn]:
+    """Tell each student what was not unpacked of his or hers, and the class the rest."""
+    if not unpacked.remarks:
+        return handed_in
+    places = {os.fsencode(one.path): n for n, one in enumerate(handed_in)}
+    found: dict[int, list[str]] = {}
+    for where, what in unpacked.remarks:
+        path = unpacked.folder / where
+        owners = [places.get(os.fsencode(place)) for place in (path, *path.parents)]
+        owner = next((n for n in owners if n is not None), None)
+        if owner is None:
+            notes.name(what, [where])
+        elif handed_in[owner].problem != what:
+            found.setdefault(owner, []).append(f"{what}: {shown(plainly(where))}")
+    return [
+        replace(one, notes=(*one.notes, *_few(found.get(n, [])))) for n, one in enumerate(handed_in)
+    ]
+
+
+def _few(lines: Sequence[str]) -> tuple[str, ...]:
+    return tuple(lines[:5]) + ((f"and {len(lines) - 5} more of this kind",) if lines[5:] else ())
+
+
+def _with_modes(
+    system: System, handed_in: list[HandedIn], unpacked: Unpacked, notes: Notes
+) -> list[HandedIn]:
+    """Say of every folder whether its exec bits are the student's own."""
+    kept = unpacked.modes_recorded
+    folders = [one.path for one in handed_in if one.modes_kept and not one.problem]
+    if kept and system != "github_classroom" and nobody_has_one(folders):
+        kept = False
+        notes.say(NO_BITS)
+    return handed_in if kept else [replace(one, modes_kept=False) for one in handed_in]
+
+
+def _numbered(handed_in: Iterable[HandedIn]) -> list[HandedIn]:
+    """Number each student's attempts, in order of time where all of them have one."""
+    by_key: dict[str, list[HandedIn]] = {}
+    for one in handed_in:
+        by_key.setdefault(one.student.key, []).append(one)
+    found = []
+    for group in by_key.values():
+        stamps = [one.submitted for one in group if one.submitted is not None]
+        if len(stamps) == len(group):
+            order = sorted(range(len(group)), key=stamps.__getitem__)
+            found += [replace(group[n], attempt=a) for a, n in enumerate(order, start=1)]
+        else:
+            found += [replace(one, attempt=n) for n, one in enumerate(group, start=1)]
+    return found

@@ -1,0 +1,192 @@
+"""`grader grade-all`: from the folder that the course's system gave to what it takes in again."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import field
+from datetime import datetime
+from datetime import timezone
+from pathlib import Path
+from typing import TextIO
+
+from grader.batch import run
+from grader.batch.class_page import changes_of
+from grader.batch.class_page import class_page
+from grader.batch.class_page import regrade_page
+from grader.batch.discover import discover
+from grader.batch.ledger import Ledger
+from grader.batch.local_pool import LocalPool
+from grader.batch.model import ClassFolder
+from grader.batch.model import ClassResult
+from grader.batch.outputs import INDEX
+from grader.batch.outputs import Sheets
+from grader.batch.outputs import write_all
+from grader.batch.progress import ClassProgress
+from grader.batch.result import class_result
+from grader.batch.students import find_student
+from grader.batch.work import Job
+from grader.batch.work import Pool
+from grader.report.plain import encodable
+from grader.report.plain import one_line
+from grader.report.surface import takes_styles
+from grader.report.surface import width_of
+from grader.runner import Order
+
+UNPACKED = "unpacked"
+MOST_A_CORE = 2  # workers, while cores have nothing to do
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassOrder:
+    """What `grade-all` was asked for; `order` has the assignment, the distro and the sandbox."""
+
+    order: Order
+    out: Path
+    ledger: Path
+    system: str = "auto"
+    roster: Path | None = None
+    regrade: bool = False
+    students: tuple[str, ...] = ()
+    workers: int = 0
+    scheduler: str = ""
+    sheets: Sheets = field(default_factory=Sheets)
+    quiet: bool = False
+
+
+def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
+    """Mark what is not marked yet, write everything, and return the exit status.
+
+    Ctrl+C ends the marking: what was marked is kept and written, then KeyboardInterrupt goes on.
+    """
+    started = datetime.now(timezone.utc)
+    order = asked.order
+    folder = discover(
+        order.path, system=asked.system, roster=asked.roster, unpack=asked.out / UNPACKED
+    )
+    _say_found(folder)
+    interrupted = False
+    with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
+        with ClassProgress(sys.stderr) as progress:
+            plan = run.make_plan(ledger, folder, setting, listener=progress)
+            if asked.regrade or asked.students:
+                chosen = None if asked.regrade else _chosen(asked.students, plan)
+                if dry_run:
+                    count = len(plan.items if chosen is None else chosen)
+                    _say(f"a regrade would mark {count} again")
+                else:
+                    plan = run.ask_regrade(ledger, plan, chosen)
+            _say_plan(plan)
+            if dry_run:
+                for item in plan.todo:
+                    _print(one_line(item.handed_in.student.name or item.student))
+                return 0
+            try:
+                if plan.todo:
+                    run.carry_out(ledger, plan, setting, pool, listener=progress)
+            except KeyboardInterrupt:
+                interrupted = True
+        result = class_result(
+            ledger,
+            folder,
+            plan.items,
+            order.assignment,
+            distro=order.distro.name,
+            started=started,
+            seconds=(datetime.now(timezone.utc) - started).total_seconds(),
+        )
+        written = write_all(result, asked.out, asked.sheets, ledger, say=_say)
+        _show(result, plan, ledger, asked, written=written)
+        failed = any(ledger.fault(item.student, item.key) for item in plan.todo)
+        status = _status(result, failed=failed)
+    if interrupted:
+        _say("interrupted: what was marked is kept, and the same command goes on from there")
+        raise KeyboardInterrupt
+    return status
+
+
+@contextlib.contextmanager
+def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
+    """Open what marks: workers on this machine, or those of a cluster."""
+    order = asked.order
+    if not asked.scheduler:
+        setting = run.prove(order, say=_say)
+        cores = run.cores_here()
+        most = asked.workers or MOST_A_CORE * cores
+        yield setting, LocalPool(setting.job, asked.workers or cores, most=most)
+        return
+    from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
+
+    job = Job(order.assignment, order.distro.name, order.sandbox, order.limits)
+    with Cluster(asked.scheduler, job, say=_say) as cluster:
+        setting = run.Setting(
+            assignment=order.assignment,
+            distro=order.distro,
+            limits=order.limits,
+            sandbox=cluster.sandbox,
+            key=cluster.surroundings,
+        )
+        yield setting, cluster
+
+
+def _chosen(words: Sequence[str], plan: run.Plan) -> list[str]:
+    """Return the keys of the students who are to be marked again."""
+    students = {item.student: item.handed_in.student for item in plan.items}
+    return [find_student(word, list(students.values())).key for word in words]
+
+
+def _status(result: ClassResult, *, failed: bool) -> int:
+    """Return the worst of the students; who handed in nothing is no student's fault of marking."""
+    if failed:
+        return 3
+    marked = [entry for entry in result.entries if entry.status != "missing"]
+    return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
+
+
+def _say_found(folder: ClassFolder) -> None:
+    students = {attempt.student.key for attempt in folder.handed_in}
+    attempts = len(folder.handed_in)
+    more = f" in {attempts} attempts" if attempts != len(students) else ""
+    missing = f", {len(folder.missing)} handed in nothing" if folder.missing else ""
+    _say(f"found {len(students)} students{more}{missing} ({folder.system})")
+    for note in folder.notes:
+        _say(f"  {one_line(note)}")
+
+
+def _say_plan(plan: run.Plan) -> None:
+    again = len(plan.regrades)
+    words = f"{len(plan.todo)} to mark" + (f" ({again} again)" if again else "")
+    _say(f"{words}, {plan.marked} marked before")
+
+
+def _show(
+    result: ClassResult, plan: run.Plan, ledger: Ledger, asked: ClassOrder, *, written: bool
+) -> None:
+    out = sys.stdout
+    width, styled = width_of(out), takes_styles(out)
+    if plan.regrades:
+        changes = changes_of(ledger, list(plan.regrades.values()))
+        _print(regrade_page(changes, width=width, styled=styled))
+    if not asked.quiet:
+        _print(class_page(result, width=width, styled=styled))
+    place = asked.out / INDEX
+    _print(f"page       {place}")
+    _print(f"gradebook  {asked.out / 'gradebook.csv'}")
+    if not written:
+        _say("nothing has changed since these were written")
+
+
+def _say(text: str) -> None:
+    _write(sys.stderr, text)
+
+
+def _print(text: str) -> None:
+    _write(sys.stdout, text.rstrip("\n"))
+
+
+def _write(file: TextIO, text: str) -> None:
+    file.write(encodable(f"{text}\n", file.encoding))
+    file.flush()

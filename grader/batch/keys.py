@@ -1,0 +1,46 @@
+"""What decides a verdict, as one hash: equal keys, equal verdicts.
+
+It is the submission (contents and exec bits), the assignment, the distro and the ROS that it is
+marked with, the limits, and the grader's own source: a version number is forgotten too easily.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import grader
+from grader.assignment import Assignment
+from grader.limits import Limits
+from grader.ros.prefix import Ros
+
+GRADER = Path(grader.__file__).resolve().parent
+NOT_MARKING = ("batch", "gradebook", "site", "keys")  # folders that only hand verdicts on
+SOURCES = (".py", ".toml", ".json", ".yaml", ".txt", ".bash", ".in", ".j2", ".css", ".js")
+
+
+@functools.cache
+def source_digest(folder: Path = GRADER, leave_out: tuple[str, ...] = ()) -> str:
+    """Return the hash of a folder's sources, but for the subfolders that are to be left out."""
+    digest = hashlib.sha256()
+    for path in sorted(folder.rglob("*")):
+        place = path.relative_to(folder)
+        if path.suffix in SOURCES and place.parts[0] not in leave_out and path.is_file():
+            content = path.read_bytes()
+            digest.update(f"{place.as_posix()}\0{len(content)}\0".encode() + content)
+    return digest.hexdigest()
+
+
+def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits) -> str:
+    """Return the hash of everything that decides a verdict, but for the submission."""
+    made_of = [ros.distro.name, ros.kind, ros.versions]
+    parts = [assignment.sha256, made_of, asdict(limits), source_digest(GRADER, NOT_MARKING)]
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+
+
+def verdict_key(submission: str, surroundings: str) -> str:
+    """Return the key of a submission's hash in given surroundings."""
+    return hashlib.sha256(f"{submission} {surroundings}".encode()).hexdigest()

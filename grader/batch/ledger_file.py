@@ -1,0 +1,135 @@
+"""The file of a ledger: opened by one writer at a time, changed by whole transactions only.
+
+SQLite in WAL mode with a synchronisation at each commit (https://sqlite.org/pragma.html).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import sqlite3
+from collections.abc import Iterable
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from grader.batch.ledger_schema import bring_up_to_date
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+
+BUSY_SECONDS = 20.0
+OWNER_ONLY = 0o600
+
+
+class LedgerFile:
+    """An open ledger file; use it as a context manager."""
+
+    def __init__(self, path: Path, *, makes: bool = True) -> None:
+        """Open the ledger at `path`, which is made if it is not there and `makes`.
+
+        Raises UsageError for one that another process has open, for one of a newer grader, and
+        for one that is not there and is not to be made; SurroundingsError for what cannot be
+        opened or is no ledger. Nothing is changed in these cases.
+        """
+        self.path = path
+        self._lock = -1
+        if not makes and not path.is_file():
+            raise UsageError(f"there is no ledger at {path}", remedy="Mark a class first.")
+        try:
+            path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self._take_lock()
+            self._connection = self._open()
+        except OSError as error:
+            self._release()
+            raise SurroundingsError(
+                f"the ledger {path} cannot be opened: {error.strerror}",
+                remedy="Name another one with --ledger, or another folder with --out.",
+            ) from error
+        except BaseException:
+            self._release()
+            raise
+
+    def __enter__(self) -> LedgerFile:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close it, and let others write."""
+        self._connection.close()
+        self._release()
+
+    def _take_lock(self) -> None:
+        """Hold the lock beside the file: the kernel takes it back from a process that is killed."""
+        lock = f"{self.path}.lock"
+        self._lock = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, OWNER_ONLY)
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise UsageError(
+                f"another grader has opened the ledger {self.path}",
+                remedy="Wait until it is done, or name another ledger with --ledger.",
+            ) from None
+
+    def _release(self) -> None:
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+    def _open(self) -> sqlite3.Connection:
+        os.close(os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, OWNER_ONLY))
+        connection = sqlite3.connect(self.path, timeout=BUSY_SECONDS, isolation_level=None)
+        try:
+            with self._told():
+                connection.execute("PRAGMA journal_mode = WAL").fetchone()
+                connection.execute("PRAGMA synchronous = FULL")
+                connection.execute("PRAGMA foreign_keys = ON")
+                known = bring_up_to_date(connection)
+            if not known:
+                raise UsageError(
+                    f"the ledger {self.path} was written by a newer grader",
+                    remedy="Use that grader, or name another ledger with --ledger.",
+                )
+        except BaseException:
+            connection.close()
+            raise
+        return connection
+
+    @contextlib.contextmanager
+    def _told(self) -> Iterator[None]:
+        """Say what is wrong with the file instead of showing SQLite's own error."""
+        try:
+            yield
+        except sqlite3.IntegrityError:
+            raise
+        except sqlite3.DatabaseError as error:
+            raise SurroundingsError(
+                f"the ledger {self.path} cannot be used: {error}",
+                remedy="Nothing in it was changed. Where it is damaged, `sqlite3 FILE .recover` "
+                "saves what is left; or move it away and mark again.",
+            ) from error
+
+    @contextlib.contextmanager
+    def write(self) -> Iterator[sqlite3.Connection]:
+        """One transaction: all of it is on the disk when this is left, or nothing."""
+        with self._told():
+            self._connection.execute("BEGIN IMMEDIATE")
+            try:
+                yield self._connection
+            except BaseException:
+                self._connection.execute("ROLLBACK")
+                raise
+            self._connection.execute("COMMIT")
+
+    def rows(self, sql: str, values: Iterable[object] = ()) -> list[Any]:
+        """Return what a query finds."""
+        with self._told():
+            return self._connection.execute(sql, tuple(values)).fetchall()

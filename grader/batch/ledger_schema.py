@@ -1,0 +1,114 @@
+"""The tables of the ledger, and how an older ledger becomes one of today.
+
+`PRAGMA user_version` counts the steps that were taken; a ledger of a newer grader is refused.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+
+APPLICATION = 0x524F5332  # "ROS2", so that another program's database is told from a ledger
+
+STEPS = (
+    """
+    CREATE TABLE handed_in (
+        id INTEGER PRIMARY KEY,
+        student TEXT NOT NULL,
+        assignment TEXT NOT NULL,
+        submission TEXT NOT NULL,
+        submitted TEXT,
+        late INTEGER,
+        path TEXT NOT NULL,
+        first_seen TEXT NOT NULL,
+        UNIQUE (student, assignment, submission)
+    );
+
+    -- a row is never changed and never deleted
+    CREATE TABLE verdict (
+        id INTEGER PRIMARY KEY,
+        student TEXT NOT NULL,
+        key TEXT NOT NULL,
+        round INTEGER NOT NULL,
+        assignment TEXT NOT NULL,
+        submission TEXT NOT NULL,
+        distro TEXT NOT NULL,
+        score REAL NOT NULL,
+        max_score REAL NOT NULL,
+        report BLOB NOT NULL,
+        marked TEXT NOT NULL,
+        UNIQUE (student, key, round)
+    );
+    CREATE INDEX verdict_by_submission ON verdict (assignment, student, submission);
+
+    -- what is to be marked again, and the verdict that it had
+    CREATE TABLE regrade (
+        student TEXT NOT NULL,
+        key TEXT NOT NULL,
+        before INTEGER NOT NULL REFERENCES verdict (id),
+        asked TEXT NOT NULL,
+        PRIMARY KEY (student, key)
+    );
+
+    CREATE TABLE fault (
+        id INTEGER PRIMARY KEY,
+        student TEXT NOT NULL,
+        key TEXT NOT NULL,
+        message TEXT NOT NULL,
+        at TEXT NOT NULL
+    );
+
+    -- an instructor's corrections: the newest row of a student and check counts
+    CREATE TABLE override (
+        id INTEGER PRIMARY KEY,
+        student TEXT NOT NULL,
+        assignment TEXT NOT NULL,
+        check_id TEXT NOT NULL,
+        points REAL,
+        because TEXT NOT NULL,
+        by TEXT NOT NULL,
+        at TEXT NOT NULL
+    );
+
+    -- who is in the class: the words by which an instructor may name a student
+    CREATE TABLE student (
+        assignment TEXT NOT NULL,
+        key TEXT NOT NULL,
+        name TEXT NOT NULL,
+        email TEXT NOT NULL,
+        username TEXT NOT NULL,
+        id_number TEXT NOT NULL,
+        section TEXT NOT NULL,
+        PRIMARY KEY (assignment, key)
+    );
+
+    CREATE TABLE fingerprint (
+        submission TEXT PRIMARY KEY,
+        value TEXT NOT NULL
+    );
+
+    CREATE TABLE setting (
+        name TEXT PRIMARY KEY,
+        value TEXT NOT NULL
+    );
+    """,
+)
+
+
+def bring_up_to_date(connection: sqlite3.Connection) -> bool:
+    """Take the steps that are missing, each as a whole; return False for a newer grader's ledger.
+
+    Raises sqlite3.DatabaseError for what is no ledger.
+    """
+    (version,) = connection.execute("PRAGMA user_version").fetchone()
+    (application,) = connection.execute("PRAGMA application_id").fetchone()
+    (tables,) = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    if tables and application != APPLICATION:
+        raise sqlite3.DatabaseError("it is the database of another program")
+    if version > len(STEPS):
+        return False
+    for number, step in enumerate(STEPS[version:], start=version + 1):
+        connection.executescript(
+            f"BEGIN IMMEDIATE; {step} PRAGMA application_id = {APPLICATION}; "
+            f"PRAGMA user_version = {number}; COMMIT;"
+        )
+    return True

@@ -1,0 +1,124 @@
+"""`grader override`: an instructor's correction, which outlives reruns and regrades."""
+
+from __future__ import annotations
+
+import difflib
+import getpass
+from collections.abc import Callable
+from collections.abc import Sequence
+from datetime import datetime
+from datetime import timezone
+from pathlib import Path
+
+from grader.assignment import Assignment
+from grader.batch.ledger import Ledger
+from grader.batch.model import Override
+from grader.batch.model import Student
+from grader.batch.students import find_student
+from grader.errors import UsageError
+from grader.report.plain import one_line
+from grader.report.plain import points
+
+LEDGER = "ledger.sqlite"
+
+
+def find_ledger(ledger: Path | None, out: Path | None, here: Path) -> Path:
+    """Return the ledger that is meant: the one that was named, or the only one below `reports`.
+
+    Raises UsageError where there is none, or more than one.
+    """
+    if ledger is not None:
+        return ledger
+    if out is not None:
+        return out / LEDGER
+    found = sorted(here.glob(f"reports/*/{LEDGER}"))
+    if len(found) == 1:
+        return found[0]
+    if not found:
+        raise UsageError(
+            f"there is no ledger below {here / 'reports'}",
+            remedy="Mark a class first (grader grade-all), or name its ledger with --ledger.",
+        )
+    names = ", ".join(str(path) for path in found)
+    raise UsageError(f"there are several ledgers: {names}", remedy="Name one with --ledger.")
+
+
+def put(
+    ledger: Ledger,
+    assignment: Assignment,
+    word: str,
+    check: str,
+    points_given: float,
+    because: str,
+    *,
+    force: bool,
+    say: Callable[[str], None],
+) -> None:
+    """Record a correction; `check` "" corrects the total."""
+    student = find_student(word, _students(ledger, assignment.id))
+    most = _most(assignment, check)
+    if not 0 <= points_given <= most and not force:
+        raise UsageError(
+            f"{check or 'the total'} is worth 0 to {points(most)} points, not "
+            f"{points(points_given)}",
+            remedy="With --force it is taken all the same.",
+        )
+    if not because.strip():
+        raise UsageError("say why: --because TEXT", remedy="The student reads it.")
+    ledger.override(assignment.id, _override(student.key, check, points_given, because))
+    what = check or "the total"
+    say(f"{student.name or student.key}: {what} is worth {points(points_given)} points now")
+
+
+def remove(
+    ledger: Ledger, assignment: Assignment, word: str, check: str, *, say: Callable[[str], None]
+) -> None:
+    """Take a correction back."""
+    student = find_student(word, _students(ledger, assignment.id))
+    there = [o for o in ledger.overrides(assignment.id) if o.student == student.key]
+    if check not in {override.check for override in there}:
+        named = ", ".join(override.check or "the total" for override in there) or "nothing"
+        raise UsageError(
+            f"{check or 'the total'} of {student.name or student.key} was not corrected",
+            remedy=f"Corrected for this student: {named}.",
+        )
+    ledger.drop_override(assignment.id, _override(student.key, check, 0, "taken back"))
+    say(f"{student.name or student.key}: {check or 'the total'} is as it was marked")
+
+
+def listed(ledger: Ledger, assignment: Assignment) -> list[str]:
+    """Return a line for every correction that holds."""
+    names = {student.key: student.name for student in _students(ledger, assignment.id)}
+    return [
+        f"{names.get(o.student) or o.student}: {o.check or 'the total'} "
+        f"{points(o.points)} points, because: {one_line(o.because)}"
+        f" ({o.by}, {o.at:%Y-%m-%d %H:%M} UTC)"
+        for o in ledger.overrides(assignment.id)
+    ]
+
+
+def _override(student: str, check: str, points_given: float, because: str) -> Override:
+    now = datetime.now(timezone.utc)
+    return Override(student, check, points_given, because.strip(), _user(), now)
+
+
+def _user() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):  # a container may have no name for its user
+        return ""
+
+
+def _students(ledger: Ledger, assignment: str) -> Sequence[Student]:
+    return ledger.students(assignment)
+
+
+def _most(assignment: Assignment, check: str) -> float:
+    if not check:
+        return assignment.max_score
+    worth = {use.id: use.points for use in assignment.checks}
+    if check not in worth:
+        close = difflib.get_close_matches(check, worth, n=1)
+        hint = f"Did you mean '{close[0]}'?" if close else f"Checks: {', '.join(worth)}."
+        raise UsageError(f"{assignment.id} has no check '{check}'", remedy=hint)
+    return worth[check]

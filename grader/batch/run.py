@@ -1,0 +1,213 @@
+"""The run of a class: what is not marked yet is marked, and each verdict is kept at once."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import field
+from datetime import datetime
+from datetime import timezone
+
+from grader.assignment import Assignment
+from grader.batch.intake import Item
+from grader.batch.intake import take_in_class
+from grader.batch.intake import tasks
+from grader.batch.keys import surroundings_key
+from grader.batch.ledger import Ledger
+from grader.batch.ledger_rows import AlreadyMarkedError
+from grader.batch.ledger_rows import HandedInRow
+from grader.batch.ledger_rows import Regrade
+from grader.batch.model import ClassFolder
+from grader.batch.similar import fingerprint
+from grader.batch.work import Done
+from grader.batch.work import Job
+from grader.batch.work import Pool
+from grader.limits import Limits
+from grader.ros.distro import Distro
+from grader.runner import Order
+from grader.sandbox.choose import open_sandbox
+from grader.submission import Submission
+
+FAULTS_IN_A_ROW = 3  # after so many, the sandbox is proven anew before the next
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setting:
+    """In what a class is marked: `key` is the hash of all that decides a verdict beside the
+    submission, `sandbox` one that was proven to open.
+    """
+
+    assignment: Assignment
+    distro: Distro
+    limits: Limits
+    sandbox: str
+    key: str
+
+    @property
+    def job(self) -> Job:
+        """What a worker is told of it."""
+        return Job(self.assignment, self.distro.name, self.sandbox, self.limits)
+
+
+def prove(order: Order, *, say: Callable[[str], None]) -> Setting:
+    """Open the order's sandbox once and return what is marked in; SurroundingsError if none opens."""
+    sandbox = open_sandbox(order.sandbox, order.distro, order.limits, say=say)
+    sandbox.close()
+    return Setting(
+        assignment=order.assignment,
+        distro=order.distro,
+        limits=order.limits,
+        sandbox=sandbox.name,
+        key=surroundings_key(order.assignment, sandbox.ros, order.limits),
+    )
+
+
+@dataclass
+class Plan:
+    """Every attempt of a class, those that are still to be marked, and the regrades among them."""
+
+    items: list[Item]
+    todo: list[Item]
+    regrades: dict[tuple[str, str], Regrade] = field(default_factory=dict)
+
+    @property
+    def marked(self) -> int:
+        """How many attempts have their verdict already."""
+        return len([item for item in self.items if item.key]) - len(self.todo)
+
+
+class Listener:
+    """Hears how a class run goes; this one lets it pass."""
+
+    def took_in(self, count: int) -> None:
+        """So many attempts have been looked at."""
+
+    def begins(self, total: int) -> None:
+        """So many submissions are to be marked."""
+
+    def started(self, name: str) -> None:
+        """One is being marked."""
+
+    def finished(self, name: str, done: Done) -> None:
+        """One is done, and its verdict is on the disk."""
+
+
+def make_plan(ledger: Ledger, folder: ClassFolder, setting: Setting, *, listener: Listener) -> Plan:
+    """Take everything in, note it in the ledger, and see what there is to do."""
+    surroundings = setting.key
+    known = ledger.fingerprints()
+    fresh: dict[str, str] = {}
+
+    def seen(submission: Submission) -> None:
+        if submission.sha256 not in known:
+            fresh[submission.sha256] = fingerprint(submission)
+
+    items = []
+    for item in take_in_class(folder.handed_in, setting.assignment, surroundings, seen=seen):
+        items.append(item)
+        listener.took_in(len(items))
+    if fresh:
+        ledger.keep_fingerprints(fresh)
+    _remember(ledger, items, setting.assignment.id)
+    students = {attempt.student.key: attempt.student for attempt in folder.handed_in}
+    students.update({student.key: student for student in folder.missing})
+    if set(students.values()) - set(ledger.students(setting.assignment.id)):
+        ledger.enrol(setting.assignment.id, students.values())
+    return _plan(ledger, items)
+
+
+def ask_regrade(ledger: Ledger, plan: Plan, students: Sequence[str] | None) -> Plan:
+    """Have verdicts reached again: these students', or (None) everybody's.
+
+    Where a regrade of everybody was begun and not finished, it goes on instead.
+    """
+    if students is None and plan.regrades:
+        return plan
+    verdicts = ledger.verdicts()
+    wanted = {
+        (item.student, item.key)
+        for item in plan.items
+        if item.key and (students is None or item.student in students)
+    }
+    ledger.ask_again(verdicts[pair] for pair in sorted(wanted) if pair in verdicts)
+    return _plan(ledger, plan.items)
+
+
+def carry_out(
+    ledger: Ledger, plan: Plan, setting: Setting, pool: Pool, *, listener: Listener
+) -> None:
+    """Mark what is to be marked.
+
+    A verdict is on the disk before it is said to be done. Raises SurroundingsError where the
+    sandbox does not open any more; what was reached until then is kept.
+    """
+    listener.begins(len(plan.todo))
+    names = {item.student: item.handed_in.student.name or item.student for item in plan.todo}
+    in_a_row = 0
+    waiting = tasks(plan.todo, setting.assignment, setting.key)
+    running = pool.run(waiting, started=lambda task: listener.started(names[task.student]))
+    with contextlib.closing(running):
+        for done in running:
+            if _keep(ledger, done):
+                in_a_row = 0
+            else:
+                in_a_row += 1
+            listener.finished(names[done.task.student], done)
+            if in_a_row >= FAULTS_IN_A_ROW:
+                pool.prove()
+                in_a_row = 0
+
+
+def cores_here() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+def _remember(ledger: Ledger, items: Sequence[Item], assignment: str) -> None:
+    known = {(row.student, row.submission): row for row in ledger.seen(assignment)}
+    now = datetime.now(timezone.utc)
+    rows = []
+    for item in items:
+        if not item.submission:
+            continue
+        given = item.handed_in
+        before = known.get((item.student, item.submission))
+        row = HandedInRow(
+            student=item.student,
+            submission=item.submission,
+            submitted=given.submitted,
+            late=given.late,
+            path=os.fsencode(given.path).decode("utf-8", "backslashreplace"),
+            first_seen=before.first_seen if before else now,
+        )
+        if row != before:
+            rows.append(row)
+    if rows:
+        ledger.see(assignment, rows)
+
+
+def _plan(ledger: Ledger, items: list[Item]) -> Plan:
+    verdicts = ledger.verdicts()
+    asked = ledger.asked_again()
+    todo: dict[tuple[str, str], Item] = {}
+    for item in items:
+        pair = (item.student, item.key)
+        if item.key and (pair not in verdicts or pair in asked):
+            todo.setdefault(pair, item)
+    regrades = {pair: asked[pair] for pair in todo if pair in asked}
+    return Plan(items, list(todo.values()), regrades)
+
+
+def _keep(ledger: Ledger, done: Done) -> bool:
+    """Keep a verdict; return False where there is none, and the one before still counts."""
+    task, report = done.task, done.answer.report
+    if report is None:
+        ledger.record_fault(task.student, task.key, done.answer.fault)
+        return False
+    # one that became, while it waited, what had been marked before keeps that verdict
+    with contextlib.suppress(AlreadyMarkedError):
+        ledger.record(task.student, task.key, report)
+    return True

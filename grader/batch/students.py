@@ -1,0 +1,43 @@
+"""A student by any of the words that people use: key, number, name, email or user name."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+
+from grader.batch.model import Student
+from grader.errors import UsageError
+
+MOST_NAMED = 5
+
+
+def find_student(word: str, students: Sequence[Student]) -> Student:
+    """Return the one student whom `word` names.
+
+    Raises UsageError where nobody or more than one is meant, with whom it could be.
+    """
+    for words in (_exact, _loose):
+        found = [student for student in students if word.strip() in words(student)]
+        if not found:
+            found = [s for s in students if word.strip().casefold() in _folded(words(s))]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            keys = ", ".join(f"{s.key} ({s.name})" for s in found[:MOST_NAMED])
+            raise UsageError(f"'{word}' is more than one student: {keys}")
+    known = {name: student for student in students for name in _loose(student) if name}
+    close = difflib.get_close_matches(word, known, n=1)
+    hint = f"Did you mean '{close[0]}'?" if close else "The gradebook's first column has the keys."
+    raise UsageError(f"there is no student '{word}'", remedy=hint)
+
+
+def _exact(student: Student) -> tuple[str, ...]:
+    return (student.key,)
+
+
+def _loose(student: Student) -> tuple[str, ...]:
+    return (student.name, student.email, student.username, student.id_number, student.key)
+
+
+def _folded(words: Sequence[str]) -> set[str]:
+    return {word.casefold() for word in words if word}

@@ -1,0 +1,44 @@
+"""A submission as one line of JSON and back: whatever its names and contents are."""
+
+from __future__ import annotations
+
+import base64
+import json
+from dataclasses import asdict
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from grader.intake.model import Candidate
+from grader.intake.model import SourceFile
+from grader.intake.model import Submission
+
+TUPLES = ("notes", "hints", "node_files", "links_out")
+
+
+def to_text(submission: Submission) -> str:
+    """Return a submission as JSON on one line, in ASCII (names that are no UTF-8 are kept)."""
+    return json.dumps(asdict(submission), default=_simple)
+
+
+def from_text(text: str) -> Submission:
+    """Return the submission that `to_text` wrote. Raises ValueError for anything else."""
+    found = json.loads(text)
+    names = {field.name for field in fields(Submission)}
+    if not isinstance(found, dict) or set(found) != names:
+        raise ValueError("this is no submission")
+    values: dict[str, Any] = {**found, "path": Path(found["path"])}
+    values.update({name: tuple(found[name]) for name in TUPLES})
+    values["candidates"] = tuple(Candidate(**entry) for entry in found["candidates"])
+    values["files"] = tuple(
+        SourceFile(**{**entry, "data": base64.b64decode(entry["data"])}) for entry in found["files"]
+    )
+    return Submission(**values)
+
+
+def _simple(value: object) -> str:
+    if isinstance(value, bytes):
+        return base64.b64encode(value).decode("ascii")
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(f"no form in JSON for {type(value)}")

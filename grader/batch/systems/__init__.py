@@ -1,0 +1,1 @@
+"""What the courses' systems give an instructor to download: one module for each."""

@@ -1,0 +1,81 @@
+"""GitHub Classroom: clones of the students' repositories, each called `<assignment>-<username>`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import takewhile
+from pathlib import Path
+
+from grader.batch.model import HandedIn
+from grader.batch.model import Student
+from grader.batch.systems.git_commit import NoCommitError
+from grader.batch.systems.git_commit import commit_time
+from grader.batch.systems.layout import Item
+from grader.batch.systems.layout import Layout
+from grader.batch.systems.layout import Read
+from grader.batch.systems.layout import Reading
+from grader.batch.systems.words import plain
+
+SUBMISSIONS = "-submissions"  # what `gh classroom clone` puts behind the assignment's name
+BY_COMMIT = (
+    "the time of a submission is that of its last commit, by the clock of the student's computer "
+    "(Classroom's own page shows when it was pushed)"
+)
+
+
+def recognise(layout: Layout) -> bool:
+    """Whether at least half of the folders are repositories, and all names begin alike."""
+    repositories = _repositories(layout)
+    folders = [item for item in layout.items if item.kind == "folder"]
+    return 2 * len(repositories) >= max(1, len(folders)) and bool(_prefix(layout, repositories))
+
+
+def read(layout: Layout, reading: Reading) -> Read:
+    """Return each repository, with the time of its last commit."""
+    repositories = _repositories(layout)
+    prefix = _prefix(layout, repositories)
+    found = []
+    rest = []
+    for item in layout.items:
+        if item not in repositories:
+            rest.append(item)
+            continue
+        username = plain(item.name).removeprefix(prefix)
+        student = Student(key=plain(item.name), name=username, username=username)
+        found.append(_with_time(HandedIn(student, layout.path / item.name)))
+    reading.notes.say(BY_COMMIT)
+    return Read(found, rest)
+
+
+def _with_time(handed_in: HandedIn) -> HandedIn:
+    try:
+        return replace(handed_in, submitted=commit_time(handed_in.path))
+    except NoCommitError as error:
+        note = f"no time of submission: the last commit cannot be read ({error})"
+        return replace(handed_in, notes=(note,))
+
+
+def _repositories(layout: Layout) -> list[Item]:
+    folders = [item for item in layout.items if item.kind == "folder" and not item.problem]
+    return [item for item in folders if _is_folder(layout.path / item.name / ".git")]
+
+
+def _is_folder(path: Path) -> bool:
+    return path.is_dir() and not path.is_symlink()
+
+
+def _prefix(layout: Layout, repositories: list[Item]) -> str:
+    """Return what all names begin with, up to a `-`; "" if there is no such thing.
+
+    The folder that `gh classroom clone` makes tells the assignment's name; else the names do,
+    unless there is only one.
+    """
+    names = [plain(item.name) for item in repositories]
+    told = f"{plain(layout.path.name).removesuffix(SUBMISSIONS)}-"
+    if layout.path.name.endswith(SUBMISSIONS) and any(name.startswith(told) for name in names):
+        return told
+    if len(names) < 2:
+        return ""
+    first, last = min(names), max(names)  # what these two begin with, all between them do
+    same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, last)))
+    return first[: first.rfind("-", 0, same) + 1]

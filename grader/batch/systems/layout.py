@@ -1,0 +1,190 @@
+"""The top of a class' folder: one name for each thing in it, looked at from outside, and no deeper."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from collections.abc import Iterable
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field
+from pathlib import Path
+from typing import Literal
+
+from grader.batch.model import HandedIn
+from grader.batch.systems.words import Notes
+from grader.batch.systems.words import plain
+from grader.errors import UsageError
+from grader.intake.archive_kind import HEAD
+from grader.intake.archive_kind import is_named_archive
+from grader.intake.archive_kind import kind_of
+from grader.intake.notes import shown
+from grader.intake.reading import Unread
+from grader.intake.reading import open_file
+
+Kind = Literal["folder", "archive", "file"]
+
+MOST_NAMES = 100_000
+HIDDEN = "left out, as hidden"
+OF_SYSTEM = "left out, as no student's: the operating system's, a tool's or this grader's"
+NO_SUBMISSION = "left out, as neither a folder nor an archive"
+IS_LINK = "it is a link to elsewhere, and links are not followed: put what it leads to in its place"
+FILES = frozenset(
+    [
+        ".csv",
+        ".html",
+        ".txt",
+        ".md",
+        ".pdf",
+        ".docx",
+        ".xlsx",
+        ".py",
+        ".xml",
+        ".cfg",
+        ".toml",
+        ".json",
+        ".yml",
+        ".yaml",
+        ".rst",
+        ".png",
+    ]
+)
+OF_NOBODY = frozenset(
+    {
+        *("__MACOSX", "__pycache__", "System Volume Information", "lost+found", "$RECYCLE.BIN"),
+        *("reports", "node_modules", "Thumbs.db", "desktop.ini"),
+    }
+)
+
+
+@dataclass(frozen=True)
+class Item:
+    """One name in the class' folder; `problem` says why nothing can be done with it."""
+
+    name: str
+    kind: Kind
+    problem: str = ""
+
+    @property
+    def may_be_submission(self) -> bool:
+        """Whether it would be somebody's by its kind alone."""
+        return self.kind != "file"
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A class' folder; `left_out` are the names that are nobody's, by the reason."""
+
+    path: Path
+    items: tuple[Item, ...]
+    left_out: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def has(self, name: str, kind: Kind) -> bool:
+        """Return whether there is a thing of that name and kind."""
+        return any(item.name == name and item.kind == kind for item in self.items)
+
+    def submissions(self) -> list[Item]:
+        """Return what would be somebody's by its kind alone: folders and archives."""
+        return [item for item in self.items if item.may_be_submission]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What the reader of a system is given beside the layout.
+
+    `gather` puts files of one student, each with the name that it shall have, into one folder.
+    """
+
+    notes: Notes
+    gather: Callable[[Iterable[tuple[Path, str]]], Path]
+
+
+@dataclass(frozen=True)
+class Read:
+    """What a system's reader made of a layout; `rest` is what it did not know."""
+
+    handed_in: list[HandedIn]
+    rest: list[Item] = field(default_factory=list)
+
+
+def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()) -> Layout:
+    """Return what is in a class' folder.
+
+    `lost` are names that should be in it and could not be unpacked, with the reason; `without` are
+    folders of ours. UsageError if it cannot be read.
+    """
+    ours = {place.name for place in without if place.parent == path}
+    items = [
+        Item(name, _kind_by_name(name), why)
+        for name, why in lost.items()
+        if _why_nobodys(name) is None
+    ]
+    left_out: dict[str, list[str]] = {}
+    try:
+        with os.scandir(path) as entries:
+            for entry in entries:
+                if entry.name in ours:
+                    continue
+                found = _item(entry)
+                if isinstance(found, Item):
+                    items.append(found)
+                else:
+                    left_out.setdefault(found, []).append(entry.name)
+                if len(items) > MOST_NAMES:
+                    raise UsageError(f"{shown(str(path))} holds more than {MOST_NAMES:,} names")
+    except OSError as error:
+        raise UsageError(f"{shown(str(path))} cannot be read: {error.strerror}") from None
+    items.sort(key=lambda item: os.fsencode(item.name))
+    return Layout(path, tuple(items), {why: tuple(sorted(n)) for why, n in left_out.items()})
+
+
+def _item(entry: os.DirEntry[str]) -> Item | str:
+    """Return an item, or the reason for which there is none."""
+    name = entry.name
+    nobodys = _why_nobodys(name)
+    if nobodys is not None:
+        return nobodys
+    if entry.is_symlink():
+        # (what it leads to is not looked at: its name must do)
+        return Item(name, _kind_by_name(name), IS_LINK)
+    if entry.is_dir(follow_symlinks=False):
+        return Item(name, "folder")
+    if entry.is_file(follow_symlinks=False):
+        return Item(name, "archive" if _is_archive(entry) else "file")
+    return NO_SUBMISSION
+
+
+def _why_nobodys(name: str) -> str | None:
+    if name in OF_NOBODY or name.endswith("~"):
+        return OF_SYSTEM
+    return HIDDEN if name.startswith(".") else None
+
+
+def _kind_by_name(name: str) -> Kind:
+    if is_named_archive(name):
+        return "archive"
+    return "file" if Path(name).suffix.lower() in FILES else "folder"
+
+
+def _is_archive(entry: os.DirEntry[str]) -> bool:
+    """Whether a file is called an archive, or has no ending and is one."""
+    if is_named_archive(entry.name) or "." in entry.name:
+        return is_named_archive(entry.name)
+    opened = open_file(Path(entry.path))
+    if isinstance(opened, Unread):
+        return False
+    with opened as file:
+        return kind_of(file.read(HEAD)) is not None
+
+
+def seen(layout: Layout) -> str:
+    """Return in words what there is, for who expected something else."""
+    counts = {
+        "folder": sum(item.kind == "folder" for item in layout.items),
+        "archive": sum(item.kind == "archive" for item in layout.items),
+        "other file": sum(item.kind == "file" for item in layout.items),
+    }
+    parts = [f"{n} {what}{'s' if n != 1 else ''}" for what, n in counts.items() if n]
+    names = ", ".join(shown(plain(item.name)) for item in layout.items[:3])
+    more = f" and {len(layout.items) - 3} more" if len(layout.items) > 3 else ""
+    return f"{' and '.join(parts)} ({names}{more})" if parts else "nothing"

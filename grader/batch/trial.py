@@ -1,0 +1,26 @@
+"""A task on its way: our own faults are tried again, a student's never."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from grader.batch.work import TRIES
+from grader.batch.work import Answer
+from grader.batch.work import Done
+from grader.batch.work import Task
+
+
+@dataclass(eq=False)
+class Trial:
+    """How often a task was tried, and the best that came of it."""
+
+    task: Task
+    tries: int = 0
+    best: Answer | None = None
+
+    def hear(self, answer: Answer) -> Done | None:
+        """Take in an answer; return what is done with it, None where another try may tell more."""
+        self.best = answer.better(self.best)
+        if self.best.doubtful and self.tries < TRIES:
+            return None
+        return Done(self.task, self.best, self.tries)

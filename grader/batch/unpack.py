@@ -1,0 +1,140 @@
+"""The archive of a whole class, unpacked once below a folder of ours.
+
+What is in it comes from strangers: no name leads out, no link, device or pipe is made, and nothing
+is larger than one student's work can be. What breaks a rule is left out and told, and costs nobody
+else anything. The students' own archives stay as they are.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import json
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+from grader.batch.unpack_members import CLASS_LIMITS
+from grader.batch.unpack_members import Writing
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+from grader.intake.archive import members_of
+from grader.intake.archive import parsing
+from grader.intake.archive_kind import HEAD
+from grader.intake.archive_kind import kind_of
+from grader.intake.archive_limits import Spent
+from grader.intake.archive_problems import ArchiveError
+from grader.intake.notes import shown
+from grader.intake.reading import Unread
+from grader.intake.reading import open_file
+
+FORM = 1  # of what is written beside the files; another number is unpacked anew
+CHUNK = 1_000_000
+
+
+@dataclass(frozen=True)
+class Unpacked:
+    """Where the class is now. `remarks` are pairs of a path in it and what is to be said of it."""
+
+    folder: Path
+    remarks: tuple[tuple[str, str], ...] = ()
+    modes_recorded: bool = True
+
+
+def unpack_class(path: Path, root: Path) -> Unpacked:
+    """Unpack an archive below `root`, in a folder named by its content; done before, found again.
+
+    Raises UsageError for what is no archive or is damaged as a whole, SurroundingsError where it
+    cannot be written.
+    """
+    opened = open_file(path)
+    if isinstance(opened, Unread):
+        raise UsageError(f"{shown(str(path))} cannot be read: {opened.reason}")
+    with opened as file:
+        digest = _digest(file)
+        target = root / digest
+        try:
+            root.mkdir(parents=True, exist_ok=True, mode=0o700)
+            with _alone(root / f".{digest}.lock"):
+                return _found(target) or _made(file, path, target)
+        except OSError as error:
+            raise SurroundingsError(
+                f"the class cannot be unpacked into {shown(str(root))}: {error.strerror}",
+                remedy="Make room there, or choose another folder with --out.",
+            ) from None
+
+
+def _digest(file: IO[bytes]) -> str:
+    digest = hashlib.sha256()
+    while chunk := file.read(CHUNK):
+        digest.update(chunk)
+    file.seek(0)
+    return digest.hexdigest()
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """Let one process in at a time; the lock of one that was killed is free."""
+    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
+
+
+def _found(target: Path) -> Unpacked | None:
+    try:
+        told = json.loads((target / "unpacked.json").read_text())
+        if told["form"] != FORM or not (target / "class").is_dir():
+            return None
+        remarks = tuple((str(where), str(what)) for where, what in told["remarks"])
+        return Unpacked(target / "class", remarks, bool(told["modes_recorded"]))
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _made(file: IO[bytes], path: Path, target: Path) -> Unpacked:
+    """Unpack beside the target, and give it the name when all of it is there."""
+    building = target.with_name(f".{target.name}.part")
+    for left in (building, target):  # of a run that was killed, or of an older form
+        shutil.rmtree(left, ignore_errors=True)
+    building.mkdir(mode=0o700)  # nobody else's to read, whatever lies in it
+    (building / "class").mkdir()
+    try:
+        writing = Writing(building / "class")
+        _read_into(writing, file, path)
+        told = {
+            "form": FORM,
+            "remarks": writing.remarks,
+            "modes_recorded": writing.modes_recorded,
+        }
+        (building / "unpacked.json").write_text(json.dumps(told))
+        building.rename(target)
+    finally:
+        shutil.rmtree(building, ignore_errors=True)
+    return Unpacked(target / "class", tuple(writing.remarks), writing.modes_recorded)
+
+
+def _read_into(writing: Writing, file: IO[bytes], path: Path) -> None:
+    kind = kind_of(file.read(HEAD))
+    file.seek(0)
+    name = shown(path.name)
+    if kind is None:
+        raise UsageError(
+            f"{shown(str(path))} is a file, and neither a folder nor an archive",
+            remedy="Give the folder of all submissions, or the zip that the course's system made.",
+        )
+    try:
+        with parsing(path.name):
+            for member in members_of(file, kind, path.name, Spent(CLASS_LIMITS)):
+                writing.add(member)
+    except ArchiveError as error:
+        raise UsageError(
+            f"the class' archive cannot be unpacked. {error.problem.text}",
+            remedy=f"Download {name} again, or unpack it yourself and give the folder.",
+        ) from None

@@ -1,0 +1,170 @@
+"""What goes to whoever marks, and what comes back: text, so that any machine may do it.
+
+The submission goes as it was taken in, with its contents: what is marked is what was hashed, also
+where the folder has changed meanwhile.
+"""
+
+from __future__ import annotations
+
+import json
+import traceback
+from collections.abc import Callable
+from collections.abc import Generator
+from collections.abc import Iterable
+from dataclasses import asdict
+from dataclasses import dataclass
+from typing import Protocol
+
+from grader.assignment import Assignment
+from grader.batch.submission_text import from_text
+from grader.batch.submission_text import to_text
+from grader.errors import GraderError
+from grader.events import Event
+from grader.limits import Limits
+from grader.report.model import Report
+from grader.ros.distro import find_distro
+from grader.runner import Order
+from grader.runner import mark
+from grader.submission import Submission
+
+TRIES = 3  # how often a submission is marked where our own side fails
+MARGIN_SECONDS = 120.0  # beyond a submission's own limits, before its worker counts as hung
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is the same for a whole class."""
+
+    assignment: Assignment
+    distro: str
+    sandbox: str
+    limits: Limits
+
+    @property
+    def seconds(self) -> float:
+        """Wall time in which one submission is done, whatever it does: builds, and runs twice."""
+        limits = self.limits
+        run = limits.start_seconds + limits.run_seconds + limits.stop_seconds
+        return limits.build_seconds + 2 * run + MARGIN_SECONDS
+
+    def to_text(self) -> str:
+        """Return it as JSON on one line."""
+        assignment = self.assignment.model_dump(mode="json", by_alias=True)
+        rest = {"distro": self.distro, "sandbox": self.sandbox, "limits": asdict(self.limits)}
+        return json.dumps({"assignment": assignment, **rest})
+
+    @classmethod
+    def from_text(cls, text: str) -> Job:
+        """Return what `to_text` wrote."""
+        found = json.loads(text)
+        assignment = Assignment.model_validate(found["assignment"])
+        return cls(assignment, found["distro"], found["sandbox"], Limits(**found["limits"]))
+
+
+@dataclass(frozen=True)
+class Task:
+    """One submission to mark: whose it is, and the key that its verdict will have."""
+
+    student: str
+    name: str
+    student_id: str
+    key: str
+    submission: Submission
+
+    def to_text(self) -> str:
+        """Return it as JSON on one line."""
+        who = {"student": self.student, "name": self.name, "student_id": self.student_id}
+        return json.dumps({**who, "key": self.key, "submission": to_text(self.submission)})
+
+    @classmethod
+    def from_text(cls, text: str) -> Task:
+        """Return what `to_text` wrote."""
+        found = json.loads(text)
+        return cls(**{**found, "submission": from_text(found["submission"])})
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A report, or the reason why our own side failed to make one."""
+
+    report: Report | None = None
+    fault: str = ""
+
+    def to_text(self) -> str:
+        """Return it as JSON on one line."""
+        report = self.report.model_dump_json(by_alias=True) if self.report else None
+        return json.dumps({"report": report, "fault": self.fault})
+
+    @classmethod
+    def from_text(cls, text: str) -> Answer:
+        """Return what `to_text` wrote. Raises ValueError for anything else."""
+        found = json.loads(text)
+        try:
+            report, fault = found["report"], str(found["fault"])
+        except (KeyError, TypeError) as error:
+            raise ValueError("this is no answer") from error
+        return cls(Report.model_validate_json(report) if report else None, fault)
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether another try may know more: our side failed, or kept points from being known."""
+        return self.report is None or self.report.inconclusive > 0
+
+    def better(self, other: Answer | None) -> Answer:
+        """Return which of two tries knows more: this one unless the other does."""
+        if other is None or other.report is None:
+            return self
+        if self.report is None or other.report.inconclusive < self.report.inconclusive:
+            return other
+        return self
+
+
+@dataclass(frozen=True)
+class Done:
+    """A task with its answer, after so many tries."""
+
+    task: Task
+    answer: Answer
+    tries: int = 1
+
+
+class Pool(Protocol):
+    """Whoever marks many submissions at once."""
+
+    def run(
+        self, tasks: Iterable[Task], *, started: Callable[[Task], None]
+    ) -> Generator[Done, None, None]:
+        """Mark them and yield each when it is done; tasks are taken as they can be begun.
+
+        Closing the generator ends everything that was started.
+        """
+        ...
+
+    def prove(self) -> None:
+        """Raise SurroundingsError if it is not the submissions that fail."""
+        ...
+
+
+def answer(job: Job, task: Task) -> Answer:
+    """Mark one submission here; whatever goes wrong on our side is in the answer."""
+    submission = task.submission
+    order = Order(
+        path=submission.path,
+        assignment=job.assignment,
+        distro=find_distro(job.distro),
+        sandbox=job.sandbox,
+        name=task.name,
+        limits=job.limits,
+        student_id=task.student_id,
+    )
+    try:
+        return Answer(mark(submission, order, _unheard))
+    except GraderError as error:
+        return Answer(fault=str(error))
+    except Exception:  # a fault of ours must cost nobody but this one submission
+        return Answer(fault=traceback.format_exc(limit=-6))
+
+
+def _unheard(event: Event) -> None:
+    """The steps of one verdict are not told: there are many at once."""
+    del event

@@ -1,0 +1,54 @@
+"""The command that mends a package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from grader import options
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path))
+@click.option(
+    "--dry-run/--apply",
+    "dry_run",
+    default=True,
+    help="Show the change as a diff (the default), or write it; the old files are kept.",
+)
+@options.assignment
+@options.one_distro
+@options.sandbox
+@click.option("--check", "only", default="", metavar="ID", help="Mend this check only.")
+@click.option(
+    "--no-run", is_flag=True, help="Look at the files only: build nothing and run nothing."
+)
+@options.limits
+def fix(
+    path: Path,
+    dry_run: bool,
+    assignment: str,
+    distro: str,
+    sandbox: str,
+    only: str,
+    no_run: bool,
+    limits: tuple[str, ...],
+) -> int:
+    """Mend your own package where only one mend is possible, as a diff that is shown first.
+
+    PATH is your package or workspace. Exit status: 0 nothing is wrong any more, 1 something is left
+    that cannot be mended by itself (it is named).
+    """
+    from grader.fix.command import Wish  # noqa: PLC0415
+    from grader.fix.command import fix as mend  # noqa: PLC0415
+    from grader.ordering import make_orders  # noqa: PLC0415
+
+    orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True)
+    if len(orders) > 1:
+        raise click.UsageError("fix runs the node on one distro: name one")
+    wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
+    return mend(wish, say=lambda text: click.echo(text, err=True))
+
+
+COMMANDS = (fix,)

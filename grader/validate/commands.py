@@ -1,0 +1,72 @@
+"""The command that marks an assignment's own solution, starter and mutants."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from grader import options
+
+
+@click.command()
+@click.argument("assignment", metavar="ASSIGNMENT")
+@click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
+@click.option(
+    "--jobs", type=click.IntRange(1), help="How many are run at once (default: cores + 1)."
+)
+@click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
+@click.option(
+    "--json",
+    "json_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write the matrix to this file as well.",
+)
+@click.option(
+    "--keys",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="The folder with the solution and mutants.yaml (default: the grader's own).",
+)
+@options.one_distro
+@options.sandbox
+@options.limits
+def validate(
+    assignment: str,
+    static: bool,
+    jobs: int | None,
+    only: str,
+    json_file: Path | None,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    limits: tuple[str, ...],
+) -> int:
+    """Mark an assignment's own solution, starter and mutants: does it mark what it claims to?
+
+    Exit status: 0 everything is as expected, 1 something is not.
+    """
+    from grader.ordering import make_orders  # noqa: PLC0415
+    from grader.validate import command  # noqa: PLC0415
+    from grader.validate import matrix  # noqa: PLC0415
+
+    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, lang="en")
+    if others:
+        raise click.UsageError("validate marks on one distro: name one")
+    wish = command.Wish(
+        order=order,
+        keys=keys or command.KEYS / order.assignment.id,
+        starter=command.starter_of(assignment),
+        static=static,
+        jobs=jobs or 0,
+        only=only,
+    )
+    found = command.validate(wish, say=lambda text: click.echo(text, err=True))
+    click.echo(matrix.table(found))
+    click.echo()
+    click.echo(matrix.summary(found))
+    if json_file is not None:
+        command.write_json(found, json_file)
+    return 1 if found.faults else 0
+
+
+COMMANDS = (validate,)

@@ -1,0 +1,300 @@
+"""The archive of a whole class: unpacked once, and hostile members cost only their own student."""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import stat
+import struct
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from grader.batch.discover import discover
+from grader.batch.model import ClassFolder
+from grader.batch.model import HandedIn
+from grader.errors import SurroundingsError
+from grader.errors import UsageError
+from grader.intake.archive_limits import ArchiveLimits
+
+from .handed_out import PACKAGE
+from .handed_out import WINDOWS
+from .handed_out import everything_below
+from .handed_out import odd_member
+from .handed_out import package
+from .handed_out import take
+from .handed_out import tar_with
+from .handed_out import tarred
+from .handed_out import zip_of
+from .handed_out import zipped
+
+
+def two(**more: bytes) -> dict[str, bytes]:
+    """Return a class of Ann and Joe, and other files."""
+    return {**package(below="ann/ws"), **package(below="joe/ws"), **more}
+
+
+def found_in(tmp_path: Path, data: bytes, name: str = "class.zip") -> ClassFolder:
+    (tmp_path / name).write_bytes(data)
+    return discover(tmp_path / name, unpack=tmp_path / "work")
+
+
+def one(folder: ClassFolder, key: str) -> HandedIn:
+    (found,) = [given for given in folder.handed_in if given.student.key == key]
+    return found
+
+
+def said(thing: ClassFolder | HandedIn) -> str:
+    return "\n".join(thing.notes)
+
+
+def are_marked(folder: ClassFolder, *keys: str) -> None:
+    for key in keys:
+        given = one(folder, key)
+        assert not given.problem
+        found = take(given.path, modes_kept=given.modes_kept)
+        assert found.problem == ""
+        assert {f.path: f.data for f in found.files if f.kind == "file"} == package()
+
+
+@pytest.mark.parametrize("top", ["", "hw1/", "hw1/all/"])
+@pytest.mark.parametrize("kind", ["zip", "tar", "tar.gz", "tar.xz"])
+def test_a_class_in_an_archive_is_found_in_it(tmp_path: Path, kind: str, top: str) -> None:
+    files = {f"{top}{path}": data for path, data in two().items()}
+    files[f"{top}kim.zip"] = zipped(package())
+    mode = {"tar": "w"}.get(kind, f"w:{kind[4:]}")
+    data = zipped(files) if kind == "zip" else tarred(files, mode)
+    found = found_in(tmp_path, data, f"class.{kind}")
+    assert found.path == tmp_path / f"class.{kind}"
+    assert one(found, "kim").path.name == "kim.zip"
+    are_marked(found, "ann", "joe", "kim")
+
+
+def test_an_archive_is_unpacked_once_and_found_again(tmp_path: Path) -> None:
+    first = found_in(tmp_path, zipped(two()))
+    before = (one(first, "ann").path / "ws" / "setup.py").stat().st_ino
+    again = found_in(tmp_path, zipped(two()), "renamed.zip")
+    assert [given.path for given in again.handed_in] == [given.path for given in first.handed_in]
+    assert (one(again, "ann").path / "ws" / "setup.py").stat().st_ino == before
+    other = found_in(tmp_path, zipped(two(**{"ann/ws/setup.py": b"changed"})))
+    assert one(other, "ann").path != one(first, "ann").path
+
+
+def test_what_is_unpacked_is_the_owners_alone(tmp_path: Path) -> None:
+    found = found_in(tmp_path, zipped(two()))
+    for path in (tmp_path / "work", *(tmp_path / "work").iterdir()):
+        assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0
+    assert one(found, "ann").path.is_relative_to(tmp_path / "work")
+
+
+def test_a_run_that_was_killed_while_unpacking_is_taken_up_again(tmp_path: Path) -> None:
+    (tmp_path / "class.zip").write_bytes(zipped(two()))
+    script = (
+        "import os, sys; from pathlib import Path\n"
+        "from grader.batch import unpack\n"
+        "from grader.batch.discover import discover\n"
+        "real = unpack.Writing.add\n"
+        "def add(self, member):\n"
+        "    real(self, member)\n"
+        "    if member.name.startswith('joe'): os.kill(os.getpid(), 9)\n"
+        "unpack.Writing.add = add\n"
+        "discover(Path(sys.argv[1]), unpack=Path(sys.argv[2]))\n"
+    )
+    words = [sys.executable, "-c", script, str(tmp_path / "class.zip"), str(tmp_path / "work")]
+    assert subprocess.run(words, check=False).returncode == -signal.SIGKILL
+    left = everything_below(tmp_path / "work")
+    assert any(path.endswith("ann/ws/setup.py") for path in left)
+    found = discover(tmp_path / "class.zip", unpack=tmp_path / "work")
+    are_marked(found, "ann", "joe")
+    assert not [path for path in everything_below(tmp_path / "work") if ".part" in path]
+
+
+def test_what_a_stranger_changed_in_the_record_is_unpacked_anew(tmp_path: Path) -> None:
+    found_in(tmp_path, zipped(two()))
+    (record,) = (tmp_path / "work").glob("*/unpacked.json")
+    other = '{"form": 0, "remarks": [["ann", "of old"]], "modes_recorded": true}'
+    for text in ("", "[]", '{"form": 1, "remarks": 5, "modes_recorded": 1}', other):
+        record.write_text(text)
+        found = found_in(tmp_path, zipped(two()))
+        are_marked(found, "ann", "joe")
+        assert not said(one(found, "ann"))
+
+
+def test_a_zip_of_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
+    found = found_in(tmp_path, zipped(two(), system=WINDOWS))
+    assert [given.modes_kept for given in found.handed_in] == [False, False]
+
+
+# hostile members
+
+
+@pytest.mark.parametrize(
+    "name", ["../evil", "/etc/evil", "ann/../../evil", "C:\\evil", "ann\\..\\..\\e"]
+)
+def test_a_name_that_leads_out_is_left_out_and_told(tmp_path: Path, name: str) -> None:
+    before = everything_below(tmp_path)
+    members = [(zipfile.ZipInfo(path), data) for path, data in two().items()]
+    found = found_in(tmp_path, zip_of([*members, (zipfile.ZipInfo(name), b"evil")]))
+    made = everything_below(tmp_path) - before
+    assert not [path for path in made if "evil" in path]
+    assert not Path("/etc/evil").exists()
+    assert "leads out" in said(found) + said(one(found, "ann"))
+    are_marked(found, "ann", "joe")
+    by_tar = found_in(tmp_path, tarred({**two(), name.replace("\\", "/"): b"evil"}), "class.tar")
+    assert "leads out" in said(by_tar) + said(one(by_tar, "ann"))
+    are_marked(by_tar, "ann", "joe")
+
+
+@pytest.mark.parametrize(
+    "kind", [tarfile.SYMTYPE, tarfile.LNKTYPE, tarfile.CHRTYPE, tarfile.BLKTYPE, tarfile.FIFOTYPE]
+)
+def test_links_devices_and_pipes_are_never_made(tmp_path: Path, kind: bytes) -> None:
+    odd = [
+        odd_member("ann/ws/way", kind, "/etc"),
+        odd_member("ann/ws/way/passwd", tarfile.REGTYPE),
+        odd_member("eve", kind, "/etc"),
+    ]
+    found = found_in(tmp_path, tar_with(*odd, files=two()), "class.tar")
+    for path in (tmp_path / "work").rglob("*"):
+        assert path.is_dir() or path.is_file()
+        assert not path.is_symlink()
+    assert "ann/ws/way" in said(one(found, "ann"))
+    assert "not unpacked" in one(found, "eve").problem
+    assert not said(one(found, "joe"))
+    are_marked(found, "joe")
+
+
+def test_a_hard_link_is_a_copy_of_a_file_in_the_archive(tmp_path: Path) -> None:
+    odd = odd_member("ann/ws/copy.py", tarfile.LNKTYPE, "ann/ws/setup.py")
+    found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
+    copy = one(found, "ann").path / "ws" / "copy.py"
+    assert copy.read_bytes() == package()["setup.py"]
+    assert copy.stat().st_nlink == 1
+
+
+def test_a_file_whose_bytes_are_damaged_costs_its_student_alone(tmp_path: Path) -> None:
+    """The other students' are whole; a student whose archive is lost is not lost himself."""
+    files = {**two(), "kim.zip": os.urandom(300), "max/ws/setup.py": os.urandom(300)}
+    data = bytearray(zipped(files))
+    with zipfile.ZipFile(io.BytesIO(bytes(data))) as archive:
+        for name in ("kim.zip", "max/ws/setup.py"):
+            at = archive.getinfo(name).header_offset + 30 + len(name) + 20
+            data[at : at + 4] = bytes(byte ^ 0xFF for byte in data[at : at + 4])
+    found = found_in(tmp_path, bytes(data))
+    assert "damaged" in one(found, "kim").problem
+    assert "damaged" in said(one(found, "max"))
+    are_marked(found, "ann", "joe")
+
+
+def test_a_size_that_is_a_lie_costs_its_student_alone(tmp_path: Path) -> None:
+    data = zipped({**two(), "kim.zip": bytes(3_000_000)})
+    lied = data.replace(struct.pack("<I", 3_000_000), struct.pack("<I", 1_000))
+    found = found_in(tmp_path, lied)
+    assert one(found, "kim").problem
+    are_marked(found, "ann", "joe")
+
+
+def test_more_than_one_student_can_have_is_not_unpacked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    limits = ArchiveLimits(members=50, unpacked=100_000, packed=60_000)
+    monkeypatch.setattr("grader.batch.unpack_members.ONE_STUDENT", limits)
+    files = {
+        **{f"max/x/{n}": b"" for n in range(60)},
+        "kim.zip": bytes(60_001),
+        **{f"eve/x/{n}": bytes(40_000) for n in range(4)},
+        **two(),
+    }
+    links = [odd_member(f"kit/x/{n}", tarfile.LNKTYPE, "eve/x/0") for n in range(4)]
+    for found in (
+        found_in(tmp_path, zipped(files)),
+        found_in(tmp_path, tar_with(*links, files=files), "class.tar"),
+    ):
+        assert "not unpacked" in one(found, "kim").problem
+        assert len(list((one(found, "max").path / "x").iterdir())) == 50
+        assert len(list((one(found, "eve").path / "x").iterdir())) == 2
+        assert "files beside it" in said(one(found, "max"))
+        assert "files beside it" in said(one(found, "eve"))
+        are_marked(found, "ann", "joe")
+    assert len(list((one(found, "kit").path / "x").iterdir())) == 2
+
+
+def test_names_in_each_others_way_are_left_out_and_told(tmp_path: Path) -> None:
+    files = [*two().items(), ("ann/ws", b""), ("joe/ws/setup.py/x", b""), ("n" * 300, b"")]
+    found = found_in(tmp_path, zip_of([(zipfile.ZipInfo(name), data) for name, data in files]))
+    assert "no place" in said(one(found, "ann"))
+    assert "no place" in said(one(found, "joe"))
+    are_marked(found, "ann", "joe")
+
+
+def test_the_same_name_twice_is_told(tmp_path: Path) -> None:
+    good = [(zipfile.ZipInfo(name), data) for name, data in two().items()]
+    with pytest.warns(UserWarning, match="Duplicate"):
+        data = zip_of([*good, (zipfile.ZipInfo("ann/ws/setup.py"), b"last")])
+    found = found_in(tmp_path, data)
+    assert (one(found, "ann").path / "ws/setup.py").read_bytes() == b"last"
+    assert "twice" in said(one(found, "ann"))
+
+
+def test_a_name_that_is_not_utf8_is_kept(tmp_path: Path) -> None:
+    odd = odd_member("jos\udce9.zip", tarfile.REGTYPE)
+    found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
+    assert one(found, "jos\\udce9").path.name == "jos\udce9.zip"
+
+
+@pytest.mark.parametrize("cut", [10, 300, -30])
+@pytest.mark.parametrize("packing", ["zip", "tar.gz"])
+def test_a_class_archive_that_was_cut_short_is_refused_whole(
+    tmp_path: Path, packing: str, cut: int
+) -> None:
+    """Half a class must not pass for a class."""
+    data = zipped(two()) if packing == "zip" else tarred(two(), "w:gz")
+    with pytest.raises(UsageError, match="class' archive cannot be unpacked") as error:
+        found_in(tmp_path, data[:cut], f"class.{packing}")
+    assert "again" in error.value.remedy
+    assert not [path for path in everything_below(tmp_path / "work") if "setup.py" in path]
+
+
+def test_a_class_archive_with_a_password_is_refused_whole(tmp_path: Path) -> None:
+    data = bytearray(zipped(two()))
+    for mark, at in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        position = data.find(mark)
+        while position >= 0:
+            data[position + at] |= 1
+            position = data.find(mark, position + 1)
+    with pytest.raises(UsageError, match="password") as error:
+        found_in(tmp_path, bytes(data))
+    assert "give the folder" in error.value.remedy
+
+
+def test_a_place_that_cannot_be_written_is_our_surroundings_fault(tmp_path: Path) -> None:
+    (tmp_path / "work").write_text("a file in the way")
+    with pytest.raises(SurroundingsError, match="cannot be unpacked"):
+        found_in(tmp_path, zipped(two()))
+
+
+def test_a_class_zip_of_one_package_is_no_class(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="one package"):
+        found_in(tmp_path, zipped(package(below=PACKAGE)))
+
+
+def test_several_runs_at_once_unpack_it_once(tmp_path: Path) -> None:
+    (tmp_path / "class.zip").write_bytes(zipped(two()))
+    script = (
+        "import sys; from pathlib import Path\n"
+        "from grader.batch.discover import discover\n"
+        "found = discover(Path(sys.argv[1]), unpack=Path(sys.argv[2]))\n"
+        "node = found.handed_in[0].path / 'ws' / 'setup.py'\n"
+        "print(node.read_bytes(), node.stat().st_ino)\n"
+    )
+    words = [sys.executable, "-c", script, str(tmp_path / "class.zip"), str(tmp_path / "work")]
+    runs = [subprocess.Popen(words, stdout=subprocess.PIPE, text=True) for _ in range(3)]
+    said_by = {run.communicate(timeout=120)[0] for run in runs}
+    assert [run.returncode for run in runs] == [0, 0, 0]
+    assert len(said_by) == 1
+    assert str(package()["setup.py"]) in said_by.pop()

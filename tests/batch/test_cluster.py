@@ -1,0 +1,178 @@
+"""A real Dask scheduler with real worker processes: one is killed, one is another grader."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import ExitStack
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from grader.batch.cluster import Cluster
+from grader.batch.ledger import Ledger
+from grader.batch.work import Done
+from grader.batch.work import Task
+from grader.errors import SurroundingsError
+from grader.ros.prefix import Ros
+from tests.batch.classes import grade_all
+from tests.batch.classes import of_corpus
+from tests.batch.classes import verdicts_beside
+from tests.batch.works import JOB
+from tests.batch.works import tasks
+from tests.stage import ROOT
+from tests.stage import grader
+
+pytestmark = [pytest.mark.prefix, pytest.mark.full]
+
+
+@contextmanager
+def process(
+    *words: str, ready: str, env: dict[str, str] | None = None
+) -> Iterator[tuple[int, str]]:
+    """Start a program of Dask's; yield its process id and the line that says that it is ready."""
+    with subprocess.Popen(
+        [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as started:
+        assert started.stderr is not None
+        said = ""
+        for line in started.stderr:
+            said += line
+            if ready in line:
+                break
+        else:
+            raise AssertionError(said)
+        try:
+            yield started.pid, line.split()[-1]
+        finally:
+            os.killpg(started.pid, signal.SIGKILL)
+
+
+@pytest.fixture
+def scheduler() -> Iterator[str]:
+    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
+    with process(*words, ready="Scheduler at:") as (_, address):
+        yield address
+
+
+@pytest.fixture
+def start_worker(scheduler: str, tmp_path: Path) -> Iterator[Callable[..., int]]:
+    with ExitStack() as stack:
+
+        def start(**env: str) -> int:
+            words = ["dask_worker", scheduler, "--nthreads", "1", "--no-dashboard", "--no-nanny"]
+            words += ["--local-directory", str(tmp_path / "dask"), "--host", "127.0.0.1"]
+            pid, _ = stack.enter_context(process(*words, ready="Registered to:", env=env))
+            return pid
+
+        yield start
+
+
+def _unheard(task: Task) -> None:
+    del task
+
+
+def _scores(done: list[Done]) -> dict[str, float]:
+    found = {}
+    for one in done:
+        assert one.answer.report is not None, one.answer.fault
+        found[one.task.student] = one.answer.report.score
+    return found
+
+
+def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
+    ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
+) -> None:
+    first = start_worker()
+    start_worker()
+    names = ["solution", "entry_missing"] * 4
+    with Cluster(scheduler, JOB, say=print) as cluster:
+        found: list[Done] = []
+        for done in cluster.run(tasks(tmp_path, names), started=_unheard):
+            found.append(done)
+            if len(found) == 1:
+                os.kill(first, signal.SIGKILL)
+    expected = {f"{name}-{n}": 100 if name == "solution" else 50 for n, name in enumerate(names)}
+    assert _scores(found) == expected
+
+
+def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
+    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"] * 3)
+    with ExitStack() as stack:
+        scheduler, address = stack.enter_context(process(*words, ready="Scheduler at:"))
+        worker = ("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+        stack.enter_context(process(*worker, ready="Registered to:"))
+        command = grader("grade-all", folder, "--out", tmp_path / "out", "--scheduler", address)
+        with subprocess.Popen(
+            [*command, "--quiet"], cwd=ROOT, stderr=subprocess.PIPE, text=True
+        ) as begun:
+            assert begun.stderr is not None
+            while not verdicts_beside(tmp_path / "out" / "ledger.sqlite"):
+                assert begun.poll() is None
+                os.sched_yield()
+            os.kill(scheduler, signal.SIGKILL)
+            _, said = begun.communicate(timeout=120)
+    assert begun.returncode == 3, said
+    assert "is gone" in said
+    assert "Traceback" not in said
+    again = grade_all(folder, tmp_path / "out")
+    assert again.returncode == 1, again.stderr
+    with Ledger(tmp_path / "out" / "ledger.sqlite") as ledger:
+        assert ledger.count() == 6
+
+
+def test_a_class_is_marked_on_the_cluster_and_kept_here(
+    ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
+) -> None:
+    start_worker()
+    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"])
+    done = grade_all(folder, tmp_path / "out", "--scheduler", scheduler)
+    assert done.returncode == 1, done.stderr
+    assert "marks in bubblewrap" in done.stderr
+    # and what the cluster has marked is not marked again on this machine
+    again = grade_all(folder, tmp_path / "out")
+    assert "0 to mark, 2 marked before" in again.stderr
+    with Ledger(tmp_path / "out" / "ledger.sqlite") as ledger:
+        assert ledger.count() == 2
+
+
+def test_a_worker_without_a_sandbox_is_not_used(
+    ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
+) -> None:
+    start_worker()
+    start_worker(PATH="/nowhere")
+    said: list[str] = []
+    with Cluster(scheduler, JOB, say=said.append) as cluster:
+        (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=_unheard)
+    assert _scores([done]) == {"solution-0": 100}
+    assert len([line for line in said if "marks in bubblewrap" in line]) == 1
+    assert len([line for line in said if "is not used" in line]) == 1
+
+
+def test_workers_of_which_none_can_mark_are_refused(
+    scheduler: str, start_worker: Callable[..., int]
+) -> None:
+    start_worker()
+    job = replace(JOB, distro="lyrical")
+    with pytest.raises(SurroundingsError, match="no worker"), Cluster(scheduler, job, say=print):
+        pass
+
+
+def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
+    folder = of_corpus(tmp_path / "class", ["solution"])
+    done = grade_all(folder, tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
+    assert done.returncode == 3
+    assert "does not answer" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,90 @@
+"""Kill -9 of the coordinating process: the ledger of who goes on is that of who was not disturbed."""
+
+from __future__ import annotations
+
+import random
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+from grader.batch.ledger import Ledger
+from grader.limits import Limits
+from grader.ros.prefix import Ros
+from grader.sandbox.bubblewrap import Bubblewrap
+from tests.batch.classes import grade_all
+from tests.batch.classes import of_corpus
+from tests.batch.works import workers_of
+from tests.stage import ROOT
+from tests.stage import alive
+from tests.stage import grader
+
+pytestmark = pytest.mark.prefix
+
+MIXED = ["solution", "entry_missing", "empty_folder", "text_capital", "str_missing"]
+LONGEST = 4.0  # seconds until a kill: a start and about two verdicts
+
+
+def _verdicts(path: Path) -> dict[tuple[str, str], object]:
+    """Return what equal verdicts are equal in: statuses, scores and mistake ids."""
+    found: dict[tuple[str, str], object] = {}
+    with Ledger(path) as ledger:
+        rows = ledger.verdicts()
+        assert ledger.count() == len(rows), "somebody has two verdicts"
+        for pair, row in rows.items():
+            report = ledger.report(row.id)
+            checks = [(c.id, c.status, c.score, [m.id for m in c.mistakes]) for c in report.checks]
+            found[pair] = (report.status, report.score, checks)
+    return found
+
+
+def _killed_after(folder: Path, out: Path, seconds: float) -> None:
+    """Start it, and kill it after a while; its workers end with it."""
+    command = grader("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", "-q")
+    with subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as process:
+        try:
+            process.wait(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            workers = workers_of(process.pid)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            _wait_for_the_end(workers)
+
+
+def _wait_for_the_end(workers: list[int]) -> None:
+    until = time.monotonic() + 10
+    while any(Path(f"/proc/{worker}/exe").exists() for worker in workers):
+        assert time.monotonic() < until, "a worker lives on"
+        time.sleep(0.01)
+
+
+def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> None:
+    print(f"seed {seed}")
+    chance = random.Random(seed)
+    names = [MIXED[number % len(MIXED)] for number in range(students)]
+    folder = of_corpus(tmp_path / "class", names)
+    undisturbed = grade_all(folder, tmp_path / "calm", "-q")
+    assert undisturbed.returncode == 1, undisturbed.stderr
+    for _ in range(kills):
+        _killed_after(folder, tmp_path / "shaken", chance.uniform(0.1, LONGEST))
+    again = grade_all(folder, tmp_path / "shaken", "-q")
+    assert again.returncode == 1, again.stderr
+    found = _verdicts(tmp_path / "shaken" / "ledger.sqlite")
+    assert found == _verdicts(tmp_path / "calm" / "ledger.sqlite")
+    assert len(found) == students
+    with Bubblewrap(ros, Limits()):  # who comes next clears away what was left
+        pass
+    assert not alive(str(tmp_path)), "something of it still runs"
+
+
+def test_a_coordinator_that_is_killed_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+    _compare(ros_jazzy, tmp_path, students=3, kills=3, seed=random.randrange(10**6))
+
+
+@pytest.mark.full
+def test_twenty_kills_at_random_moments_change_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+    _compare(ros_jazzy, tmp_path, students=30, kills=20, seed=random.randrange(10**6))

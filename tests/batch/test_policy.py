@@ -1,0 +1,202 @@
+"""The assignment's policy: due date, grace, penalty, attempts, corrections, as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import datetime
+from datetime import timedelta
+from datetime import timezone
+from typing import Any
+from zoneinfo import ZoneInfo
+
+import pytest
+
+from grader.assignment_policy import Policy
+from grader.batch.model import Entry
+from grader.batch.model import Override
+from grader.batch.model import Student
+from grader.batch.policy import Attempt
+from grader.batch.policy import lateness
+from grader.batch.policy import penalty
+from grader.batch.policy import standing
+from tests.report.samples import check
+from tests.report.samples import report
+
+DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)
+KIM = Student("kim", "Kim Minji")
+HOUR, DAY = 3600, 86_400
+
+
+def policy(**late: Any) -> Policy:
+    own = {name: late.pop(name) for name in ("grace", "attempts", "missing") if name in late}
+    return Policy.model_validate({"due": DUE, "late": late, **own})
+
+
+def after(seconds: float) -> datetime:
+    return DUE + timedelta(seconds=seconds)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "grace", "late"),
+    [
+        (-1, "0 s", 0),
+        (0, "0 s", 0),
+        (1, "0 s", 1),
+        (900, "15 min", 0),
+        (901, "15 min", 901),
+        (DAY, "1 d", 0),
+        (DAY + 1, "1 d", DAY + 1),
+        (90, "1.5 min", 0),
+        (7201, "2 h", 7201),
+    ],
+)
+def test_up_to_the_end_of_the_grace_time_nothing_is_late(
+    seconds: float, grace: str, late: float
+) -> None:
+    assert lateness(after(seconds), policy(grace=grace)) == late
+
+
+def test_without_a_due_date_nothing_is_late() -> None:
+    assert lateness(after(10 * DAY), Policy()) == 0
+    assert lateness(None, Policy()) == 0
+
+
+@pytest.mark.parametrize(
+    ("seconds", "late", "taken"),
+    [
+        (1, {"per_day": "10%"}, 10),
+        (DAY, {"per_day": "10%"}, 10),
+        (DAY + 1, {"per_day": "10%"}, 20),
+        (30 * DAY, {"per_day": "10%", "most": "50%"}, 50),
+        (30 * DAY, {"per_day": "10%"}, 80),
+        (HOUR, {"per_hour": "2"}, 2),
+        (HOUR + 1, {"per_hour": 2}, 4),
+        (3 * DAY, {"per_day": 5, "most": 12}, 12),
+        (1, {"per_day": "12.5%"}, 12.5),
+        (2 * DAY - 1, {"per_day": "10%", "until": after(2 * DAY)}, 20),
+        (2 * DAY, {"per_day": "10%", "until": after(2 * DAY)}, 80),
+        (-1, {"per_day": "10%"}, 0),
+        (10 * DAY, {}, 0),
+    ],
+)
+def test_each_begun_day_or_hour_counts_whole(
+    seconds: float, late: dict[str, Any], taken: float
+) -> None:
+    assert penalty(80, 100, after(seconds), policy(**late)) == taken
+
+
+def test_a_penalty_is_never_more_than_the_score() -> None:
+    assert penalty(15, 100, after(5 * DAY), policy(per_day="10%")) == 15
+
+
+@pytest.mark.parametrize(
+    ("due", "zone", "submitted", "late"),
+    [
+        # the clocks of Berlin go back one hour in the night to 2026-10-25
+        ("2026-10-24T23:00:00", "Europe/Berlin", "2026-10-25T23:00:00+01:00", 25 * HOUR),
+        # New York's go forward in the night to 2026-03-08
+        ("2026-03-07T23:00:00", "America/New_York", "2026-03-08T23:00:00-04:00", 23 * HOUR),
+        ("2026-11-20T23:59:00", "Asia/Seoul", "2026-11-20T15:00:00+00:00", 60),
+        ("2026-11-20T23:59:00+09:00", "", "2026-11-20T14:59:00+00:00", 0),
+    ],
+)
+def test_instants_are_compared_whatever_the_clocks_on_the_wall_say(
+    due: str, zone: str, submitted: str, late: float
+) -> None:
+    found = Policy(due=datetime.fromisoformat(due), time_zone=zone)
+    assert lateness(datetime.fromisoformat(submitted), found) == late
+
+
+def test_two_times_of_one_zone_are_compared_as_instants_too() -> None:
+    berlin = ZoneInfo("Europe/Berlin")
+    found = Policy(due=datetime(2026, 10, 24, 23), time_zone="Europe/Berlin")
+    assert lateness(datetime(2026, 10, 25, 23, tzinfo=berlin), found) == 25 * HOUR
+
+
+def attempt(number: int, seconds: float | None, lost: Sequence[str] = (), **more: Any) -> Attempt:
+    """An attempt that failed the checks `lost`; `seconds` after the due date."""
+    usual: dict[str, Any] = {
+        "submitted": None if seconds is None else after(seconds),
+        "late": None,
+        "report": report(*(check(name, "failed") for name in lost)),
+    }
+    return Attempt(number, **{**usual, **more})
+
+
+def stand(*attempts: Attempt, overrides: Sequence[Override] = (), **rules: Any) -> Entry:
+    return standing(KIM, attempts, overrides, policy(**rules), 100)
+
+
+def test_the_best_attempt_is_the_one_with_the_most_points_after_its_penalty() -> None:
+    early, full_but_late = attempt(1, -HOUR, ["run.output"]), attempt(2, 1)
+    entry = stand(early, full_but_late, per_day="20%", attempts="best")
+    assert (entry.attempt, entry.score, entry.penalty, entry.final) == (1, 90, 0, 90)
+    entry = stand(early, full_but_late, per_day="5%", attempts="best")
+    assert (entry.attempt, entry.score, entry.penalty, entry.final) == (2, 100, 5, 95)
+    assert entry.attempts == 2
+    assert entry.late_seconds == 1
+
+
+def test_of_two_equal_attempts_the_earlier_one_counts() -> None:
+    assert stand(attempt(1, -HOUR), attempt(2, -60), attempts="best").attempt == 1
+
+
+def test_the_last_attempt_counts_though_it_is_worse() -> None:
+    entry = stand(attempt(1, -HOUR), attempt(2, -60, ["run.output"]), attempts="last")
+    assert (entry.attempt, entry.final) == (2, 90)
+    assert stand(attempt(1, 0, ["run.output"]), attempt(2, 0), attempts="first").final == 90
+
+
+def test_what_cannot_be_marked_is_never_better_than_a_verdict() -> None:
+    broken = attempt(2, -60, report=None, problem="the archive ends in the middle")
+    lost = attempt(1, -HOUR, ["run.output"])
+    assert stand(lost, broken, attempts="best").final == 90
+    entry = stand(lost, broken, attempts="last")
+    assert (entry.status, entry.final) == ("ungradable", None)
+    assert entry.problem == "the archive ends in the middle"
+    assert stand(broken, attempts="best").status == "ungradable"
+
+
+def test_a_report_of_the_graders_own_failure_is_no_verdict() -> None:
+    failed = report().model_copy(update={"status": "error", "message": "the disk was full"})
+    entry = stand(attempt(1, -HOUR, report=failed), attempts="best")
+    assert (entry.status, entry.final, entry.problem) == ("ungradable", None, "the disk was full")
+    lost = attempt(1, -HOUR, ["run.output"])
+    assert stand(lost, attempt(2, -60, report=failed), attempts="best").final == 90
+
+
+def test_what_is_not_marked_yet_waits() -> None:
+    entry = stand(attempt(1, -60, report=None))
+    assert (entry.status, entry.score, entry.final) == ("pending", None, None)
+
+
+@pytest.mark.parametrize(("missing", "final"), [("zero", 0), ("none", None)])
+def test_who_handed_in_nothing_gets_what_the_policy_says(missing: str, final: float | None) -> None:
+    entry = stand(missing=missing)
+    assert (entry.status, entry.final) == ("missing", final)
+
+
+def test_a_corrected_check_counts_before_lateness_takes_its_share() -> None:
+    override = Override("kim", "run.output", 8, "the text was given wrongly in class")
+    entry = stand(attempt(1, 1, ["run.output"]), overrides=[override], per_day="50%")
+    assert (entry.score, entry.penalty, entry.final) == (98, 50, 48)
+    assert entry.report is not None
+    assert entry.report.score == 90, "the verdict itself is never changed"
+    assert entry.overrides == (override,)
+
+
+def test_a_corrected_total_is_the_last_word() -> None:
+    override = Override("kim", "", 77, "agreed in the office hour")
+    for found in (
+        stand(attempt(1, 5 * DAY, ["run.output"]), overrides=[override], per_day="10%"),
+        stand(attempt(1, 0, report=None, problem="corrupt"), overrides=[override]),
+        stand(overrides=[override]),
+    ):
+        assert (found.score, found.penalty, found.final) == (77, 0, 77)
+
+
+def test_an_unknown_time_costs_nothing_and_is_told() -> None:
+    entry = stand(attempt(1, None, late=True), per_day="10%")
+    assert (entry.penalty, entry.final) == (0, 100)
+    assert "not known" in entry.notes[-1]
+    assert "calls it late" in entry.notes[-1]

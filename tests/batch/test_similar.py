@@ -1,0 +1,152 @@
+"""The same but for white space and comments: what is found, and what is not."""
+
+from __future__ import annotations
+
+import io
+import time
+import tokenize
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.batch.similar import fingerprint
+from grader.batch.similar import groups
+from grader.submission import SourceFile
+from grader.submission import Submission
+from grader.submission import take_in
+from tests.batch.works import ASSIGNMENT
+from tests.stage import ROOT
+
+SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
+NODE = "my_robot_controller/my_first_node.py"
+
+
+def solution() -> Submission:
+    return take_in(SOLUTION, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+
+
+def having(files: dict[str, bytes]) -> Submission:
+    own = tuple(SourceFile(path, "file", data=data) for path, data in files.items())
+    return replace(solution(), files=own)
+
+
+def changed(path: str, old: str, new: str) -> Submission:
+    """Return the solution with something else in one file."""
+    files = []
+    for file in solution().files:
+        text = file.data.decode()
+        if file.path == path:
+            assert old in text
+            text = text.replace(old, new)
+        files.append(replace(file, data=text.encode()))
+    return replace(solution(), files=tuple(files))
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new"),
+    [
+        (NODE, "import rclpy\n", "import rclpy  # ROS for Python\n\n\n# more\n"),
+        (NODE, "\n", "\r\n"),
+        (NODE, "    ", "  "),
+        (NODE, " = ", "="),
+        ("setup.py", "\n", "\n\n"),
+        ("package.xml", "<name>", "<!-- mine -->\n   <name>"),
+        ("setup.cfg", "[install]", "# where to\n\n[install]"),
+    ],
+)
+def test_white_space_and_comments_make_no_difference(path: str, old: str, new: str) -> None:
+    assert fingerprint(changed(path, old, new)) == fingerprint(solution())
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new"),
+    [
+        (NODE, "counter", "number"),
+        (NODE, "Hello time", "Hello  time"),
+        ("package.xml", "maintainer", "author"),
+        ("setup.py", "test_node", "my_node"),
+    ],
+)
+def test_other_content_makes_one(path: str, old: str, new: str) -> None:
+    assert fingerprint(changed(path, old, new)) != fingerprint(solution())
+
+
+def test_what_a_block_holds_is_no_white_space() -> None:
+    one = having({NODE: b"if a:\n    b()\n    c()\n"})
+    other = having({NODE: b"if a:\n    b()\nc()\n"})
+    assert fingerprint(one) != fingerprint(other)
+
+
+def test_a_package_as_it_was_created_is_like_nobodys() -> None:
+    created = {"setup.py": b"setup()", "my_robot_controller/__init__.py": b"# empty\n"}
+    created["test/test_flake8.py"] = b"def test(): pass"
+    assert fingerprint(having(created)) == ""
+    assert groups({"a": "", "b": ""}) == ()
+
+
+def test_groups_are_those_of_two_and_more() -> None:
+    found = groups({"d": "2", "b": "1", "c": "3", "a": "1", "e": "2", "f": "2"})
+    assert found == (("a", "b"), ("d", "e", "f"))
+
+
+@given(st.dictionaries(st.sampled_from([NODE, "a.xml", "b.cfg", "c"]), st.binary(max_size=200)))
+def test_whatever_is_in_a_file_has_a_fingerprint(files: dict[str, bytes]) -> None:
+    assert fingerprint(having(files)) == fingerprint(having(files))
+
+
+@pytest.mark.parametrize(
+    ("path", "data"),
+    [
+        ("package.xml", b"<!--" * 50_000),
+        ("setup.cfg", b"\n" * 200_000),
+        ("setup.cfg", b" \t" * 100_000),
+        (NODE, b"a\n" * 2_000_000),
+        (NODE, b"(" * 4_000_000),
+        (NODE, b"'''" + b"\\\n" * 2_000_000),
+    ],
+)
+def test_nobody_can_hold_up_the_class_with_what_is_in_a_file(path: str, data: bytes) -> None:
+    before = time.process_time()
+    assert fingerprint(having({NODE: b"print()", path: data}))
+    assert time.process_time() - before < 5, "seconds of processor time; this is not linear"
+
+
+def test_long_code_is_compared_without_blanks_and_comments_too() -> None:
+    code = b"count = 1\n" * 50_000
+    plain, remarked = having({NODE: code}), having({NODE: b"# mine\n\n" + code})
+    assert fingerprint(plain) == fingerprint(remarked)
+    assert fingerprint(plain) != fingerprint(having({NODE: code + b"print()\n"}))
+
+
+def test_a_comment_that_never_ends_hides_nothing() -> None:
+    one = having({NODE: b"print()", "package.xml": b"<a><!-- b"})
+    other = having({NODE: b"print()", "package.xml": b"<a><!-- c"})
+    assert fingerprint(one) != fingerprint(other)
+
+
+NAMES = st.sampled_from(["a", "b", "count", "self", "print", "7", "'t'"])
+
+
+@given(st.lists(st.tuples(NAMES, st.sampled_from([" ", "  ", "\t"]), st.booleans()), max_size=12))
+def test_blanks_between_the_same_tokens_never_count(parts: list[tuple[str, str, bool]]) -> None:
+    plain = "x = [" + ", ".join(word for word, _, _ in parts) + "]\n"
+    wide = "x = [" + ",".join(
+        f"{blank}{word}{'  # why' + chr(10) if remark else blank}" for word, blank, remark in parts
+    )
+    wide += "\n]\n"
+    assert _tokens(plain) == _tokens(wide)
+    assert fingerprint(having({NODE: plain.encode()})) == fingerprint(having({NODE: wide.encode()}))
+
+
+def _tokens(text: str) -> list[str]:
+    tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+    skipped = (tokenize.COMMENT, tokenize.NL)
+    return [token.string for token in tokens if token.type not in skipped]
+
+
+def test_a_file_of_another_name_is_another_submission() -> None:
+    one = having({NODE: b"print(1)\n"})
+    other = having({"my_robot_controller/other.py": b"print(1)\n"})
+    assert fingerprint(one) != fingerprint(other)

@@ -1,0 +1,29 @@
+"""A class of two thousand: what it costs the process that coordinates it. The sandbox is a stub."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.report.files import report_json
+from tests.batch import classes
+from tests.report import samples
+
+MOST = 200  # MB
+
+
+@pytest.mark.full
+@pytest.mark.prefix
+def test_memory_stays_flat_and_everybody_is_marked(tmp_path: Path) -> None:
+    evidence = {"build_log": "b" * 40_000, "transcript": "t" * 40_000}
+    report = samples.report(evidence=evidence)
+    (tmp_path / "report.json").write_text(report_json(report), encoding="utf-8")
+    folder = classes.of_many(tmp_path / "class", 2_000)
+    out = tmp_path / "out"
+    status, peak = classes.measured(folder, out, report=tmp_path / "report.json")
+    assert status == 0
+    assert peak < MOST
+    with (out / "gradebook.csv").open(encoding="utf-8-sig") as rows:
+        assert sum(1 for _ in rows) == 2_001
+    assert len(list((out / "students").iterdir())) == 2_000

@@ -1,0 +1,61 @@
+"""Work for a pool: packages of the corpus as tasks, and workers that are watched."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from collections.abc import Sequence
+from pathlib import Path
+
+from grader.assignment import load_assignment
+from grader.batch.work import Job
+from grader.batch.work import Task
+from grader.limits import Limits
+from grader.submission import take_in
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import write
+from tests.corpus.model import Package
+from tests.corpus.right import RIGHT
+from tests.stage import ROOT
+
+ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
+JOB = Job(ASSIGNMENT, "jazzy", "bubblewrap", Limits())
+CORPUS: dict[str, Package] = {package.name: package for package in (*RIGHT, *BROKEN)}
+
+
+def package(name: str, folder: Path, *, called: str = "") -> Path:
+    """Write a package of the corpus as `folder/<called>/my_robot_controller`."""
+    place = folder / (called or name)
+    place.mkdir(parents=True)
+    write(CORPUS[name], place).rename(place / "my_robot_controller")
+    return place
+
+
+def tasks(folder: Path, names: Sequence[str]) -> Iterator[Task]:
+    """Yield a task a name; the student is called as the package and its number."""
+    for number, name in enumerate(names):
+        student = f"{name}-{number}"
+        place = package(name, folder, called=student)
+        submission = take_in(place, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+        yield Task(student, student, str(number), f"key-{number}", submission)
+
+
+def workers_of(parent: int) -> list[int]:
+    """Return the ids of the worker processes that a process has started."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            above = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if above == parent and b"grader.batch.worker" in words:
+            found.append(int(entry.name))
+    return sorted(found)
+
+
+def own_workers() -> list[int]:
+    """Return the ids of this process' workers."""
+    return workers_of(os.getpid())

@@ -1,0 +1,138 @@
+"""`python -m tests.bench_class`: what a class costs, next to the plain wall-clock grader.
+
+All in one run on this machine, which must have nothing else to do meanwhile. Throughput is the
+whole command's: starting, marking, and writing every output.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from grader.errors import GraderError
+from grader.limits import Limits
+from grader.ros.distro import find_distro
+from grader.ros.prefix import Ros
+from grader.ros.prefix import find_ros
+from grader.sandbox.bubblewrap import Bubblewrap
+from grader.submission import Submission
+from grader.submission import take_in
+from grader.terminal import Terminal
+from grader.workspace import build
+from tests.batch import classes
+from tests.bench import ASSIGNMENT
+from tests.bench import bound
+from tests.bench import machine_cpu
+
+PLAIN_TICKS = 5
+PLAIN_LIMIT = 10.0  # seconds for a line to come; what never comes would be waited for for ever
+
+
+def main() -> int:
+    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--count", type=int, default=40, help="packages of the compared class")
+    options.add_argument("--large", type=int, default=200, help="packages of the large class")
+    options.add_argument("--stubbed", type=int, default=2000, help="packages without a sandbox")
+    asked = options.parse_args()
+    ros = find_ros(find_distro("jazzy"))
+    bounds = []
+    with tempfile.TemporaryDirectory() as work:
+        place = Path(work)
+        bounds += compared(ros, place, asked.count)
+        if asked.large:
+            bounds += large(place, asked.large)
+        if asked.stubbed:
+            report = next((place / "out").glob("*solution*/jazzy/report.json"))
+            bounds += stubbed(place, asked.stubbed, report)
+    return 0 if all(bounds) else 1
+
+
+def compared(ros: Ros, place: Path, count: int) -> list[bool]:
+    """Mark a class, and every fourth of it as a plain grader does."""
+    folder = classes.of_corpus(place / "class", classes.mixed_names(count))
+    before, begin = machine_cpu(), time.monotonic()
+    done = classes.grade_all(folder, place / "out", "--quiet")
+    wall, cpu = time.monotonic() - begin, machine_cpu() - before
+    if done.returncode not in (0, 1):
+        sys.exit(done.stderr)
+    some = sorted(folder.iterdir())[:: max(1, count // 10)][:10]
+    plain = [plain_once(ros, one) for one in some]
+    cores = len(os.sched_getaffinity(0))
+    ours, theirs = count / wall * 60, len(plain) / sum(plain) * 60
+    print(f"class of {count}: {wall:.1f} s, {ours:.1f} a minute, {cpu / count:.2f} s cpu each")
+    print(f"plain grader on {len(plain)} of them: {sum(plain):.1f} s, {theirs:.2f} a minute")
+    return [
+        at_least("throughput: times the plain grader's", ours / theirs, 4.5),
+        at_least("cores busy", cpu / wall / cores, 0.85),
+    ]
+
+
+def large(place: Path, count: int) -> list[bool]:
+    """Mark a large class to its end, then again without anything to do."""
+    folder = classes.of_corpus(place / "large", classes.mixed_names(count))
+    begin = time.monotonic()
+    status, peak = classes.measured(folder, place / "large-out")
+    print(f"class of {count}: {time.monotonic() - begin:.1f} s, exit status {status}")
+    begin = time.monotonic()
+    again = classes.grade_all(folder, place / "large-out", "--quiet")
+    warm = time.monotonic() - begin
+    if again.returncode != status or f"{count} marked before" not in again.stderr:
+        sys.exit(f"the second run was another one:\n{again.stderr}")
+    return [
+        bound(f"coordinator's memory at {count}: MB", peak, 200),
+        bound(f"warm rerun of {count}: seconds", warm, 2.0),
+    ]
+
+
+def stubbed(place: Path, count: int, report: Path) -> list[bool]:
+    """Run a very large class with workers that hand out one report."""
+    folder = classes.of_many(place / "many", count)
+    begin = time.monotonic()
+    _, peak = classes.measured(folder, place / "many-out", report=report)
+    print(f"class of {count} without a sandbox: {time.monotonic() - begin:.1f} s")
+    return [bound(f"coordinator's memory at {count}: MB", peak, 200)]
+
+
+def plain_once(ros: Ros, student: Path) -> float:
+    """Build, run, watch five ticks of the wall clock, next: return the seconds."""
+    begin = time.monotonic()
+    submission: Submission = take_in(
+        student, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file
+    )
+    try:
+        with Bubblewrap(ros, Limits()) as sandbox:
+            if build(sandbox, submission, package=ASSIGNMENT.package).status == 0:
+                _watch(sandbox, ros)
+    except GraderError as error:
+        sys.exit(str(error))
+    return time.monotonic() - begin
+
+
+def _watch(sandbox: Bubblewrap, ros: Ros) -> None:
+    script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
+    script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
+    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
+    seen = 0
+    until = time.monotonic() + PLAIN_LIMIT
+    while seen < PLAIN_TICKS and not terminal.ended and time.monotonic() < until:
+        seen += sum("Hello time" in line.text for line in terminal.read(1))
+    if not terminal.ended:
+        terminal.interrupt()
+    terminal.finish(10)
+    terminal.close()
+
+
+def at_least(name: str, value: float, least: float) -> bool:
+    """Print a figure next to its bound and return whether it is reached."""
+    kept = value >= least
+    print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at least {least:g})")
+    return kept
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,100 @@
+"""Virtual time with a terminal that is slower than the network, as a container's is."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from dataclasses import field
+
+import pytest
+
+from grader.assignment import load_assignment
+from grader.clock import VirtualClock
+from grader.observer import SECOND
+from grader.observer import Observer
+from grader.observer import Watch
+from grader.probe_link import Answer
+from grader.probe_link import LogRecord
+from grader.probe_link import ProbeLink
+from grader.sandbox.base import Console
+from grader.terminal import Terminal
+from tests.test_observer import COURSE
+
+OUTPUT = load_assignment(COURSE).output
+
+
+@dataclass
+class SlowConsole(Console):
+    """A terminal on which what was written shows at the second look, or to one who waits."""
+
+    pieces: list[bytes] = field(default_factory=list)
+    shown: bytes = b""
+    looks: int = 0  # since the last piece
+
+    def wait(self, seconds: float) -> bool:
+        self.looks += bool(self.pieces)
+        if self.pieces and not self.shown and (seconds or self.looks > 1):
+            self.shown = self.pieces.pop(0)
+            self.looks = 0
+        return bool(self.shown)
+
+    def read(self) -> bytes:
+        shown, self.shown = self.shown, b""
+        return shown
+
+    def interrupt(self) -> None:
+        raise OSError
+
+    def poll(self) -> tuple[int | None, int | None] | None:
+        return None
+
+    def end(self) -> None:
+        self.pieces.clear()
+
+
+class Node(ProbeLink):
+    """A node that counts on /clock, as its probe sees it, with prints around each log line."""
+
+    def __init__(self, console: SlowConsole, *, before: str, after: str) -> None:
+        self._console = console
+        self._prints = (before, after)
+        self._count = 0
+
+    def ask(self, do: str, *, seconds: float = 0, **more: int) -> Answer:
+        logs = []
+        while do == "clock" and more["at"] >= (self._count + 1) * round(OUTPUT.period * SECOND):
+            text = OUTPUT.text.format(n=self._count)
+            stamp = time.time_ns()
+            logs.append(LogRecord(20, "node", text, "", "", 1, stamp))
+            line = f"[INFO] [{stamp // SECOND}.{stamp % SECOND:09}] [node]: {text}\r\n"
+            before, after = (words.format(n=self._count) for words in self._prints)
+            pieces = (before, line, after)
+            self._console.pieces += [piece.encode() for piece in pieces if piece]
+            self._count += 1
+        return Answer(barrier=True, logs=tuple(logs))
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [("Hello time: {n}\r\n", ""), ("", "Hello time: {n}\r\n"), ("counting\r\n", "counted\r\n")],
+    ids=["printed before", "printed after", "both"],
+)
+def test_what_the_terminal_shows_late_belongs_to_its_own_tick(before: str, after: str) -> None:
+    console = SlowConsole()
+    node = Node(console, before=before, after=after)
+    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
+    watch = Watch()
+    VirtualClock(observer, OUTPUT, deadline=time.monotonic() + 30).drive(watch, lambda event: None)
+    assert (watch.early, watch.missing, watch.period) == ([], [], None)
+    assert {(e.n, e.due) for e in watch.counted} == {(k, k) for k in range(OUTPUT.ticks)}
+
+
+def test_a_logger_that_is_not_shown_is_waited_for_once_only() -> None:
+    console = SlowConsole()
+    node = Node(console, before="", after="")
+    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
+    records = node.ask("clock", at=SECOND).logs
+    console.pieces = [b"no record of its own\r\n"]
+    assert [event.text for event in observer.catch_up(records)] == ["no record of its own"]
+    console.pieces = [b"and another\r\n"]
+    assert observer.catch_up(records) == []
