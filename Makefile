@@ -2,12 +2,13 @@
 # GNU make's own rule: every failure is exit status 2. Scripts call .venv/bin/grader.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lab images grade grade-all check test test-all bench lock lint clean
+.PHONY: help setup lab images grade grade-all check fix validate test test-all bench lock lint clean
 SHELL := /bin/sh
 
 # A variable's raw text goes to the recipes through the environment, never through make or a shell.
 VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
-  PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS SCHEDULER
+  PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS SCHEDULER \
+  APPLY KEYS
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
@@ -63,6 +64,15 @@ check:  ## Check your own package before handing it in: make check [PACKAGE=path
 	@$(BOOTSTRAP)
 	@$(GRADER) check $(OPTIONS) $${PACKAGE:+-- "$$PACKAGE"}
 
+fix:  ## Show how your own package can be mended, or mend it: make fix [PACKAGE=path] [APPLY=1]
+	@$(BOOTSTRAP)
+	@$(GRADER) fix $(OPTIONS) $${APPLY:+--apply} $${PACKAGE:+-- "$$PACKAGE"}
+
+validate:  ## Test an assignment: does it mark what it claims to? (ASSIGNMENT=hello_time KEYS=folder)
+	@$(BOOTSTRAP)
+	@$(GRADER) validate $${DISTRO:+--distro "$$DISTRO"} $${SANDBOX:+--sandbox "$$SANDBOX"} \
+	  $${KEYS:+--keys "$$KEYS"} -- "$${ASSIGNMENT:-hello_time}"
+
 test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests
 	@$(MAKE) --no-print-directory lint
@@ -88,7 +98,7 @@ bench:  ## Measure a verdict against the bare commands, as ratios in one run (wi
 	@$(BOOTSTRAP) --tests
 	@trap '.venv/bin/python -m tests.engine down' EXIT; \
 	  .venv/bin/python -m tests.engine up && .venv/bin/python -m tests.bench && \
-	  .venv/bin/python -m tests.bench_class
+	  .venv/bin/python -m tests.bench_diagnosis && .venv/bin/python -m tests.bench_class
 
 lock:  ## Write the lock files anew from their .in files (needs uv)
 	@sh grader/ros/locks/lock.sh

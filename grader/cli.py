@@ -106,15 +106,13 @@ def check(
     folder). It is your own code: where no sandbox is to be had it runs without one, and says so.
     """
     from grader.ordering import make_orders  # noqa: PLC0415
+    from grader.ordering import own_place  # noqa: PLC0415
 
-    named = path is not None
-    if path is None:
-        workspace = Path.home() / "ros2_ws"
-        path = workspace if workspace.is_dir() else Path.cwd()
     with errors_in(lang):
-        orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True, lang=lang)
-        if not named:
-            click.echo(Speaker(orders[0].lang)(say("checking {path}", path=str(path))), err=True)
+        place = path or own_place()
+        orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
+        if path is None:
+            click.echo(Speaker(orders[0].lang)(say("checking {path}", path=str(place))), err=True)
         return _mark(orders, None, verbose=verbose, show_hidden=False)
 
 

@@ -10,6 +10,9 @@ from types import FrameType
 import click
 
 from grader.errors import GraderError
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import chosen_language
 
 
 class Terminated(BaseException):
@@ -37,11 +40,15 @@ def run(command: click.Command, name: str, argv: list[str] | None) -> int:
         click.echo(f"{name}: {error}", err=True)
         return error.exit_status
     except (KeyboardInterrupt, click.Abort):
-        click.echo(f"{name}: interrupted; nothing was left running", err=True)
+        _tell(say("{name}: interrupted; nothing was left running", name=name))
         return 130
     except Terminated:
-        click.echo(f"{name}: terminated; nothing was left running", err=True)
+        _tell(say("{name}: terminated; nothing was left running", name=name))
         return 143
     except BrokenPipeError:  # the reader of our output has gone (| head)
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+
+
+def _tell(text: str) -> None:
+    click.echo(Speaker(chosen_language(os.environ))(text), err=True)

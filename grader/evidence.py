@@ -46,6 +46,7 @@ class Evidence:
             if self.run_failed is not None:
                 raise self.run_failed
             try:
+                _ = self.build  # also where no check asks how it went
                 self._run = self._make_run()
             except Inconclusive as failure:
                 self.run_failed = failure

@@ -55,6 +55,12 @@ def make_orders(
     ]
 
 
+def own_place() -> Path:
+    """Return where a student's own package is when no path is given: ~/ros2_ws, else here."""
+    workspace = Path.home() / "ros2_ws"
+    return workspace if workspace.is_dir() else Path.cwd()
+
+
 def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
     values = {}
     for word in words:

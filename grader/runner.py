@@ -146,21 +146,27 @@ def _decide(
     for check_id, check in CHECKS.items():
         if check_id not in uses:
             continue
-        use = uses[check_id]
         now, title = STAGES[check_id.partition(".")[0]]
         if now != stage:
             if stage:
                 listener(events.StageFinished(stage, time.monotonic() - begin))
             stage, begin = now, time.monotonic()
             listener(events.StageStarted(stage, speak(title)))
-        listener(events.CheckStarted(check.id, speak(check.title), use.visibility))
-        result = _said(_ask(check, use, evidence, uses), speak)
+        visibility = uses[check_id].visibility
+        listener(events.CheckStarted(check.id, speak(check.title), visibility))
+        result = ask(check, evidence, speak)
         if result.status == "failed":
             result = result.model_copy(update={"patch": _patch(result, evidence)})
         evidence.results[check_id] = result
         listener(events.CheckFinished(result))
     listener(events.StageFinished(stage, time.monotonic() - begin))
     return [evidence.results[use.id] for use in assignment.checks]
+
+
+def ask(check: Check, evidence: Evidence, speak: Speaker) -> model.CheckResult:
+    """Ask one check; the build and the run happen in the first check that needs them."""
+    uses = {use.id: use for use in evidence.assignment.checks}
+    return _said(_found(check, uses[check.id], evidence, uses), speak)
 
 
 def _said(found: dict[str, object], speak: Speaker) -> model.CheckResult:
@@ -177,10 +183,9 @@ def _patch(result: model.CheckResult, evidence: Evidence) -> str:
         return ""
 
 
-def _ask(
+def _found(
     check: Check, use: CheckUse, evidence: Evidence, uses: dict[str, CheckUse]
 ) -> dict[str, object]:
-    """Ask one check; the build and the run happen in the first check that needs them."""
     common = {
         "id": check.id,
         "title": check.title,

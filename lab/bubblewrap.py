@@ -19,6 +19,7 @@ from pathlib import Path
 
 from grader.errors import SurroundingsError
 from grader.limits import Limits
+from grader.locale.message import say
 from grader.ros.prefix import Ros
 from grader.ros.prefix import base_interpreter
 from grader.sandbox.base import HOME
@@ -173,8 +174,8 @@ class BubblewrapLab:
         except SurroundingsError as error:
             return error
         return SurroundingsError(
-            "bubblewrap could not make the lab (it says why above)",
-            remedy="With Docker: make images, then make lab SANDBOX=docker",
+            say("bubblewrap could not make the lab (it says why above)"),
+            remedy=say("With Docker: make images, then make lab SANDBOX=docker"),
         )
 
 

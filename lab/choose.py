@@ -8,6 +8,8 @@ from pathlib import Path
 
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.ros.cache import Say
 from grader.ros.distro import Distro
 from lab.visit import Visit
@@ -16,26 +18,27 @@ KINDS = ("auto", "docker", "bubblewrap")
 Enter = Callable[[Visit], int]
 
 
-def choose(kind: str, distro: Distro, *, say: Say) -> Enter:
+def choose(kind: str, distro: Distro, *, tell: Say) -> Enter:
     """Return what opens a lab of this kind and returns its exit status; say which it is, and why.
 
     Raises UsageError for another kind, SurroundingsError where the lab cannot be had.
     """
     if kind not in KINDS:
         close = difflib.get_close_matches(kind.lower(), KINDS, n=1)
-        hint = f"did you mean '{close[0]}'? " if close else ""
+        hint = say("did you mean '{name}'?", name=close[0]) if close else ""
+        known = say("Kinds: {names}.", names=", ".join(KINDS))
         raise UsageError(
-            f"there is no lab of the kind '{kind}'", remedy=f"{hint}Kinds: {', '.join(KINDS)}."
+            say("there is no lab of the kind '{kind}'", kind=kind), remedy=joined(hint, known)
         )
     if kind == "bubblewrap":
-        return _bubblewrap(distro, say)
+        return _bubblewrap(distro, tell)
     try:
         enter, image = _docker(distro)
     except SurroundingsError as error:
         if kind == "docker":
             raise
-        return _without_docker(distro, error, say)
-    say(f"opening ROS 2 {distro.name} in a container of {image}")
+        return _without_docker(distro, error, tell)
+    tell(say("opening ROS 2 {distro} in a container of {image}", distro=distro.name, image=image))
     return enter
 
 
@@ -49,27 +52,35 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     image = find_image(client, distro, "lab")
     if image is None:
         raise SurroundingsError(
-            f"Docker has no image of the {distro.name} lab",
-            remedy=f"Make it once: make images DISTRO={distro.name}",
+            say("Docker has no image of the {distro} lab", distro=distro.name),
+            remedy=say("Make it once: make images DISTRO={distro}", distro=distro.name),
         )
     lab = ContainerLab(client, image)
     return lab.enter, image.tags[0] if image.tags else str(image.short_id)
 
 
-def _bubblewrap(distro: Distro, say: Say) -> Enter:
+def _bubblewrap(distro: Distro, tell: Say) -> Enter:
     from grader.ros.prefix import find_ros  # noqa: PLC0415
     from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
 
-    return BubblewrapLab(find_ros(distro, say=say)).enter
+    return BubblewrapLab(find_ros(distro, say=tell)).enter
 
 
-def _without_docker(distro: Distro, error: SurroundingsError, say: Say) -> Enter:
+def _without_docker(distro: Distro, error: SurroundingsError, tell: Say) -> Enter:
     if distro.lock is None and not (Path("/opt/ros") / distro.name / "setup.bash").is_file():
         raise SurroundingsError(
-            f"ROS 2 {distro.name} has no wheels on PyPI, so its lab needs Docker, and "
-            f"{error.message}",
+            say(
+                "ROS 2 {distro} has no wheels on PyPI, so its lab needs Docker, and {problem}",
+                distro=distro.name,
+                problem=error.message,
+            ),
             remedy=error.remedy,
         )
-    why = error.message.splitlines()[0]
-    say(f"opening ROS 2 {distro.name} in bubblewrap, since {why}")
-    return _bubblewrap(distro, say)
+    tell(
+        say(
+            "opening ROS 2 {distro} in bubblewrap, since {problem}",
+            distro=distro.name,
+            problem=error.message,
+        )
+    )
+    return _bubblewrap(distro, tell)

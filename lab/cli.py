@@ -4,13 +4,18 @@ wrong usage, 3 the lab's own surroundings failed, 130/143 interrupted/terminated
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
 import click
 
 import grader
+from grader import options
 from grader.entry import run
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import chosen_language
+from grader.locale.speaker import errors_in
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -32,8 +37,15 @@ def main(argv: list[str] | None = None) -> int:
     show_default=True,
     help="What the lab is made of: auto, docker or bubblewrap.",
 )
+@options.lang
 @click.argument("words", nargs=-1, type=click.UNPROCESSED, metavar="[-- COMMAND...]")
-def command(distro: str, workspace: Path | None, sandbox: str, words: tuple[str, ...]) -> int:
+def command(
+    distro: str,
+    workspace: Path | None,
+    sandbox: str,
+    lang: str | None,
+    words: tuple[str, ...],
+) -> int:
     """Open a ROS 2 terminal with your workspace in it; with a COMMAND, run that there instead.
 
     The workspace is a folder of this machine and stays when the lab is closed. A second lab on the
@@ -44,13 +56,16 @@ def command(distro: str, workspace: Path | None, sandbox: str, words: tuple[str,
     from lab.visit import Visit  # noqa: PLC0415
     from lab.workspace import prepare  # noqa: PLC0415
 
-    found = find_distro(distro)
-    enter = choose(sandbox, found, say=_say)
-    visit = Visit(distro=found, workspace=prepare(workspace), command=words)
-    status = enter(visit)
+    speak = Speaker(lang or chosen_language(os.environ))
+    with errors_in(speak.lang):
+        found = find_distro(distro)
+        enter = choose(sandbox, found, tell=lambda text: _tell(speak(text)))
+        status = enter(
+            Visit(distro=found, workspace=prepare(workspace), command=words, lang=speak.lang)
+        )
     interactive = not words and sys.stdin.isatty()
     return 0 if interactive else status  # what a shell's last command said is no fault of the lab
 
 
-def _say(text: str) -> None:
+def _tell(text: str) -> None:
     click.echo(f"lab: {text}", err=True)

@@ -25,6 +25,7 @@ from docker.models.images import Image
 from docker.types import Mount
 
 from grader.errors import SurroundingsError
+from grader.locale.message import say
 from grader.sandbox.base import HOME
 from lab.exec_stream import ExecStream
 from lab.keeper import LAST
@@ -95,7 +96,7 @@ class ContainerLab:
                 return container, lease
             if time.monotonic() > deadline:
                 raise SurroundingsError(
-                    "the lab's container does not start", remedy=_remedy_for(visit)
+                    say("the lab's container does not start"), remedy=_remedy_for(visit)
                 )
             time.sleep(POLL_SECONDS)
 
@@ -195,13 +196,17 @@ def _must_be_here(client: docker.DockerClient) -> None:
     options = client.info().get("SecurityOptions") or []
     if urlsplit(address).hostname not in HERE:
         raise SurroundingsError(
-            f"Docker's daemon is not on this machine ({address}): the workspace cannot be mounted",
-            remedy="Unset DOCKER_HOST, or use SANDBOX=bubblewrap.",
+            say(
+                "Docker's daemon is not on this machine ({address}): the workspace cannot be "
+                "mounted",
+                address=address,
+            ),
+            remedy=say("Unset DOCKER_HOST, or use SANDBOX=bubblewrap."),
         )
     if any("rootless" in str(option) for option in options):
         raise SurroundingsError(
-            "Docker runs rootless here: files made in the lab would belong to another user id",
-            remedy="Use SANDBOX=bubblewrap.",
+            say("Docker runs rootless here: files made in the lab would belong to another user id"),
+            remedy=say("Use SANDBOX=bubblewrap."),
         )
 
 
@@ -233,14 +238,16 @@ def _packed_accounts(owner: Student) -> bytes:
 def _failed(error: Any) -> SurroundingsError:
     if isinstance(error, ImageNotFound):
         return SurroundingsError(
-            "the lab's image has been removed", remedy="Make it again: make images"
+            say("the lab's image has been removed"), remedy=say("Make it again: make images")
         )
     said = error.explanation if isinstance(error, APIError) and error.explanation else str(error)
     return SurroundingsError(
-        f"Docker could not go on with the lab: {said}",
-        remedy="Is the daemon still running (docker info)? Without it: SANDBOX=bubblewrap",
+        say("Docker could not go on with the lab: {problem}", problem=said),
+        remedy=say("Is the daemon still running (docker info)? Without it: SANDBOX=bubblewrap"),
     )
 
 
 def _remedy_for(visit: Visit) -> str:
-    return f"See: docker logs {_name(visit)}; then docker rm -f {_name(visit)}, and try again."
+    return say(
+        "See: docker logs {name}; then docker rm -f {name}, and try again.", name=_name(visit)
+    )

@@ -6,6 +6,8 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from grader.locale.speaker import OWN
+from grader.locale.speaker import SOURCE
 from grader.ros.distro import Distro
 from grader.sandbox.base import HOME
 from grader.sandbox.base import PATH
@@ -27,11 +29,12 @@ KEPT = (
 
 @dataclass(frozen=True)
 class Visit:
-    """What was asked for; an empty `command` is an interactive shell."""
+    """What was asked for; an empty `command` is an interactive shell, `lang` what it speaks."""
 
     distro: Distro
     workspace: Workspace
     command: tuple[str, ...] = ()
+    lang: str = SOURCE
 
     @property
     def hostname(self) -> str:
@@ -58,6 +61,7 @@ class Visit:
             "TERM": "xterm-256color",
             "ROS_DISTRO": self.distro.name,
             "LAB_WORKSPACE": str(self.workspace.path),
+            OWN: self.lang,
         }
         return own | {name: caller[name] for name in KEPT if caller.get(name)}
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.errors import UsageError
+from grader.locale.message import say
 
 FIRST_USER = 1000  # the first ordinary user of Debian, Ubuntu and the images
 
@@ -43,10 +44,10 @@ def prepare(asked: Path | None) -> Workspace:
         _make(path, owner)
         _make(path / "src", owner)
     except (OSError, RuntimeError) as error:  # (RuntimeError: links in a circle, on Python 3.10)
-        said = error.strerror if isinstance(error, OSError) else error
+        said = str(error.strerror if isinstance(error, OSError) else error)
         raise UsageError(
-            f"the workspace {path} cannot be made: {said}",
-            remedy="Name a folder of yours: make lab WORKSPACE=path",
+            say("the workspace {path} cannot be made: {problem}", path=str(path), problem=said),
+            remedy=say("Name a folder of yours: make lab WORKSPACE=path"),
         ) from error
     for folder in (path, path / "src"):
         _must_be_writable(folder, owner)
@@ -84,13 +85,16 @@ def _student(path: Path) -> Student:
 
 
 def _refuse_what_is_none(path: Path) -> None:
-    remedy = "Name a folder for it: make lab WORKSPACE=~/ros2_ws"
+    remedy = say("Name a folder for it: make lab WORKSPACE=~/ros2_ws")
     if path.exists() and not path.is_dir():
-        raise UsageError(f"the workspace {path} is a file", remedy=remedy)
+        raise UsageError(say("the workspace {path} is a file", path=str(path)), remedy=remedy)
     home = _home().resolve()
-    if path == home or path in home.parents:
-        what = "your whole home folder" if path == home else "above your home folder"
-        raise UsageError(f"{path} is no workspace: it is {what}", remedy=remedy)
+    if path == home:
+        whole = say("{path} is no workspace: it is your whole home folder", path=str(path))
+        raise UsageError(whole, remedy=remedy)
+    if path in home.parents:
+        above = say("{path} is no workspace: it is above your home folder", path=str(path))
+        raise UsageError(above, remedy=remedy)
 
 
 def _make(folder: Path, owner: Student) -> None:
@@ -118,8 +122,15 @@ def _must_be_writable(folder: Path, owner: Student) -> None:
         done = None
     if done is None or done.returncode:
         raise UsageError(
-            f"the workspace's folder {folder} cannot be written by its student (user id "
-            f"{owner.uid})",
-            remedy=f"Make it theirs (sudo chown -R {owner.uid}:{owner.gid} …), or name another "
-            "folder: make lab WORKSPACE=path",
+            say(
+                "the workspace's folder {path} cannot be written by its student (user id {uid})",
+                path=str(folder),
+                uid=owner.uid,
+            ),
+            remedy=say(
+                "Make it theirs (sudo chown -R {uid}:{gid} …), or name another folder: make lab "
+                "WORKSPACE=path",
+                uid=owner.uid,
+                gid=owner.gid,
+            ),
         )

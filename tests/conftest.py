@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable
 from collections.abc import Iterator
@@ -20,6 +21,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # A shell that starts us in the background has Ctrl+C ignored, and all that we start would inherit it
 signal.signal(signal.SIGINT, signal.default_int_handler)
+# texts are compared in English, whatever the language of the one who runs the tests
+os.environ["LC_ALL"] = "C.UTF-8"
 
 
 @pytest.fixture(scope="session")

@@ -37,18 +37,18 @@ def replaced(text: str, pairs: dict[str, str]) -> str:
     return text
 
 
-@pytest.fixture
-def course(tmp_path: Path) -> Path:
+def write_assignment(folder: Path) -> Path:
+    """Write the other course's assignment and return its file."""
     text = (COURSE / "assignment.yaml").read_text()
-    file = tmp_path / "course" / "ticking" / "assignment.yaml"
+    file = folder / "course" / "ticking" / "assignment.yaml"
     file.parent.mkdir(parents=True)
     file.write_text(replaced(text, OTHER))
     return file
 
 
-@pytest.fixture
-def package(tmp_path: Path) -> Path:
-    root = write(RIGHT[0], tmp_path)
+def write_solution(folder: Path) -> Path:
+    """Write the package that the other course asks for."""
+    root = write(RIGHT[0], folder)
     node = root / "my_robot_controller" / "my_first_node.py"
     node.write_text(replaced(node.read_text(), NODE))
     names = {k: v for k, v in OTHER.items() if k in ("my_robot_controller", "my_first_node")}
@@ -63,12 +63,35 @@ def package(tmp_path: Path) -> Path:
     return root
 
 
+@pytest.fixture
+def course(tmp_path: Path) -> Path:
+    return write_assignment(tmp_path)
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    return write_solution(tmp_path)
+
+
 def test_its_own_package_gets_full_marks(course: Path, package: Path, tmp_path: Path) -> None:
     done = stage.run(
         stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 / 100" in done.stdout
+
+
+def test_an_assignment_may_ask_for_the_output_alone(
+    course: Path, package: Path, tmp_path: Path
+) -> None:
+    text = course.read_text()
+    checks = "checks:\n  - {id: package.found, points: 1}\n  - {id: run.output, points: 2}\n"
+    course.write_text(text[: text.index("checks:")] + checks)
+    done = stage.run(
+        stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "3 / 3" in done.stdout
 
 
 def test_the_other_courses_package_does_not(course: Path, tmp_path: Path) -> None:

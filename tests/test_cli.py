@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 
 import grader
+from grader.validate.tree import Write
 from tests import stage
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.corpus.model import Write
 
 NODE = "my_robot_controller/my_first_node.py"
 

@@ -41,7 +41,7 @@ def make(*words: str, cwd: Path = stage.ROOT) -> tuple[int, str, str]:
 def test_help_is_the_default_and_names_every_target() -> None:
     status, said, _ = make()
     assert status == 0
-    for target in ("setup", "grade", "grade-all", "check", "test", "test-all", "bench"):
+    for target in ("setup", "grade", "grade-all", "check", "fix", "validate", "test", "bench"):
         assert f"make {target} " in said
     assert make("help")[1] == said
 
@@ -74,6 +74,26 @@ def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None
     assert not (tmp_path / "HACKED").exists()
 
 
+@pytest.mark.parametrize("variable", ["KEYS", "ASSIGNMENT", "SANDBOX"])
+def test_the_variables_of_an_assignments_own_test_are_data(variable: str, tmp_path: Path) -> None:
+    hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
+    status, _, said = make("validate", f"{variable}={hostile}")
+    assert status == 2
+    assert "Traceback" not in said
+    assert not (tmp_path / "HACKED").exists()
+
+
+def test_a_package_is_mended_through_make(tmp_path: Path) -> None:
+    package = solution(tmp_path)
+    (package / "setup.cfg").unlink()
+    status, shown, _ = make("fix", f"PACKAGE={package}")
+    assert "+++ b/setup.cfg" in shown
+    assert not (package / "setup.cfg").exists()
+    status, _, said = make("fix", f"PACKAGE={package}", "APPLY=1")
+    assert status == 0, said
+    assert (package / "setup.cfg").exists()
+
+
 @pytest.mark.parametrize("variable", ["SUBMISSIONS", "ROSTER", "WORKERS", "WORKSHEET", "SCHEDULER"])
 def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
@@ -82,6 +102,13 @@ def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> Non
     assert status == 2
     assert "Traceback" not in said
     assert not (tmp_path / "HACKED").exists()
+
+
+@pytest.mark.parametrize("words", [("LC_ALL=", "LANG=ko_KR.UTF-8"), ("GRADER_LANG=ko",)])
+def test_the_language_is_a_variable_too(words: tuple[str, ...], tmp_path: Path) -> None:
+    status, _, said = make("grade", f"STUDENT={tmp_path / 'missing'}", *words)
+    assert status == 2
+    assert "폴더가 없습니다" in said
 
 
 def test_grade_all_without_a_class_says_how() -> None:

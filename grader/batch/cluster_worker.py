@@ -42,7 +42,7 @@ def check_here(job: str) -> str:
         sandbox.close()
     except GraderError as error:
         return Checked(grader=own, problem=str(error)).to_text()
-    key = surroundings_key(wanted.assignment, sandbox.ros, wanted.limits)
+    key = surroundings_key(wanted.assignment, sandbox.ros, wanted.limits, lang=wanted.lang)
     ros = ", ".join(f"{name} {value}" for name, value in sandbox.ros.versions.items())
     return Checked(key, sandbox.name, own, f"{sandbox.ros.kind}: {ros}").to_text()
 

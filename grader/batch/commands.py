@@ -8,6 +8,7 @@ import click
 
 from grader import options
 from grader.errors import UsageError
+from grader.locale.speaker import errors_in
 
 _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
 _ledger = click.option(
@@ -53,6 +54,7 @@ _ledger = click.option(
 @click.option("--grade-column", default="", help="The worksheet's column of grades.")
 @click.option("--feedback-column", default="", help="The worksheet's column of feedback.")
 @click.option("--show-hidden", is_flag=True, help="Name hidden checks in what students read.")
+@options.lang
 @click.option("-n", "--dry-run", is_flag=True, help="Only say what would be marked.")
 @click.option("-q", "--quiet", is_flag=True, help="Do not print a line a student.")
 def grade_all(
@@ -75,13 +77,14 @@ def grade_all(
     grade_column: str,
     feedback_column: str,
     show_hidden: bool,
+    lang: str | None,
     dry_run: bool,
     quiet: bool,
 ) -> int:
     """Mark a whole class: PATH is what the course's system gave you, a folder or its zip.
 
     It can be stopped (Ctrl+C) and goes on where it was: what was marked before and has not
-    changed is not marked again.
+    changed is not marked again. What students read is in the language of --lang.
     """
     # a `--help` must not pay for these
     from grader.batch import grade_all as run  # noqa: PLC0415
@@ -89,7 +92,8 @@ def grade_all(
     from grader.batch.override import LEDGER  # noqa: PLC0415
     from grader.ordering import make_orders  # noqa: PLC0415
 
-    orders = make_orders(path, assignment, distro, sandbox, limits)
+    with errors_in(lang):
+        orders = make_orders(path, assignment, distro, sandbox, limits, lang=lang)
     if len(orders) > 1:
         raise UsageError("a class is marked on one distro", remedy="Give --out one for each.")
     out = out or Path("reports") / (path.resolve().stem or "class")

@@ -95,6 +95,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
             plan.items,
             order.assignment,
             distro=order.distro.name,
+            lang=order.lang,
             started=started,
             seconds=(datetime.now(timezone.utc) - started).total_seconds(),
         )
@@ -120,7 +121,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
         return
     from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
 
-    job = Job(order.assignment, order.distro.name, order.sandbox, order.limits)
+    job = Job(order.assignment, order.distro.name, order.sandbox, order.limits, order.lang)
     with Cluster(asked.scheduler, job, say=_say) as cluster:
         setting = run.Setting(
             assignment=order.assignment,
@@ -128,6 +129,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
             limits=order.limits,
             sandbox=cluster.sandbox,
             key=cluster.surroundings,
+            lang=order.lang,
         )
         yield setting, cluster
 

@@ -12,6 +12,7 @@ from grader.batch.keys import verdict_key
 from grader.batch.model import HandedIn
 from grader.batch.work import Task
 from grader.errors import UsageError
+from grader.locale.message import joined
 from grader.submission import Submission
 from grader.submission import take_in
 
@@ -46,7 +47,8 @@ def take_in_class(
         try:
             submission = _take_in(attempt, assignment)
         except UsageError as error:  # one that cannot be read stops nobody else
-            yield Item(attempt, problem=str(error))
+            problem = joined(error.message, error.remedy, by="\n")
+            yield Item(attempt, problem=problem)
             continue
         seen(submission)
         yield Item(attempt, submission.sha256, verdict_key(submission.sha256, surroundings))

@@ -1,7 +1,8 @@
 """What decides a verdict, as one hash: equal keys, equal verdicts.
 
 It is the submission (contents and exec bits), the assignment, the distro and the ROS that it is
-marked with, the limits, and the grader's own source: a version number is forgotten too easily.
+marked with, the limits, the language of the report, and the grader's own source with its
+translations: a version number is forgotten too easily.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from grader.ros.prefix import Ros
 
 GRADER = Path(grader.__file__).resolve().parent
 NOT_MARKING = ("batch", "gradebook", "site", "keys")  # folders that only hand verdicts on
-SOURCES = (".py", ".toml", ".json", ".yaml", ".txt", ".bash", ".in", ".j2", ".css", ".js")
+SOURCES = (".py", ".toml", ".json", ".yaml", ".txt", ".bash", ".in", ".j2", ".css", ".js", ".mo")
 
 
 @functools.cache
@@ -34,10 +35,11 @@ def source_digest(folder: Path = GRADER, leave_out: tuple[str, ...] = ()) -> str
     return digest.hexdigest()
 
 
-def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits) -> str:
+def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits, *, lang: str) -> str:
     """Return the hash of everything that decides a verdict, but for the submission."""
     made_of = [ros.distro.name, ros.kind, ros.versions]
-    parts = [assignment.sha256, made_of, asdict(limits), source_digest(GRADER, NOT_MARKING)]
+    source = source_digest(GRADER, NOT_MARKING)
+    parts = [assignment.sha256, made_of, asdict(limits), lang, source]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 

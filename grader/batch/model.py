@@ -126,6 +126,8 @@ class Entry:
     """Some of those with the same content; all are in the class' `identical`."""
     verdict: int | None = None
     """The number of the report's verdict in the ledger."""
+    lang: str = "en"
+    """The language of what the student reads: the report's, if there is one."""
 
 
 @dataclass(frozen=True)

@@ -19,12 +19,14 @@ from grader.batch.model import Override
 from grader.batch.model import Student
 from grader.gradebook.points import marks
 from grader.gradebook.points import rounded
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.report.model import Report
 
 DAY, HOUR = 86_400.0, 3_600.0
-UNKNOWN_TIME = "it is not known when it was handed in: nothing was taken for lateness"
-NO_VERDICT = "the grader failed on it"
-CALLED_LATE = "the course's system calls it late"
+UNKNOWN_TIME = say("it is not known when it was handed in: nothing was taken for lateness")
+NO_VERDICT = say("the grader failed on it")
+CALLED_LATE = say("the course's system calls it late")
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,7 @@ def _rate(
     late = lateness(attempt.submitted, policy)
     notes = list(attempt.notes)
     if late is None:
-        notes.append(UNKNOWN_TIME + (f"; {CALLED_LATE}" if attempt.late else ""))
+        notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = Entry(
         student,
         "ungradable" if attempt.problem else "pending",

@@ -25,11 +25,11 @@ from grader.batch.model import Student
 from grader.batch.policy import Attempt
 from grader.batch.policy import standing
 from grader.batch.similar import groups
+from grader.locale.message import say
 from grader.report.model import Report
 
 MOST_SAME = 10  # of the others with the same content, in one student's line
 GONE = "handed in before, and no longer in the class' folder"
-NOT_YET = "not marked yet"
 
 
 @dataclass(frozen=True)
@@ -49,11 +49,12 @@ def class_result(
     assignment: Assignment,
     *,
     distro: str,
+    lang: str = "en",
     started: datetime | None = None,
     seconds: float = 0,
 ) -> ClassResult:
     """Return the result of a class as the ledger has it now; the ledger must stay open as
-    long as its reports are asked for.
+    long as its reports are asked for. `lang` is the language where there is no report.
     """
     verdicts = ledger.verdicts()
     overrides = defaultdict(list)
@@ -71,13 +72,13 @@ def class_result(
     for key, student in students.items():
         found = [_of_item(ledger, item, verdicts, seen) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
-        entry, counts = _entry(student, found, overrides[key], assignment)
+        entry, counts = _entry(student, found, overrides[key], assignment, lang)
         if counts is not None:
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
     for student in folder.missing:
-        entry, _ = _entry(student, [], overrides[student.key], assignment)
+        entry, _ = _entry(student, [], overrides[student.key], assignment, lang)
         entries.append(entry)
     identical = _identical(ledger, submissions)
     return ClassResult(
@@ -95,14 +96,19 @@ def class_result(
 
 
 def _entry(
-    student: Student, found: list[Found], overrides: Sequence[Override], assignment: Assignment
+    student: Student,
+    found: list[Found],
+    overrides: Sequence[Override],
+    assignment: Assignment,
+    lang: str,
 ) -> tuple[Entry, Found | None]:
     """Return a student's entry, and which attempt it stands on."""
     dated = sorted(found, key=lambda f: (f.at is not None, f.at.timestamp() if f.at else 0))
     attempts = [replace(f.attempt, number=n) for n, f in enumerate(dated, start=1)]
     entry = standing(student, attempts, overrides, assignment.policy, assignment.max_score)
-    counts = dated[entry.attempt - 1] if entry.report is not None else None
-    return entry, counts
+    if entry.report is None:
+        return replace(entry, lang=lang), None
+    return replace(entry, lang=entry.report.lang), dated[entry.attempt - 1]
 
 
 def _of_item(
@@ -116,7 +122,7 @@ def _of_item(
     notes, problem = list(given.notes), item.problem
     fault = ledger.fault(item.student, item.key) if item.key else ""
     if fault and row is None:
-        problem = f"the grader failed on it: {fault}"
+        problem = say("the grader failed on it: {fault}", fault=fault)
     elif fault:
         notes.append(f"marking it again failed, the verdict before stands: {fault}")
     attempt = Attempt(

@@ -45,11 +45,12 @@ class Setting:
     limits: Limits
     sandbox: str
     key: str
+    lang: str = "en"
 
     @property
     def job(self) -> Job:
         """What a worker is told of it."""
-        return Job(self.assignment, self.distro.name, self.sandbox, self.limits)
+        return Job(self.assignment, self.distro.name, self.sandbox, self.limits, self.lang)
 
 
 def prove(order: Order, *, say: Callable[[str], None]) -> Setting:
@@ -61,7 +62,8 @@ def prove(order: Order, *, say: Callable[[str], None]) -> Setting:
         distro=order.distro,
         limits=order.limits,
         sandbox=sandbox.name,
-        key=surroundings_key(order.assignment, sandbox.ros, order.limits),
+        key=surroundings_key(order.assignment, sandbox.ros, order.limits, lang=order.lang),
+        lang=order.lang,
     )
 
 

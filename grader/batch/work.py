@@ -21,6 +21,8 @@ from grader.batch.submission_text import to_text
 from grader.errors import GraderError
 from grader.events import Event
 from grader.limits import Limits
+from grader.locale.message import joined
+from grader.locale.speaker import Speaker
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.runner import Order
@@ -39,6 +41,7 @@ class Job:
     distro: str
     sandbox: str
     limits: Limits
+    lang: str = "en"
 
     @property
     def seconds(self) -> float:
@@ -51,14 +54,15 @@ class Job:
         """Return it as JSON on one line."""
         assignment = self.assignment.model_dump(mode="json", by_alias=True)
         rest = {"distro": self.distro, "sandbox": self.sandbox, "limits": asdict(self.limits)}
-        return json.dumps({"assignment": assignment, **rest})
+        return json.dumps({"assignment": assignment, **rest, "lang": self.lang})
 
     @classmethod
     def from_text(cls, text: str) -> Job:
         """Return what `to_text` wrote."""
         found = json.loads(text)
         assignment = Assignment.model_validate(found["assignment"])
-        return cls(assignment, found["distro"], found["sandbox"], Limits(**found["limits"]))
+        limits = Limits(**found["limits"])
+        return cls(assignment, found["distro"], found["sandbox"], limits, found["lang"])
 
 
 @dataclass(frozen=True)
@@ -156,11 +160,12 @@ def answer(job: Job, task: Task) -> Answer:
         name=task.name,
         limits=job.limits,
         student_id=task.student_id,
+        lang=job.lang,
     )
     try:
         return Answer(mark(submission, order, _unheard))
     except GraderError as error:
-        return Answer(fault=str(error))
+        return Answer(fault=Speaker(job.lang)(joined(error.message, error.remedy, by="\n")))
     except Exception:  # a fault of ours must cost nobody but this one submission
         return Answer(fault=traceback.format_exc(limit=-6))
 

@@ -76,7 +76,7 @@ def _stopped(evidence: Evidence) -> Failed:
 
 def _broken(evidence: Evidence) -> Failed:
     build = evidence.build
-    error, line = python_error(build.log, "setup.py")
+    error, line = setup_error(build.log)
     where = Where(file="setup.py", line=line)
     expected = say("colcon build ends with: Summary: 1 package finished")
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
@@ -128,6 +128,20 @@ def limit_name(limit: str) -> str:
         "output": say("output"),
     }
     return names.get(limit, limit)
+
+
+def setup_error(log: str) -> tuple[str, int | None]:
+    """Return the Python error that ended setup.py, and its line there, if any.
+
+    colcon asks setup.py in a process of its own, by distutils' run_setup, which knows no file name;
+    that this process failed is an error in colcon's own traceback, behind the one that counts.
+    """
+    of_setup = re.sub(r"^subprocess\.CalledProcessError: .*$", "", log, flags=re.MULTILINE)
+    error, line = python_error(of_setup, "setup.py")
+    if not error:
+        return python_error(log, "setup.py")
+    nameless = re.findall(r'in run_setup\n.*\n  File "<string>", line (\d+)', of_setup)
+    return error, line or (int(nameless[-1]) if nameless else None)
 
 
 def python_error(text: str, file: str) -> tuple[str, int | None]:

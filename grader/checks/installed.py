@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grader.checks.build import python_error
+from grader.checks.build import setup_error
 from grader.checks.entry_faults import wanted_entry
 from grader.checks.entry_point import mapping_from_source
 from grader.checks.registry import Blocked
@@ -85,7 +85,7 @@ def executable(evidence: Evidence) -> Passed:
             params={"path": elsewhere[0]},
             words={"package": package},
         )
-    error, _ = python_error(evidence.build.log, "setup.py")
+    error, _ = setup_error(evidence.build.log)
     nothing = say(
         "nothing of the name {name} was installed: ros2 run says No executable found", name=name
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from grader.checks.faults import flood
@@ -22,6 +23,7 @@ from grader.mistakes.likeness import with_difference
 if TYPE_CHECKING:
     from grader.evidence import Evidence
 
+OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
 SIGNALLED = 240  # ros2 run passes on minus the number of the signal that ended the node, mod 256
 
 
@@ -102,6 +104,12 @@ def node_name(evidence: Evidence) -> Passed:
     )
 
 
+def _handler_fails(last: str) -> bool:
+    """Whether it was a line of the student's, run because of Ctrl+C, that raised the last error."""
+    _, handling, after = last.rpartition("During handling of the above exception")
+    return bool(handling) and OWN_ERROR.search(after) is not None
+
+
 @check("run.interrupt", depends=["run.starts"])
 def interrupt(evidence: Evidence) -> Passed:
     """Ctrl+C ends the node."""
@@ -137,7 +145,8 @@ def interrupt(evidence: Evidence) -> Passed:
             "rclpy.shutdown() is called. rclpy.try_shutdown() does it without."
         )
         return Passed(actual=actual, advice=[known])
-    if "ExternalShutdownException" in last or "KeyboardInterrupt" in last:
+    interrupted = "ExternalShutdownException" in last or "KeyboardInterrupt" in last
+    if interrupted and not _handler_fails(last):
         return Passed(actual=actual)
     error, where = traceback_of(evidence, run)
     raise Failed(

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import statistics
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from grader.checks.faults import line_of
@@ -11,9 +14,12 @@ from grader.checks.registry import Inconclusive
 from grader.checks.registry import Passed
 from grader.checks.registry import check
 from grader.locale.message import say
+from grader.mistakes.from_source import longest_sleep
+from grader.mistakes.node_files import file_with_node
 
 if TYPE_CHECKING:
     from grader.evidence import Evidence
+    from grader.observer import Event
 
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # of the period, and seconds
 
@@ -40,18 +46,38 @@ def period(evidence: Evidence) -> Passed:
     on_time = [event for event in events if event.due is not None]
     stopped = len(on_time) > 1 and abs((watch.period or wanted.period) - wanted.period) < 0.001
     if not watch.early and (not watch.missing or stopped):  # that it stops is run.output's to say
+        slow = _kept_apart(evidence, on_time)
+        if slow:
+            actual = say("a line about every {period} s", period=f"{slow:.2f}")
+            raise _wrong_period(evidence, expected, actual, seconds=slow)
         each = say(
             "{count} lines, each at its instant (to 1 ms of ROS time), none between",
             count=len(on_time),
         )
         return Passed(actual=each)
-    if watch.period is None:
-        if len(events) < 2:
-            raise Blocked(by="run.output")
-        actual = say("lines came at other instants")
-    else:
-        actual = say("a line about every {period} s", period=f"{watch.period:.2f}")
-    raise _wrong_period(evidence, expected, actual)
+    late = events[0].virtual if watch.missing and events[0].due is None else 0.0
+    if watch.period is None and len(events) < 2 and late <= wanted.period:
+        raise Blocked(by="run.output")
+    seen = watch.period or (late if len(events) < 2 else 0.0)
+    actual = say("lines came at other instants")
+    if seen:
+        actual = say("a line about every {period} s", period=f"{seen:.2f}")
+    raise _wrong_period(evidence, expected, actual, seconds=seen)
+
+
+def _kept_apart(evidence: Evidence, on_time: Sequence[Event]) -> float:
+    """Return the wall time (s) between the lines of a callback that sleeps for more than a period.
+
+    ROS time waits for it; whoever looks at a terminal does too. Only a sleep that stands in the
+    source counts: what else takes long may be the machine's load. 0 where there is none.
+    """
+    within = file_with_node(evidence)
+    slept = longest_sleep(within.source) if within is not None else None
+    gaps = [after.wall - before.wall for before, after in pairwise(on_time)]
+    if slept is None or slept[1] <= evidence.assignment.output.period or not gaps:
+        return 0.0
+    gap = statistics.median(gaps)
+    return gap if gap >= slept[1] * (1 - WALL_TOLERANCE) else 0.0
 
 
 def _wall_period(evidence: Evidence, expected: str) -> Passed:
@@ -73,17 +99,16 @@ def _wall_period(evidence: Evidence, expected: str) -> Passed:
             "{actual}, but another run differed: the machine is too busy to tell", actual=actual
         )
         raise Inconclusive(busy)
-    raise _wrong_period(evidence, expected, actual)
+    raise _wrong_period(evidence, expected, actual, seconds=watch.period)
 
 
-def _wrong_period(evidence: Evidence, expected: str, actual: str) -> Failed:
+def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
     watch, wanted = evidence.run.watch, evidence.assignment.output
-    period = round(watch.period or 0.0, 3)
     return Failed(
         "run.wrong_period",
         expected=expected,
         actual=actual,
         where=line_of(evidence, watch.counted[0].record),
-        params={"period": period},
+        params={"period": round(seconds, 3)},
         words={"wanted": repr(wanted.period)},
     )

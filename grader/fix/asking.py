@@ -16,6 +16,8 @@ from grader.evidence import Evidence
 from grader.fix.case import Finding
 from grader.fix.case import finding_of
 from grader.fix.files import Files
+from grader.locale.speaker import SOURCE
+from grader.locale.speaker import Speaker
 from grader.report.model import CheckResult
 from grader.submission import Submission
 
@@ -28,18 +30,21 @@ def _not_here() -> NoReturn:
     raise _NotHereError
 
 
-def ask(submission: Submission, assignment: Assignment, only: str = "") -> dict[str, CheckResult]:
+def ask(
+    submission: Submission, assignment: Assignment, only: str = "", *, lang: str = SOURCE
+) -> dict[str, CheckResult]:
     """Return the results of the checks that need neither build nor run, in their order.
 
-    With `only` it is that check, and those that it depends on.
+    With `only` it is that check, and those that it depends on. Their texts are in the language.
     """
+    speak = Speaker(lang)
     evidence = Evidence(assignment, submission, build=_not_here, run=_not_here)
     uses = {use.id: use for use in assignment.checks}
     wanted = _with_causes(only) if only else set(uses)
     for check_id, check in CHECKS.items():
         asked = [d for d in check.depends if d in uses]
         if check_id in wanted & set(uses) and all(_passed(evidence.results.get(d)) for d in asked):
-            result = _decide(check, uses[check_id], evidence)
+            result = _decide(check, uses[check_id], evidence, speak)
             if result is not None:
                 evidence.results[check_id] = result
     return evidence.results
@@ -60,26 +65,32 @@ def _passed(result: CheckResult | None) -> bool:
     return result is not None and result.status == "passed"
 
 
-def _decide(check: Check, use: CheckUse, evidence: Evidence) -> CheckResult | None:
+def _decide(check: Check, use: CheckUse, evidence: Evidence, speak: Speaker) -> CheckResult | None:
     found: dict[str, object]
     try:
         passed = check.function(evidence) or Passed()
-        found = {"status": "passed", "actual": passed.actual, "advice": list(passed.advice)}
+        advice = [speak(text) for text in passed.advice]
+        found = {"status": "passed", "actual": speak(passed.actual), "advice": advice}
     except Failed as failed:
         found = {"status": "failed", "mistakes": failed.mistakes, "where": failed.where}
         for name in ("expected", "actual", "rationale", "fix"):
-            found[name] = str(getattr(failed, name))
+            found[name] = speak(getattr(failed, name))
     except (Blocked, Inconclusive, _NotHereError):
         return None
     return CheckResult.model_validate(
-        {"id": check.id, "title": check.title, "max_score": use.points, **found}
+        {"id": check.id, "title": speak(check.title), "max_score": use.points, **found}
     )
 
 
 def findings(
-    files: Files, submission: Submission, assignment: Assignment, only: str = ""
+    files: Files,
+    submission: Submission,
+    assignment: Assignment,
+    only: str = "",
+    *,
+    lang: str = SOURCE,
 ) -> list[Finding]:
     """Return what the files alone show to be wrong (for one check), in the order of the checks."""
-    results = ask(files.put_into(submission), assignment, only).values()
+    results = ask(files.put_into(submission), assignment, only, lang=lang).values()
     found = [f for f in map(finding_of, results) if f is not None]
     return [f for f in found if not only or f.check == only]

@@ -23,6 +23,9 @@ from grader.fix.plan import mend
 from grader.fix.plan import mend_files
 from grader.fix.show import show_diff
 from grader.intake.notes import shown
+from grader.locale.message import joined
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.mistakes.likeness import nearest
 from grader.report.model import CheckResult
 from grader.runner import Order
@@ -30,7 +33,7 @@ from grader.runner import grade
 from grader.submission import Submission
 from grader.submission import take_in
 
-Say = Callable[[str], None]
+Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,78 +48,95 @@ class Wish:
     runs: bool = True
 
 
-def fix(wish: Wish, say: Say) -> int:
+def fix(wish: Wish, tell: Tell) -> int:
     """Mend a package and return the exit status: 0 nothing is left, 1 something is.
 
-    The diff goes to stdout, what is said to `say`. Raises UsageError for a path that cannot be
+    The diff goes to stdout; what is said goes to `tell`, in the order's language. Raises UsageError for a path that cannot be
     written to, with nothing written.
     """
+    speak = Speaker(wish.order.lang)
+
+    def told(text: str) -> None:
+        tell(speak(text))
+
     assignment = wish.order.assignment
     _check_id(wish.only, assignment)
     submission = _own_copy(wish.order)
     if submission.root is None:
-        say(f"left    package.found: {submission.problem}")
-        say(submission.problem_fix)
+        missing = joined("package.found", submission.problem, by=": ")
+        told(say("left    {finding}", finding=missing))
+        told(submission.problem_fix)
         return 1
-    plan = make_plan(wish, submission, say)
+    plan = make_plan(wish, submission, told)
     show_diff(plan.patch, sys.stdout)
     for finding in plan.mended:
-        say(f"{'mended' if wish.writes else 'mends'}  {_line(finding)}")
+        line = _line(finding)
+        done, would = say("mended  {finding}", finding=line), say("mends  {finding}", finding=line)
+        told(done if wish.writes else would)
     for finding in plan.left:
-        say(f"left    {_line(finding)}")
-    _finish(wish, submission, plan, say)
+        told(say("left    {finding}", finding=_line(finding)))
+    _finish(wish, submission, plan, told)
     return 1 if plan.left else 0
 
 
 def _line(finding: Finding) -> str:
-    place = f" ({finding.file}" + (f", line {finding.line})" if finding.line else ")")
-    said = finding.actual.partition("\n")[0]
-    return f"{finding.check}: {said}" + (place if finding.file else "")
+    first, _, _ = finding.actual.partition("\n")
+    said = f"{finding.check}: {first}"
+    if not finding.file:
+        return said
+    place: str = finding.file
+    if finding.line:
+        place = say("{file}, line {line}", file=finding.file, line=finding.line)
+    return joined(said, " (", place, ")", by="")
 
 
 def _check_id(only: str, assignment: Assignment) -> None:
     ids = [use.id for use in assignment.checks]
     if only and only not in ids:
         close = nearest(only, ids)
+        missing = say(
+            "there is no check '{check}' in {assignment}",
+            check=shown(only),
+            assignment=assignment.id,
+        )
+        meant = say("(did you mean '{word}'?)", word=close) if close else ""
         raise UsageError(
-            f"there is no check '{shown(only)}' in {assignment.id}"
-            + (f" (did you mean '{close}'?)" if close else ""),
-            remedy=f"Checks: {', '.join(ids)}",
+            joined(missing, meant), remedy=say("Checks: {names}", names=", ".join(ids))
         )
 
 
 def _own_copy(order: Order) -> Submission:
-    path = order.path
+    path, where = order.path, shown(str(order.path))
     if path.is_file():
         raise UsageError(
-            f"{shown(str(path))} is a file: only the files of a folder can be mended",
-            remedy="Unpack the archive, and give the folder that holds the package.",
+            say("{path} is a file: only the files of a folder can be mended", path=where),
+            remedy=say("Unpack the archive, and give the folder that holds the package."),
         )
     assignment = order.assignment
     found = take_in(path, package=assignment.package, node_file=assignment.node_file)
     if found.root is not None and found.origin in ("zip", "tar"):
         raise UsageError(
-            f"the package lies in an archive in {shown(str(path))}, and is not changed in there",
-            remedy="Unpack it first.",
+            say("the package lies in an archive in {path}, and is not changed there", path=where),
+            remedy=say("Unpack it first."),
         )
     return found
 
 
-def make_plan(wish: Wish, submission: Submission, say: Say) -> Plan:
+def make_plan(wish: Wish, submission: Submission, tell: Tell) -> Plan:
     """Mend what the files show; then, if nothing of that is left, what a build and a run show."""
     assignment = wish.order.assignment
     old = Files.of(submission)
     plan = Plan(old, old)
     if not wish.only or wish.only in STATIC:
-        plan = mend_files(submission, assignment, wish.only)
+        plan = mend_files(submission, assignment, wish.only, lang=wish.order.lang)
         plan = replace(plan, left=(*plan.left, *_unasked(wish, plan, submission)))
     if plan.left:
         if wish.runs and not wish.only:
-            say("The node was not run: what is left comes first.")
+            tell(say("The node was not run: what is left comes first."))
         return plan
     if not wish.runs or wish.only in STATIC:
         return plan
-    runner = _Runner(wish, say)
+    runner = _Runner(wish, tell)
     ran = mend(plan.new, assignment, runner.judge)
     return Plan(old, ran.new, (*plan.mended, *ran.mended), ran.left)
 
@@ -128,7 +148,8 @@ def _unasked(wish: Wish, plan: Plan, submission: Submission) -> list[Finding]:
     results = ask(plan.new.put_into(submission), wish.order.assignment, wish.only)
     wanted = [wish.only] if wish.only else [u.id for u in wish.order.assignment.checks]
     undecided = [check for check in wanted if check in STATIC and check not in results]
-    return [Finding(check, "", actual="the files alone do not tell") for check in undecided]
+    unknown = Speaker(wish.order.lang)(say("the files alone do not tell"))
+    return [Finding(check, "", actual=unknown) for check in undecided]
 
 
 @dataclass(frozen=True)
@@ -136,18 +157,18 @@ class _Runner:
     """Judges files by the real checks: built and run as `grader check` does."""
 
     wish: Wish
-    say: Say
+    tell: Tell
 
     def judge(self, files: Files) -> list[Finding]:
         """Return what a build and a run show to be wrong."""
         order = self.wish.order
-        self.say("running the node …")
+        self.tell(say("running the node …"))
         with tempfile.TemporaryDirectory(prefix="grader-fix-") as folder:
             path = Path(folder) / order.assignment.package
             _write_tree(files, path)
             report = grade(replace(order, path=path), _unheard)
         if report.environment.sandbox == "none":
-            self.say("No sandbox was used: the package ran as you, with your files.")
+            self.tell(say("No sandbox was used: the package ran as you, with your files."))
         return [f for result in report.checks for f in self._found(result)]
 
     def _found(self, result: CheckResult) -> list[Finding]:
@@ -182,14 +203,17 @@ def _unheard(event: Event) -> None:
     del event
 
 
-def _finish(wish: Wish, submission: Submission, plan: Plan, say: Say) -> None:
-    if not plan.patch:
-        say("Nothing is wrong." if not plan.left else "Nothing can be mended by itself.")
+def _finish(wish: Wish, submission: Submission, plan: Plan, tell: Tell) -> None:
+    if not plan.patch and plan.left:
+        tell(say("Nothing can be mended by itself."))
+    elif not plan.patch:
+        tell(say("Nothing is wrong."))
     elif wish.writes:
         root = submission.path / (submission.root or ".")
         backups = apply(plan, root)
-        say(f"Written to {shown(str(root))}.")
+        tell(say("Written to {path}.", path=shown(str(root))))
         if backups:
-            say(f"The files as they were: {', '.join(shown(b) for b in backups)}")
+            names = ", ".join(shown(backup) for backup in backups)
+            tell(say("The files as they were: {files}", files=names))
     else:
-        say("Nothing was changed: this is what --apply would write.")
+        tell(say("Nothing was changed: this is what --apply would write."))

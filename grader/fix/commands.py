@@ -7,10 +7,13 @@ from pathlib import Path
 import click
 
 from grader import options
+from grader.errors import UsageError
+from grader.locale.message import say
+from grader.locale.speaker import errors_in
 
 
 @click.command()
-@click.argument("path", type=click.Path(path_type=Path))
+@click.argument("path", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--dry-run/--apply",
     "dry_run",
@@ -25,8 +28,9 @@ from grader import options
     "--no-run", is_flag=True, help="Look at the files only: build nothing and run nothing."
 )
 @options.limits
+@options.lang
 def fix(
-    path: Path,
+    path: Path | None,
     dry_run: bool,
     assignment: str,
     distro: str,
@@ -34,21 +38,26 @@ def fix(
     only: str,
     no_run: bool,
     limits: tuple[str, ...],
+    lang: str | None,
 ) -> int:
     """Mend your own package where only one mend is possible, as a diff that is shown first.
 
-    PATH is your package or workspace. Exit status: 0 nothing is wrong any more, 1 something is left
-    that cannot be mended by itself (it is named).
+    PATH is your package or workspace (default: the package in ~/ros2_ws, else the current folder).
+    Exit status: 0 nothing is wrong any more, 1 something is left that cannot be mended by itself
+    (it is named).
     """
     from grader.fix.command import Wish  # noqa: PLC0415
     from grader.fix.command import fix as mend  # noqa: PLC0415
     from grader.ordering import make_orders  # noqa: PLC0415
+    from grader.ordering import own_place  # noqa: PLC0415
 
-    orders = make_orders(path, assignment, distro, sandbox, limits, own_code=True)
-    if len(orders) > 1:
-        raise click.UsageError("fix runs the node on one distro: name one")
-    wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
-    return mend(wish, say=lambda text: click.echo(text, err=True))
+    with errors_in(lang):
+        place = path or own_place()
+        orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
+        if len(orders) > 1:
+            raise UsageError(say("fix runs the node on one distro: name one"))
+        wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
+        return mend(wish, tell=lambda text: click.echo(text, err=True))
 
 
 COMMANDS = (fix,)

@@ -21,12 +21,19 @@ from grader.errors import UsageError
 from grader.fix.plan import Plan
 from grader.intake.model import SourceFile
 from grader.intake.notes import shown
+from grader.locale.message import joined
+from grader.locale.message import say
 
 FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 FILE = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 MOST_BACKUPS = 1000
-NOTHING_WRITTEN = "Nothing was written."
+NOTHING_WRITTEN = say("Nothing was written.")
+IS_NEW = say("it was not there when the package was looked at")
+IS_LINK = say("it is a link, and only the file itself is mended")
+BEHIND_LINK = say("the way to it is a link")
+IS_CHANGED = say("it was changed meanwhile; call grader fix again")
+IS_READ_ONLY = say("it is read-only (chmod u+w makes it yours to change)")
 
 
 @dataclass(frozen=True)
@@ -79,7 +86,7 @@ def apply(plan: Plan, root: Path) -> list[str]:
 
 
 def _refused(path: str, reason: str) -> UsageError:
-    return UsageError(f"{shown(path)}: {reason}", remedy=NOTHING_WRITTEN)
+    return UsageError(joined(shown(path), reason, by=": "), remedy=NOTHING_WRITTEN)
 
 
 @contextmanager
@@ -87,7 +94,7 @@ def _package(root: Path) -> Iterator[int]:
     try:
         top = os.open(root, FOLDER)
     except OSError as error:
-        raise _refused(str(root), error.strerror or "it cannot be opened") from None
+        raise _refused(str(root), error.strerror or say("it cannot be opened")) from None
     try:
         yield top
     finally:
@@ -117,22 +124,22 @@ def _folder_of(top: int, path: str, *, make: bool = False) -> Iterator[tuple[int
 def _check(top: int, change: Change) -> None:
     """Raise UsageError if a change may not be made."""
     if change.source != change.path and _is_there(top, change.path):
-        raise _refused(change.path, "it was not there when the package was looked at")
+        raise _refused(change.path, IS_NEW)
     if change.source is None or change.before is None:
         return
     try:
         with _folder_of(top, change.source) as (folder, name):
             mode = os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode
             if stat.S_ISLNK(mode):
-                raise _refused(change.source, "it is a link, and only the file itself is mended")
+                raise _refused(change.source, IS_LINK)
             found = _bytes(folder, name, len(change.before.data))
     except OSError as error:
-        what = "the way to it is a link" if error.errno == errno.ELOOP else error.strerror
-        raise _refused(change.source, what or "it cannot be read") from None
+        what = BEHIND_LINK if error.errno == errno.ELOOP else error.strerror
+        raise _refused(change.source, what or say("it cannot be read")) from None
     if found != change.before.data:
-        raise _refused(change.source, "it was changed meanwhile; call grader fix again")
+        raise _refused(change.source, IS_CHANGED)
     if not mode & stat.S_IWUSR:
-        raise _refused(change.source, "it is read-only (chmod u+w makes it yours to change)")
+        raise _refused(change.source, IS_READ_ONLY)
 
 
 def _bytes(folder: int, name: str, expected: int) -> bytes:
@@ -147,8 +154,8 @@ def _is_there(top: int, path: str) -> bool:
     except FileNotFoundError:
         return False
     except OSError as error:
-        what = "the way to it is a link" if error.errno in (errno.ELOOP, errno.ENOTDIR) else ""
-        raise _refused(path, what or error.strerror or "it cannot be looked at") from None
+        what = BEHIND_LINK if error.errno in (errno.ELOOP, errno.ENOTDIR) else ""
+        raise _refused(path, what or error.strerror or say("it cannot be looked at")) from None
     return True
 
 

@@ -19,6 +19,7 @@ from grader.fix.files import Files
 from grader.fix.mends import ADVISED
 from grader.fix.mends import STATIC
 from grader.fix.mends import mends_for
+from grader.locale.speaker import SOURCE
 from grader.report.model import CheckResult
 from grader.submission import Submission
 
@@ -67,11 +68,13 @@ def patch_for(result: CheckResult, submission: Submission, assignment: Assignmen
         return ""
 
 
-def mend_files(submission: Submission, assignment: Assignment, only: str = "") -> Plan:
+def mend_files(
+    submission: Submission, assignment: Assignment, only: str = "", *, lang: str = SOURCE
+) -> Plan:
     """Mend what the files alone show to be wrong (in one check, if `only` names it)."""
 
     def judge(files: Files) -> list[Finding]:
-        return findings(files, submission, assignment, only)
+        return findings(files, submission, assignment, only, lang=lang)
 
     old = Files.of(submission)
     if only:

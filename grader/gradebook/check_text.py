@@ -1,10 +1,13 @@
-"""A check in plain text, as systems show it below a test's name."""
+"""A check in plain text, as systems show it below a test's name, in the report's language."""
 
 from __future__ import annotations
 
 from grader.gradebook.points import Mark
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.report.blocks import UNSEEN
 from grader.report.blocks import WORDS
+from grader.report.blocks import all_of
 from grader.report.blocks import block
 from grader.report.blocks import roots
 from grader.report.model import Report
@@ -18,24 +21,24 @@ LINES = 12  # of one text
 
 def check_text(mark: Mark, report: Report, *, lines: int = LINES) -> str:
     """Return all that is known of a check, without control characters, ended by a newline."""
-    check = mark.check
+    check, speak = mark.check, Speaker(report.lang)
     if check.status == "passed":
         told = [line for advice in check.advice for line in first_lines(advice, lines=lines)]
     elif check.status == "skipped":
-        told = [_skipped(mark, report)]
+        told = [speak(_skipped(mark, report))]
     else:
-        page = Page(width=WIDTH, styled=False)
+        page = Page(width=WIDTH, styled=False, speak=speak)
         block(page, check, lines=lines)
         told = str(page).rstrip("\n").split("\n")
-    told += [mark.correction] if mark.correction else []
-    return "".join(f"{line}\n" for line in told or ["Passed."])
+    told += [speak(mark.correction)] if mark.correction else []
+    return "".join(f"{line}\n" for line in told or [speak(say("Passed."))])
 
 
-def headline(mark: Mark) -> str:
+def headline(mark: Mark, report: Report) -> str:
     """Return what was found in one line: a failed check's `actual`, else its state."""
     check = mark.check
     found = one_line(check.actual) if check.status == "failed" else ""
-    return found or WORDS[check.status]
+    return found or Speaker(report.lang)(WORDS[check.status])
 
 
 def _skipped(mark: Mark, report: Report) -> str:
@@ -46,5 +49,6 @@ def _skipped(mark: Mark, report: Report) -> str:
         else UNSEEN
         for other in roots(mark.check, report.checks)
     ]
-    known = " and ".join(dict.fromkeys(names))
-    return f"Not asked because {known} did not pass." if known else one_line(mark.check.actual)
+    if not names:
+        return one_line(mark.check.actual)
+    return say("Not asked because {checks} did not pass.", checks=all_of(names))

@@ -12,6 +12,7 @@ import click
 from grader import options
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
+from grader.locale.speaker import chosen_language
 
 if TYPE_CHECKING:
     from grader.report.model import Report
@@ -29,14 +30,17 @@ _sandbox = click.option(
 @options.assignment
 @options.one_distro
 @_sandbox
-def gradescope(autograder: Path, assignment: str, distro: str, sandbox: str) -> int:
+@options.lang
+def gradescope(
+    autograder: Path, assignment: str, distro: str, sandbox: str, lang: str | None
+) -> int:
     """Mark the submission in Gradescope's container, results.json always up to date.
 
     AUTOGRADER is the folder that Gradescope made (default: /autograder).
     """
     from grader.gradebook.gradescope_run import run  # noqa: PLC0415 - --help must not pay for it
 
-    return run(autograder, assignment=assignment, distro=distro, sandbox=sandbox)
+    return run(autograder, assignment=assignment, distro=distro, sandbox=sandbox, lang=lang)
 
 
 @click.command("gradescope-zip")
@@ -44,8 +48,11 @@ def gradescope(autograder: Path, assignment: str, distro: str, sandbox: str) -> 
 @options.assignment
 @options.one_distro
 @_sandbox
-def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str) -> int:
+@options.lang
+def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str, lang: str | None) -> int:
     """Make the autograder archive that is uploaded to Gradescope. It holds the solution.
+
+    --lang is the language in which students will read their results.
 
     OUT is the file that is made (default: autograder.zip).
     """
@@ -55,7 +62,12 @@ def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str) -> int
 
     check_name(sandbox)
     name = find_distro(distro).name
-    made = archive.gradescope_zip(assignment=assignment, distro=name, sandbox=sandbox)
+    made = archive.gradescope_zip(
+        assignment=assignment,
+        distro=name,
+        sandbox=sandbox,
+        lang=lang or chosen_language(os.environ),
+    )
     _write(out, made)
     click.echo(f"{out}: {len(made):,} bytes. Keep it from students: it holds the solution.")
     return 0
@@ -66,7 +78,7 @@ def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str) -> int
 @click.argument("report", type=click.Path(path_type=Path))
 @click.option("--show-hidden", is_flag=True, help="Name the checks that students do not see.")
 def convert(form: str, report: Path, show_hidden: bool) -> int:
-    """Print a report.json in the FORM of another system.
+    """Print a report.json in the FORM of another system, in the report's language.
 
     `github` prints the line for $GITHUB_OUTPUT: grader convert github REPORT >> "$GITHUB_OUTPUT".
     """

@@ -1,4 +1,7 @@
-"""What one student is told: their points, how they came about, and each check that they may see."""
+"""What one student is told: their points, how they came about, and each check that they may see.
+
+All of it is said in the entry's language.
+"""
 
 from __future__ import annotations
 
@@ -8,54 +11,70 @@ from dataclasses import replace
 
 from grader.batch.model import Entry
 from grader.gradebook.cells import number
+from grader.locale.message import joined
+from grader.locale.message import say
+from grader.locale.speaker import LANGUAGES
+from grader.locale.speaker import Speaker
 from grader.report.blocks import WORDS
+from grader.report.blocks import all_of
 from grader.report.plain import one_line
+from grader.report.report_page import hidden_checks
 from grader.site.render import Renderer
+from grader.site.student import FOLDER
+from grader.site.student import KEY
 from grader.site.student import CheckView
 from grader.site.student import StudentView
 from grader.site.student import student_view
 from grader.site.words import STATES
-from grader.site.words import plural
 
 # where the instructor keeps the submission, and by what key, is not the student's business
-KEPT_BACK = ("Folder", "Key")
-TOLD = ("Found", "Fix")  # of a check, where there is little room
+KEPT_BACK = (FOLDER, KEY)
+TOLD = (say("Found"), say("Fix"))  # of a check, where there is little room
 MOST = 300  # characters of one text in the short form
 MOST_CHECKS = 40
 
 
 def feedback_view(entry: Entry, *, show_hidden: bool) -> StudentView:
     """Return what a student's page shows, without what is for the instructor alone."""
-    view = student_view(entry, show_hidden=show_hidden)
-    facts = tuple((name, value) for name, value in view.facts if name not in KEPT_BACK)
+    view = student_view(entry, show_hidden=show_hidden, lang=entry.lang)
+    kept_back = [Speaker(entry.lang)(name) for name in KEPT_BACK]
+    facts = tuple((name, value) for name, value in view.facts if name not in kept_back)
     return replace(view, facts=facts, details=())
 
 
 def headline(entry: Entry) -> str:
     """Return the result in a few words: `85 of 100 points`, or why there are none."""
+    told = say("No points yet")
     if entry.final is not None:
-        return f"{number(entry.final)} of {number(entry.max_score)} points"
-    return f"No points yet: {STATES[entry.status]}" if entry.status != "graded" else "No points yet"
+        most = number(entry.max_score)
+        told = say("{points} of {most} points", points=number(entry.final), most=most)
+    elif entry.status != "graded":
+        told = say("No points yet: {state}", state=STATES[entry.status])
+    return Speaker(entry.lang)(told)
 
 
 def hidden_words(view: StudentView) -> str:
     """Return how many checks the student does not see, "" for none."""
-    return f"{plural(view.hidden, 'hidden check')}: not shown" if view.hidden else ""
+    return Speaker(view.entry.lang)(hidden_checks(view.hidden)) if view.hidden else ""
 
 
-def mark_of(one: CheckView) -> str:
+def mark_of(one: CheckView, lang: str) -> str:
     """Return a check's result and points in one line: `failed, 0 / 10 points`."""
     check = one.check
-    most = number(check.max_score)
+    most, state = number(check.max_score), WORDS[check.status]
+    given = say("{given} / {most} points", given=number(check.score), most=most)
     if one.override is not None:
-        was = number(check.score)
-        given = f"{number(one.override.points)} / {most} points, corrected from {was}"
+        given = say(
+            "{given} / {most} points, corrected from {was}",
+            given=number(one.override.points),
+            most=most,
+            was=number(check.score),
+        )
     elif check.status in ("inconclusive", "error"):
-        given = f"{most} points neither given nor taken"
-    else:
-        given = f"{number(check.score)} / {most} points"
-    because = f" because of {' and '.join(one.because)}" if one.because else ""
-    return f"{WORDS[check.status]}{because}, {given}"
+        given = say("{most} points neither given nor taken", most=most)
+    if one.because:
+        state = say("{state} because of {checks}", state=state, checks=all_of(one.because))
+    return Speaker(lang)(joined(state, given, by=", "))
 
 
 def short_html(entry: Entry, *, show_hidden: bool) -> str:
@@ -67,23 +86,37 @@ def short_html(entry: Entry, *, show_hidden: bool) -> str:
     view = feedback_view(entry, show_hidden=show_hidden)
     open_ = [one for one in view.checks if one.check.status not in ("passed", "skipped")]
     skipped = sum(one.check.status == "skipped" for one in view.checks)
-    lines = [f"<li>{_safe(line)}</li>" for line in [entry.problem, *view.reckoning] if line]
-    lines += [f"<li>{_check(one)}</li>" for one in open_[:MOST_CHECKS]]
-    if len(open_) > MOST_CHECKS:
-        lines.append(f"<li>{plural(len(open_) - MOST_CHECKS, 'more check')} did not pass</li>")
-    if skipped:
-        lines.append(f"<li>{plural(skipped, 'check')} skipped because of these</li>")
-    if hidden := hidden_words(view):
-        lines.append(f"<li>{hidden}</li>")
-    return f"<p><strong>{_safe(headline(entry))}</strong></p><ul>{''.join(lines)}</ul>"
+    speak = Speaker(entry.lang)
+    told = [line for line in (speak(entry.problem), *view.reckoning) if line]
+    lines = [_safe(line) for line in told]
+    lines += [_check(one, speak) for one in open_[:MOST_CHECKS]]
+    rest = [_more(len(open_) - MOST_CHECKS), _skipped(skipped), hidden_words(view)]
+    lines += [_safe(speak(line)) for line in rest if line]
+    items = "".join(f"<li>{line}</li>" for line in lines)
+    return f"<p><strong>{_safe(headline(entry))}</strong></p><ul>{items}</ul>"
+
+
+def _more(count: int) -> str:
+    """Return how many checks there was no room for, "" if none."""
+    if count == 1:
+        return say("1 more check did not pass")
+    return say("{count} more checks did not pass", count=count) if count > 0 else ""
+
+
+def _skipped(count: int) -> str:
+    """Return how many checks were not asked, "" if none."""
+    if count == 1:
+        return say("1 check skipped because of these")
+    return say("{count} checks skipped because of these", count=count) if count else ""
 
 
 def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
     """Return the feedback as a page of its own, which opens offline and asks for nothing."""
     view = feedback_view(entry, show_hidden=show_hidden)
-    logs = [("transcript", "What ros2 run printed", view.transcript)]
-    logs.append(("build-log", "What colcon build printed", view.build_log))
-    return _renderer(one_line(title)).page(
+    speak = Speaker(entry.lang)
+    logs = [("transcript", speak(say("What ros2 run printed")), view.transcript)]
+    logs.append(("build-log", speak(say("What colcon build printed")), view.build_log))
+    return _renderer(one_line(title), entry.lang).page(
         "feedback.html.j2",
         script=False,
         view=view,
@@ -93,18 +126,19 @@ def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
     )
 
 
-@functools.lru_cache(maxsize=1)
-def _renderer(heading: str) -> Renderer:
+@functools.lru_cache(maxsize=len(LANGUAGES))
+def _renderer(heading: str, lang: str) -> Renderer:
     """Return the renderer of a class: templates are compiled once for all students."""
-    return Renderer(heading=heading, pages={})
+    return Renderer(heading=heading, pages={}, lang=lang)
 
 
-def _check(one: CheckView) -> str:
-    check = one.check
-    text = f"<code>{_safe(check.id)}</code> {_safe(mark_of(one))}: {_safe(check.title)}"
+def _check(one: CheckView, speak: Speaker) -> str:
+    check, labels = one.check, [speak(label) for label in TOLD]
+    mark = mark_of(one, speak.lang)
+    text = f"<code>{_safe(check.id)}</code> {_safe(mark)}: {_safe(check.title)}"
     for field in one.fields:
-        if field.label in TOLD:
-            text += f"<br>{field.label}: {_safe(field.text)}"
+        if field.label in labels:
+            text += f"<br>{_safe(field.label)}: {_safe(field.text)}"
     return text
 
 

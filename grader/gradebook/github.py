@@ -20,10 +20,14 @@ from grader.gradebook.points import Mark
 from grader.gradebook.points import marks
 from grader.gradebook.points import rounded
 from grader.gradebook.points import steps
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.report.model import Report
 from grader.report.plain import one_line
 from grader.report.plain import points
 
-UNSEEN = "Hidden checks"
+UNSEEN = say("Hidden checks")
+SUBMISSION = say("The submission")
 # the reporter prints what it gets, and GitHub's runner obeys printed lines (actions/runner,
 # ActionCommand.cs): `::command` after blanks, `##[command]` anywhere
 COMMAND = re.compile(r"^(\s*:)(?=:)|(##)(?=\[)", re.MULTILINE)
@@ -31,23 +35,24 @@ COMMAND = re.compile(r"^(\s*:)(?=:)|(##)(?=\[)", re.MULTILINE)
 
 def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
     """Return the runner's result; hidden checks are one test (the log is the student's to read)."""
-    report = entry.report
+    report, speak = entry.report, Speaker(entry.lang)
     if report is None or entry.final is None:
-        message = entry.problem or (report.message if report else "") or "There are no points yet."
-        tests = [_line("The submission", 0, "error", one_line(message))]
+        nothing = say("There are no points yet.")
+        message = entry.problem or (report.message if report else "") or nothing
+        tests = [_line(speak(SUBMISSION), 0, "error", one_line(speak(message)))]
         return _result("error", entry, tests)
     shown = [m for m in marks(entry) if show_hidden or m.check.visibility == "visible"]
     hidden = [m for m in marks(entry) if m not in shown]
     tests = [
-        _line(_name(mark), mark.points or 0, _status(mark), check_text(mark, report))
+        _line(_name(mark, report), mark.points or 0, _status(mark), check_text(mark, report))
         for mark in shown
     ]
     if hidden:
-        tests.append(_hidden(hidden))
+        tests.append(_hidden(hidden, speak))
     for step in steps(entry):
-        tests.append(_line(step.why, step.points, "pass" if step.points > 0 else "fail"))
+        tests.append(_line(speak(step.why), step.points, "pass" if step.points > 0 else "fail"))
     if not tests:
-        tests = [_line("The submission", entry.final, "pass")]
+        tests = [_line(speak(SUBMISSION), entry.final, "pass")]
     states = {test["status"] for test in tests}
     worst = next((state for state in ("error", "fail") if state in states), "pass")
     return _result(worst, entry, tests)
@@ -89,11 +94,11 @@ def _inert(text: str) -> str:
     return COMMAND.sub(lambda found: f"{found[0]} ", text)
 
 
-def _name(mark: Mark) -> str:
+def _name(mark: Mark, report: Report) -> str:
     check = mark.check
     given = "-" if mark.points is None else points(mark.points)
     name = f"{one_line(check.id, most=60)} ({given}/{points(check.max_score)})"
-    return name if mark.passed else f"{name}: {headline(mark)}"
+    return name if mark.passed else f"{name}: {headline(mark, report)}"
 
 
 def _status(mark: Mark) -> str:
@@ -102,8 +107,8 @@ def _status(mark: Mark) -> str:
     return "pass" if mark.passed else "fail"
 
 
-def _hidden(hidden: Sequence[Mark]) -> dict[str, Any]:
+def _hidden(hidden: Sequence[Mark], speak: Speaker) -> dict[str, Any]:
     given = sum(mark.points or 0 for mark in hidden)
     most = sum(mark.check.max_score for mark in hidden)
     status = "pass" if all(mark.passed for mark in hidden) else "fail"
-    return _line(f"{UNSEEN} ({points(given)}/{points(most)})", given, status)
+    return _line(f"{speak(UNSEEN)} ({points(given)}/{points(most)})", given, status)

@@ -14,10 +14,14 @@ from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.gradebook.check_text import check_text
 from grader.gradebook.points import Mark
+from grader.gradebook.points import in_points
 from grader.gradebook.points import marks
 from grader.gradebook.points import rounded
 from grader.gradebook.points import single
 from grader.gradebook.points import steps
+from grader.locale.message import say
+from grader.locale.speaker import SOURCE
+from grader.locale.speaker import Speaker
 from grader.report.model import Report
 from grader.report.plain import first_lines
 from grader.report.plain import one_line
@@ -50,11 +54,13 @@ def results_json(found: dict[str, Any]) -> str:
     return json.dumps(found, indent=1, allow_nan=False) + "\n"
 
 
-def problem(text: str, *, total: float = 0) -> dict[str, Any]:
+def problem(text: str, *, total: float = 0, lang: str = SOURCE) -> dict[str, Any]:
     """Return results that say why there are none; the student's text is `text`."""
-    output = "\n".join(first_lines(text, lines=20))
+    speak = Speaker(lang)
+    output = "\n".join(first_lines(speak(text), lines=20))
     found: dict[str, Any] = {"score": 0.0, "output": output, "output_format": "text"}
-    tests = [{"name": "The grader", "score": 0.0, "output": output, "status": "failed"}]
+    name = speak(say("The grader"))
+    tests = [{"name": name, "score": 0.0, "output": output, "status": "failed"}]
     tests[0] |= {"max_score": total} if total else {}
     return {**found, "visibility": "visible", "stdout_visibility": "hidden", "tests": tests}
 
@@ -77,18 +83,20 @@ def _test(mark: Mark, report: Report) -> dict[str, Any]:
 
 
 def _output(entry: Entry, report: Report) -> str:
-    lines = [f"{points(entry.final or 0)} of {points(report.max_score)} points"]
+    final, most = points(entry.final or 0), points(report.max_score)
+    lines: list[str] = [say("{points} of {most} points", points=final, most=most)]
     if report.status == "error":
-        lines = ["The grader failed, not your package. Please tell your instructor."]
+        lines = [say("The grader failed, not your package. Please tell your instructor.")]
     open_ = sum(mark.check.max_score for mark in marks(entry) if mark.points is None)
     if open_:
-        lines.append(f"{points(open_)} points could be neither given nor taken.")
-    for step in steps(entry):
-        lines.append(f"{step.why}: {points(step.points)} points")
+        lines.append(say("{points} could be neither given nor taken.", points=in_points(open_)))
+    lines += [step.told for step in steps(entry)]
     lines += [line for note in report.submission.notes for line in first_lines(note, lines=3)]
     if report.observed.command:
-        lines.append(f"Run with: {one_line(report.observed.command, most=1_000)}")
-    return "".join(f"{line}\n" for line in lines)
+        command = one_line(report.observed.command, most=1_000)
+        lines.append(say("Run with: {command}", command=command))
+    speak = Speaker(report.lang)
+    return "".join(f"{speak(line)}\n" for line in lines)
 
 
 def _extra(report: Report) -> dict[str, Any]:

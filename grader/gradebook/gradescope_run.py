@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import sys
 import traceback
 from dataclasses import dataclass
@@ -24,6 +25,10 @@ from grader import events
 from grader.batch.policy import penalty
 from grader.errors import GraderError
 from grader.gradebook import gradescope
+from grader.locale.message import joined
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import chosen_language
 from grader.ordering import make_orders
 from grader.report.blocks import UNSEEN
 from grader.report.folder import Folder
@@ -37,11 +42,10 @@ RESULTS = "results.json"
 METADATA = "submission_metadata.json"
 CLONED = ("GitHub", "Bitbucket")
 MOST_METADATA = 10_000_000  # bytes; earlier results are in it
-OUR_FAULT = (
+OUR_FAULT = say(
     "The grader failed, not your package. Please tell your instructor: the reason is in the "
     "output that instructors see."
 )
-CUT_OFF = "Marking was cut off here. These checks were not asked yet: "
 
 
 @dataclass
@@ -73,8 +77,8 @@ class ResultsFile:
 
     def failed(self) -> None:
         """Say that the fault is ours, below what was found out before."""
-        found = self._so_far()
-        self.write({**found, "output": f"{OUR_FAULT}\n{found['output']}"})
+        found, ours = self._so_far(), Speaker(self.order.lang)(OUR_FAULT)
+        self.write({**found, "output": f"{ours}\n{found['output']}"})
 
     def _so_far(self) -> dict[str, Any]:
         """Return the results of the checks that were asked."""
@@ -87,9 +91,16 @@ class ResultsFile:
         left = [use for use in assignment.checks if use.id not in asked]
         names = [use.id if use.visibility == "visible" else UNSEEN for use in left]
         found = gradescope.results(report)
-        cut_off = f"{CUT_OFF}{', '.join(dict.fromkeys(names))}\n" if names else ""
-        tests = found["tests"] or gradescope.problem(OUR_FAULT)["tests"]
-        return {**found, "output": found["output"] + cut_off, "tests": tests}
+        lang = self.order.lang
+        tests = found["tests"] or gradescope.problem(OUR_FAULT, lang=lang)["tests"]
+        if not names:
+            return {**found, "tests": tests}
+        cut_off = say(
+            "Marking was cut off here. These checks were not asked yet: {checks}",
+            checks=joined(*dict.fromkeys(names), by=", "),
+        )
+        output = f"{found['output']}{Speaker(lang)(cut_off)}\n"
+        return {**found, "output": output, "tests": tests}
 
 
 def run(
@@ -98,18 +109,20 @@ def run(
     assignment: str = "hello_time",
     distro: str = "jazzy",
     sandbox: str = "account",
+    lang: str | None = None,
 ) -> int:
     """Mark `<autograder>/submission` and return the exit status.
 
+    `lang` is the language of what the student reads (default: the environment's).
     0 if there is a verdict, 3 if the grader failed; `results/results.json` is there in each case.
     """
     results = autograder / "results"
     metadata = read_metadata(autograder / METADATA)
     try:
-        order = order_for(autograder, metadata, assignment, distro, sandbox)
+        order = order_for(autograder, metadata, assignment, distro, sandbox, lang=lang)
     except GraderError as error:
         click.echo(f"grader: {error}", err=True)
-        _write_problem(results)
+        _write_problem(results, lang or chosen_language(os.environ))
         return error.exit_status
     file = ResultsFile(results, order, _extra(metadata))
     file.start()
@@ -146,12 +159,18 @@ def student_name(metadata: dict[str, Any]) -> str | None:
 
 
 def order_for(
-    autograder: Path, metadata: dict[str, Any], assignment: str, distro: str, sandbox: str
+    autograder: Path,
+    metadata: dict[str, Any],
+    assignment: str,
+    distro: str,
+    sandbox: str,
+    *,
+    lang: str | None = None,
 ) -> Order:
     """Return what is to be marked, by what Gradescope says of it."""
     submission = autograder / "submission"
     name = student_name(metadata)
-    order = make_orders(submission, assignment, distro, sandbox, (), name=name)[0]
+    order = make_orders(submission, assignment, distro, sandbox, (), name=name, lang=lang)[0]
     # what was uploaded file by file has lost its exec bits on the way, a clone has not
     cloned = metadata.get("submission_method") in CLONED
     return replace(order, modes_kept=cloned)
@@ -174,10 +193,10 @@ def _extra(metadata: dict[str, Any]) -> dict[str, Any]:
     return {"submission": kept} if kept else {}
 
 
-def _write_problem(results: Path) -> None:
+def _write_problem(results: Path, lang: str) -> None:
     results.mkdir(parents=True, exist_ok=True)
     with Folder.open(results) as folder:
-        text = gradescope.results_json(gradescope.problem(OUR_FAULT))
+        text = gradescope.results_json(gradescope.problem(OUR_FAULT, lang=lang))
         folder.replace(RESULTS, text.encode("ascii"))
 
 
@@ -194,6 +213,7 @@ def _empty_report(order: Order) -> Report:
             "submission": {"name": order.name or "", "path": "", "sha256": ""},
             "environment": {"distro": order.distro.name, "ros": "wheels", "sandbox": "account"},
             "status": "graded",
+            "lang": order.lang,
             "score": 0,
             "max_score": assignment.max_score,
             "checks": [],

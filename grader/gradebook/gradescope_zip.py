@@ -7,6 +7,7 @@ the folder to the student's account before anything of theirs runs.
 from __future__ import annotations
 
 import io
+import json
 import shlex
 import zipfile
 from collections.abc import Iterator
@@ -14,6 +15,9 @@ from pathlib import Path
 
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
+from grader.locale.message import say
+from grader.locale.speaker import SOURCE
+from grader.locale.speaker import Speaker
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = (
@@ -60,7 +64,7 @@ export GRADER_DISPOSABLE=1 PYTHONDONTWRITEBYTECODE=1
 status=$?
 if [ ! -s "$results" ]; then
   mkdir -p "$autograder/results"
-  echo '{{"score": 0, "output": "The grader failed, not your package. Please tell your instructor."}}' > "$results"
+  echo {problem} > "$results"
 fi
 exit "$status"
 """
@@ -71,10 +75,12 @@ def gradescope_zip(
     assignment: str = "hello_time",
     distro: str = "jazzy",
     sandbox: str = "account",
+    lang: str = SOURCE,
     root: Path = ROOT,
 ) -> bytes:
     """Return the archive; `assignment` is an id or the path of an assignment.yaml.
 
+    What students read is in the language `lang`.
     `root` is the checkout that goes in. SurroundingsError if it is none (the grader was installed
     without its sources), UsageError for an assignment that is not there.
     """
@@ -90,10 +96,17 @@ def gradescope_zip(
         named = f"{OWN_ASSIGNMENT}/{Path(assignment).name}"
     elif f"lab/course/{assignment}/assignment.yaml" not in files:
         raise UsageError(f"there is no assignment '{assignment}' in {root / 'lab/course'}")
-    words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox]
+    words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
     files["setup.sh"] = (SETUP.format(distro=shlex.quote(distro)).encode(), PROGRAM)
-    files["run_autograder"] = (RUN.format(words=shlex.join(words)).encode(), PROGRAM)
+    run = RUN.format(words=shlex.join(words), problem=shlex.quote(_problem(lang)))
+    files["run_autograder"] = (run.encode(), PROGRAM)
     return _packed(files)
+
+
+def _problem(lang: str) -> str:
+    """Return the results for where the grader could not even begin."""
+    ours = say("The grader failed, not your package. Please tell your instructor.")
+    return json.dumps({"score": 0, "output": Speaker(lang)(ours)})
 
 
 def _packed(files: dict[str, tuple[bytes, int]]) -> bytes:

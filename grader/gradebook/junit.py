@@ -18,6 +18,8 @@ from grader.gradebook.points import Mark
 from grader.gradebook.points import marks
 from grader.gradebook.points import single
 from grader.gradebook.points import steps
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.report.model import Report
 from grader.report.plain import first_lines
 from grader.report.plain import one_line
@@ -25,7 +27,7 @@ from grader.report.plain import points
 
 SUBMISSION = "submission"  # the test case of what could not be marked
 MOST = 200  # characters of a name
-NOTHING = {"missing": "nothing was handed in", "pending": "not marked yet"}
+NOTHING = {"missing": say("nothing was handed in"), "pending": say("not marked yet")}
 COUNTS = ("tests", "failures", "errors", "skipped")
 CLOSED = b"</testsuites>"
 
@@ -81,7 +83,7 @@ def _suite(entry: Entry) -> ET.Element:
 
 
 def _properties(suite: ET.Element, entry: Entry) -> None:
-    student = entry.student
+    student, speak = entry.student, Speaker(entry.lang)
     found = [
         ("student", student.name),
         ("email", student.email),
@@ -92,8 +94,12 @@ def _properties(suite: ET.Element, entry: Entry) -> None:
         ("max_score", points(entry.max_score)),
         ("late_seconds", points(entry.late_seconds) if entry.late_seconds > 0 else ""),
         ("attempt", f"{entry.attempt} of {entry.attempts}"),
-        *(("adjusted", f"{step.why}: {points(step.points)}") for step in steps(entry)),
-        *(("corrected", f"{m.check.id}: {m.correction}") for m in marks(entry) if m.correction),
+        *(("adjusted", f"{speak(step.why)}: {points(step.points)}") for step in steps(entry)),
+        *(
+            ("corrected", f"{mark.check.id}: {speak(mark.correction)}")
+            for mark in marks(entry)
+            if mark.correction
+        ),
     ]
     if entry.report is not None:
         found.append(("distro", entry.report.environment.distro))
@@ -117,7 +123,7 @@ def _check_case(suite: ET.Element, mark: Mark, report: Report) -> None:
     given = "" if mark.points is None else points(mark.points)
     for name, value in (("points", given), ("max_points", points(check.max_score))):
         ET.SubElement(own, "property", name=name, value=value)
-    text, message = check_text(mark, report), headline(mark)
+    text, message = check_text(mark, report), headline(mark, report)
     if mark.passed:
         if check.advice or mark.correction:
             ET.SubElement(case, "system-out").text = text
@@ -132,11 +138,13 @@ def _check_case(suite: ET.Element, mark: Mark, report: Report) -> None:
 
 def _submission_case(suite: ET.Element, entry: Entry) -> None:
     """Write what stands for a submission without checks: its own fault, ours, or nothing there."""
+    speak = Speaker(entry.lang)
     case = ET.SubElement(suite, "testcase", classname=SUBMISSION, name=SUBMISSION, time="0.000")
     if entry.status in NOTHING and entry.report is None:
-        ET.SubElement(case, "skipped", type=entry.status, message=NOTHING[entry.status])
+        ET.SubElement(case, "skipped", type=entry.status, message=speak(NOTHING[entry.status]))
         return
-    told = entry.problem or (entry.report.message if entry.report else "") or "not gradable"
+    said = entry.problem or (entry.report.message if entry.report else "")
+    told = speak(said or say("not gradable"))
     tag = "failure" if entry.status == "ungradable" else "error"
     part = ET.SubElement(case, tag, type=entry.status, message=one_line(told))
     part.text = "\n".join(first_lines(told, lines=20))

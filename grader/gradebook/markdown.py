@@ -9,6 +9,8 @@ from grader.gradebook.feedback import feedback_view
 from grader.gradebook.feedback import headline
 from grader.gradebook.feedback import hidden_words
 from grader.gradebook.feedback import mark_of
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
 from grader.report.plain import first_lines
 from grader.report.plain import last_lines
 from grader.report.plain import one_line
@@ -24,32 +26,33 @@ LOG_LINES, FIELD_LINES = 60, 30
 def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
     """Return the feedback; hidden checks are counted only, unless `show_hidden`."""
     view = feedback_view(entry, show_hidden=show_hidden)
-    student = entry.student
+    student, speak = entry.student, Speaker(entry.lang)
     lines = [f"# {_plain(student.name or student.key)}: {_plain(title)}", ""]
     lines += [f"**{_plain(headline(entry))}**", ""]
     if entry.problem:
-        lines += [_plain(entry.problem), ""]
+        lines += [_plain(speak(entry.problem)), ""]
     lines += [f"- {_plain(line)}" for line in view.reckoning]
     if view.checks:
-        lines += ["", "## Checks", ""]
-        lines += [f"- {_code(one.check.id)} {_plain(mark_of(one))}" for one in view.checks]
+        head = speak(say("Checks"))
+        lines += ["", f"## {_plain(head)}", ""]
+        for one in view.checks:
+            lines.append(f"- {_code(one.check.id)} {_plain(mark_of(one, entry.lang))}")
     if hidden := hidden_words(view):
         lines.append(f"- {_plain(hidden)}")
     for one in view.checks:
         if one.needs_block or one.override is not None or one.check.advice:
-            lines += ["", *_block(one)]
-    for name, text in (("ros2 run", view.transcript), ("colcon build", view.build_log)):
+            lines += ["", *_block(one, speak)]
+    for head, text in (
+        (say("What ros2 run printed"), view.transcript),
+        (say("What colcon build printed"), view.build_log),
+    ):
         if text.strip():
-            lines += [
-                "",
-                f"## What {name} printed",
-                "",
-                *_fenced(last_lines(text, lines=LOG_LINES)[0]),
-            ]
+            lines += ["", f"## {_plain(speak(head))}", ""]
+            lines += _fenced(last_lines(text, lines=LOG_LINES)[0])
     return "\n".join(lines) + "\n"
 
 
-def _block(one: CheckView) -> list[str]:
+def _block(one: CheckView, speak: Speaker) -> list[str]:
     lines = [f"## {_code(one.check.id)}: {_plain(one.check.title)}"]
     for field in one.fields:
         text = first_lines(field.text, lines=FIELD_LINES, most=1_000)
@@ -60,8 +63,11 @@ def _block(one: CheckView) -> list[str]:
         else:
             lines += ["", f"{field.label}: {_code(text[0])}"]
     if one.override is not None:
-        by = f" by {_plain(one.override.by)}" if one.override.by else ""
-        lines += ["", f"Corrected{by}, because: {_plain(one.override.because)}"]
+        by, why = one.override.by, one.override.because
+        told = say("Corrected, because: {why}", why=why)
+        if by:
+            told = say("Corrected by {name}, because: {why}", name=by, why=why)
+        lines += ["", _plain(speak(told))]
     return lines
 
 

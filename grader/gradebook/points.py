@@ -13,6 +13,9 @@ from dataclasses import replace
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
+from grader.locale.message import Message
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.report.model import CheckResult
 from grader.report.model import Report
 from grader.report.plain import one_line
@@ -42,9 +45,21 @@ class Mark:
         """What the instructor changed and why, in one line; "" if nothing."""
         if self.override is None:
             return ""
-        return (
-            f"Corrected{_by(self.override)}: {points(self.override.points)} instead of "
-            f"{points(self.check.score)} points, because: {one_line(self.override.because)}"
+        by, why = _named(self.override), one_line(self.override.because)
+        given, before = points(self.override.points), points(self.check.score)
+        if not by:
+            return say(
+                "Corrected: {given} instead of {before} points, because: {why}",
+                given=given,
+                before=before,
+                why=why,
+            )
+        return say(
+            "Corrected by {name}: {given} instead of {before} points, because: {why}",
+            name=by,
+            given=given,
+            before=before,
+            why=why,
         )
 
 
@@ -54,6 +69,16 @@ class Step:
 
     why: str
     points: float
+
+    @property
+    def told(self) -> Message:
+        """The step in one line."""
+        return joined(self.why, in_points(self.points), by=": ")
+
+
+def in_points(value: float) -> Message:
+    """Return a number of points with its noun."""
+    return say("1 point") if value == 1 else say("{points} points", points=points(value))
 
 
 def rounded(value: float) -> float:
@@ -90,6 +115,7 @@ def single(report: Report, *, penalty: float = 0, overrides: Sequence[Override] 
         penalty=penalty,
         max_score=report.max_score,
         overrides=tuple(overrides),
+        lang=report.lang,
     )
     if report.status != "graded":
         return entry
@@ -107,17 +133,22 @@ def _mark(check: CheckResult, override: Override | None) -> Mark:
 def _total_words(entry: Entry) -> str:
     whole = {override.check: override for override in entry.overrides}.get("")
     if whole is None:
-        return "The total was corrected"
-    return f"The total was corrected{_by(whole)}, because: {one_line(whole.because)}"
+        return say("The total was corrected")
+    by, why = _named(whole), one_line(whole.because)
+    if not by:
+        return say("The total was corrected, because: {why}", why=why)
+    return say("The total was corrected by {name}, because: {why}", name=by, why=why)
 
 
 def _late_words(entry: Entry) -> str:
     if entry.late_seconds > 0:
         from grader.site.words import duration  # noqa: PLC0415 - it brings the pages' templates
 
-        return f"Handed in {duration(entry.late_seconds)} late"
-    return "Points taken for lateness" if entry.penalty else "By the assignment's policy"
+        return say("Handed in {duration} late", duration=duration(entry.late_seconds))
+    if entry.penalty:
+        return say("Points taken for lateness")
+    return say("By the assignment's policy")
 
 
-def _by(override: Override) -> str:
-    return f" by {one_line(override.by, most=100)}" if override.by else ""
+def _named(override: Override) -> str:
+    return one_line(override.by, most=100) if override.by else ""

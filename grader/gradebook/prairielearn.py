@@ -16,6 +16,9 @@ from grader.gradebook.points import Mark
 from grader.gradebook.points import marks
 from grader.gradebook.points import rounded
 from grader.gradebook.points import steps
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 from grader.report.plain import first_lines
 from grader.report.plain import last_lines
@@ -27,7 +30,6 @@ MOST_BYTES = 1_000_000
 # lines of each text of a check, lines of what was printed, characters of each check: what fits first
 ROOM = ((12, 400, 100_000), (12, 60, 8_000), (6, 20, 2_000), (2, 0, 300), (1, 0, 0))
 MOST_NAME = 200
-NOT_SHOWN = "a hidden check"
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
         "gradable": True,
         "score": rounded(score),
         "message": _message(entry),
-        "output": _output(report, room.log_lines),
+        "output": _output(report, room.log_lines, Speaker(entry.lang)),
         "images": [],
         "tests": [
             _test(mark, report, room, show=show_hidden or mark.check.visibility == "visible")
@@ -74,43 +76,44 @@ def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
 
 def _ungradable(entry: Entry) -> dict[str, Any]:
     message = entry.report.message if entry.report is not None else ""
-    why = entry.problem or message or "The submission could not be graded."
-    told = "\n".join(first_lines(why, lines=10))
+    why = entry.problem or message or say("The submission could not be graded.")
+    told = "\n".join(first_lines(Speaker(entry.lang)(why), lines=10))
     return {"gradable": False, "format_errors": [told], "message": told, "tests": []}
 
 
 def _message(entry: Entry) -> str:
-    lines = [f"{points(entry.final or 0)} of {points(entry.max_score)} points"]
-    lines += [f"{step.why}: {points(step.points)} points" for step in steps(entry)]
-    return "\n".join(lines)
+    final, most = points(entry.final or 0), points(entry.max_score)
+    lines = [say("{points} of {most} points", points=final, most=most)]
+    lines += [step.told for step in steps(entry)]
+    return "\n".join(Speaker(entry.lang)(line) for line in lines)
 
 
-def _output(report: Report, lines: int) -> str:
+def _output(report: Report, lines: int, speak: Speaker) -> str:
     if not lines:
         return ""
     found = []
     for title, text in (
-        ("colcon build printed:", report.evidence.build_log),
-        ("ros2 run printed:", report.evidence.transcript),
+        (say("What colcon build printed"), report.evidence.build_log),
+        (say("What ros2 run printed"), report.evidence.transcript),
     ):
         if text.strip():
             shown, _ = last_lines(text, lines=lines)
-            found += [title, *shown, ""]
+            found += [f"{speak(title)}:", *shown, ""]
     return "\n".join(found)
 
 
 def _test(mark: Mark, report: Report, room: Room, *, show: bool) -> dict[str, Any]:
-    check = mark.check
+    check, speak = mark.check, Speaker(report.lang)
     test: dict[str, Any] = {
-        "name": one_line(check.id, most=60) if show else NOT_SHOWN,
+        "name": one_line(check.id, most=60) if show else speak(UNSEEN),
         "description": one_line(check.title, most=MOST_NAME) if show else "",
         "points": mark.points or 0.0,
         "max_points": rounded(check.max_score),
     }
     if mark.points is None:
-        test["message"] = "These points could be neither given nor taken."
+        test["message"] = speak(say("These points could be neither given nor taken."))
     elif mark.correction and show:
-        test["message"] = mark.correction
+        test["message"] = speak(mark.correction)
     if show:
         text = check_text(mark, report, lines=room.check_lines)
         test["output"] = shorten(text, most=room.check_characters) if room.check_characters else ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import gettext
 import os
 from collections.abc import Iterator
@@ -16,6 +17,7 @@ DOMAIN = "grader"
 FOLDER = Path(__file__).resolve().parent
 LANGUAGES = ("en", "ko")
 SOURCE = "en"  # the language of the templates
+OWN = "GRADER_LANG"  # names the language where the locale cannot: a container has only C.UTF-8
 
 
 class Speaker:
@@ -23,9 +25,7 @@ class Speaker:
 
     def __init__(self, lang: str) -> None:
         self.lang = lang if lang in LANGUAGES else SOURCE
-        self._catalogue: gettext.NullTranslations = gettext.NullTranslations()
-        if self.lang != SOURCE:
-            self._catalogue = gettext.translation(DOMAIN, FOLDER, [self.lang], fallback=True)
+        self._catalogue = _catalogue(self.lang)
 
     def __call__(self, text: str) -> str:
         """Return a text in the language; what is no `Message` (a name, code) stays as it is."""
@@ -36,6 +36,14 @@ class Speaker:
     def _translate(self, template: str) -> str:
         # (the empty msgid is the catalogue's own head)
         return self._catalogue.gettext(template) if template else ""
+
+
+@functools.lru_cache(maxsize=len(LANGUAGES))
+def _catalogue(lang: str) -> gettext.NullTranslations:
+    """Return a language's translations, looked for once: a class has thousands of texts."""
+    if lang == SOURCE:
+        return gettext.NullTranslations()
+    return gettext.translation(DOMAIN, FOLDER, [lang], fallback=True)
 
 
 @contextlib.contextmanager
@@ -50,11 +58,13 @@ def errors_in(lang: str | None) -> Iterator[None]:
 
 
 def chosen_language(environment: Mapping[str, str]) -> str:
-    """Return the language that the environment asks for, as GNU gettext reads it.
+    """Return the language that the environment asks for: GRADER_LANG, else as GNU gettext reads it.
 
     LC_ALL, LC_MESSAGES and LANG in this order say the locale; unless that is C, LANGUAGE names
     the languages in order of preference (GNU gettext manual, "The LANGUAGE variable").
     """
+    if _language(environment.get(OWN, "")) in LANGUAGES:
+        return _language(environment[OWN])
     names = ("LC_ALL", "LC_MESSAGES", "LANG")
     locale = next((environment[name] for name in names if environment.get(name)), "")
     if _language(locale) in ("", "c", "posix"):

@@ -25,22 +25,31 @@ from grader.locale.speaker import FOLDER
 from grader.locale.speaker import LANGUAGES
 from grader.locale.speaker import SOURCE
 
-ROOT = FOLDER.parent
+ROOT = FOLDER.parents[1]
+ROOMS = ("grader", "lab")  # (the lab's texts are here too: it brings no catalogue of its own)
 KEYWORDS = {"say": None, "msg": None}
+TEMPLATE = "jinja2.ext:babel_extract"
 MARKS = "from grader.locale.message import "
 MADE = datetime(2026, 1, 1, tzinfo=timezone.utc)  # the same at every run: only texts make a change
 
 
 def templates() -> Iterator[tuple[str, str]]:
     """Yield every text that is marked for translation, and the file that it is from."""
-    for path in sorted(ROOT.rglob("*.py")):
-        place = path.relative_to(ROOT.parent).as_posix()
+    for path in sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py")):
         if MARKS not in path.read_text(encoding="utf-8"):
             continue  # (a `say` of its own, that prints)
         for _, found, _, _ in extract_from_file("python", path, keywords=KEYWORDS):
-            yield str(found), place
+            yield str(found), _place(path)
+    strict = {"silent": "false"}  # (a template that cannot be read is told)
+    for path in sorted((ROOT / "grader/site/templates").glob("*.j2")):
+        for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
+            yield str(found), _place(path)
     for check in CHECKS.values():
         yield check.title, "grader/checks/all.py"
+
+
+def _place(path: Path) -> str:
+    return path.relative_to(ROOT).as_posix()
 
 
 def po_path(lang: str) -> Path:

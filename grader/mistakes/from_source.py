@@ -13,11 +13,13 @@ from grader.mistakes.from_counter import constant
 from grader.mistakes.from_counter import wrong_start
 from grader.mistakes.from_counter import wrong_step
 from grader.mistakes.kind import Finding
+from grader.mistakes.node_source import NodeSource
 from grader.mistakes.node_source import calls_in
 from grader.mistakes.node_source import dotted
 from grader.mistakes.suspect import Suspect
 
-WAITS = ("input", "time.sleep", "sleep")
+SLEEPS = ("time.sleep", "sleep")
+WAITS = ("input", *SLEEPS)
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 LONG = 100.0  # seconds; a longer period was meant to be milliseconds
 
@@ -91,6 +93,9 @@ def no_lines(suspect: Suspect) -> Finding | None:
         return suspect.finding("timer_other_callback", timer.line, **params)
     if callback is None:
         return None
+    held = _never_ends(suspect)
+    if held is not None:
+        return held
     logs = source.logs(callback)
     if not logs and not source.prints(callback):
         return suspect.finding("log_missing", callback.lineno)
@@ -135,12 +140,51 @@ def by_hand(suspect: Suspect) -> Finding | None:
     return None
 
 
+def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
+    """Return the callback's longest sleep that is written as a number of seconds."""
+    calls = calls_in(source.callback) if source.callback is not None else ()
+    found = [
+        (call, float(call.args[0].value))
+        for call, name in calls
+        if name in SLEEPS
+        and call.args
+        and isinstance(call.args[0], ast.Constant)
+        and isinstance(call.args[0].value, int | float)
+    ]
+    return max(found, key=lambda sleep: sleep[1], default=None)
+
+
+def wrong_period(suspect: Suspect) -> Finding | None:
+    """Look for what keeps the lines apart, where the timer's own period is right."""
+    slept = longest_sleep(suspect.source)
+    timers = [timer.seconds for timer in suspect.source.timers]
+    if slept is None or slept[1] <= suspect.period or timers not in ([suspect.period], [None]):
+        return None
+    return suspect.finding("sleeps_in_callback", slept[0].lineno, seconds=slept[1])
+
+
 def stops(suspect: Suspect) -> Finding | None:
     """Look for what ends the ticks."""
     for call, name in suspect.source.calls:
         if name.endswith((".cancel", ".destroy_timer")):
             return suspect.finding("timer_cancelled", call.lineno)
+    return _never_ends(suspect)
+
+
+def _never_ends(suspect: Suspect) -> Finding | None:
+    """Look for what keeps the callback from returning."""
+    callback = suspect.source.callback
+    for node in ast.walk(callback) if callback is not None else ():
+        if isinstance(node, ast.Call) and dotted(node.func) == "input":
+            return suspect.finding("callback_never_ends", node.lineno, name="input()")
+        if isinstance(node, ast.While) and _goes_on(node):
+            return suspect.finding("callback_never_ends", node.lineno, name="while")
     return None
+
+
+def _goes_on(loop: ast.While) -> bool:
+    left = any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))
+    return isinstance(loop.test, ast.Constant) and bool(loop.test.value) and not left
 
 
 def ends(suspect: Suspect) -> Finding | None:
@@ -167,6 +211,7 @@ LOOKS: dict[str, Look] = {
     "run.twice": twice,
     "run.print_not_logger": printed,
     "run.by_hand": by_hand,
+    "run.wrong_period": wrong_period,
     "run.stops": stops,
     "run.ended_early": ends,
 }

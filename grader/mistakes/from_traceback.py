@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 
+from grader.mistakes import from_call
 from grader.mistakes.kind import Finding
 from grader.mistakes.likeness import nearest
 from grader.mistakes.node_source import LOG_METHODS
@@ -151,30 +152,6 @@ def _other_attribute(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding(slug, name=name, close=close)
 
 
-def _called(raised: Raised, match: re.Match[str]) -> Finding | None:
-    del match
-    called = [timer for timer in raised.source.timers if timer.called]
-    return raised.finding("callback_called", line=called[0].line) if called else None
-
-
-def _swapped(raised: Raised, match: re.Match[str]) -> Finding | None:
-    del match
-    return raised.finding("timer_arguments_swapped") if raised.source.timers else None
-
-
-def _no_self(raised: Raised, match: re.Match[str]) -> Finding:
-    del match
-    found = raised.source.callback
-    return raised.finding("callback_no_self", line=found.lineno if found else None)
-
-
-def _parameter(raised: Raised, match: re.Match[str]) -> Finding | None:
-    method = raised.source.methods.get(match["function"])
-    if method is None or method is not raised.source.callback:
-        return None
-    return raised.finding("callback_parameter", line=method.lineno, name=match["name"])
-
-
 def _concatenated(raised: Raised, match: re.Match[str]) -> Finding:
     del match
     name = "self.counter_"
@@ -186,25 +163,19 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding("str_plus_int", name=name)
 
 
-def _logger_arguments(raised: Raised, match: re.Match[str]) -> Finding | None:
+def _step_is_text(raised: Raised, match: re.Match[str]) -> Finding | None:
     del match
-    logs = [call for call in raised.source.logs(raised.source.tree) if len(call.args) > 1]
-    return raised.finding("logger_arguments", line=logs[0].lineno) if logs else None
-
-
-def _spun_class(raised: Raised, match: re.Match[str]) -> Finding | None:
-    del match
-    names = {found.name for found in raised.source.classes}
-    for call, name in raised.source.calls:
-        given = dotted(call.args[0]) if call.args else ""
-        if name.rpartition(".")[2] == "spin" and given in names:
-            return raised.finding("spin_of_class", line=call.lineno, name=given)
+    for node in ast.walk(raised.source.tree):
+        if isinstance(node, ast.AugAssign) and isinstance(node.value, ast.Constant):
+            step, name = node.value.value, dotted(node.target)
+            if isinstance(step, str) and name:
+                return raised.finding("step_is_text", line=node.lineno, name=name, step=step)
     return None
 
 
 ATTRIBUTE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute "
 RECOGNISERS: tuple[tuple[str, Recognise], ...] = (
-    (r"\w", _spun_class),
+    (r"\w", from_call.spun_class),
     (r"InvalidNodeNameException", _always("name_invalid")),
     (ATTRIBUTE + r"'_\w{1,120}'", _private),
     (r"Node\.__init__\(\) missing 1 required positional argument: 'node_name'", _no_name),
@@ -223,16 +194,24 @@ RECOGNISERS: tuple[tuple[str, Recognise], ...] = (
     (ATTRIBUTE + r"'(?P<name>\w{1,120})'", _attribute),
     (r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
      r"attribute '(?P<name>\w{1,120})'", _other_attribute),
-    (r"'NoneType' object is not callable|'arg_name'|is not a callable object", _called),
-    (r"float\(\) argument must be|must be real number|not '?(?:method|function)'?", _swapped),
+    (r"'NoneType' object is not callable|'arg_name'|is not a callable object", from_call.called),
+    (r"float\(\) argument must be|must be real number|not '?(?:method|function)'?", from_call.swapped),
     (r"could not convert string to float: (?P<text>'[^'\n]{0,60}')", _always("period_text")),
     (r"create_timer\(\) missing", _always("timer_argument_missing")),
-    (r"takes 0 positional arguments but 1 was given|invalid method signature", _no_self),
+    (r"(?:(?P<function>\w{1,120})\(\) )?takes 0 positional arguments but 1 was given"
+     r"|invalid method signature", from_call.no_self),
+    (r"argument: 'self'|'property' object is not iterable", from_call.uncalled_class),
+    (r"Context\.init\(\) must only be called once", from_call.init_twice),
+    (r"descriptor '__init__' requires a 'super' object", _always("super_not_called")),
+    (r"'(?P<type>int|float|str)' object is not callable", _always("not_callable")),
+    (r"unsupported operand type\(s\) for \+=: '(?:int|float)' and 'str'", _step_is_text),
     (r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: "
-     r"'(?P<name>\w{1,120})'", _parameter),
+     r"'(?P<name>\w{1,120})'", from_call.parameter),
     (r"can only concatenate str|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
      _concatenated),
     (r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'", _always("counter_local")),
     (r"takes (?:from \d{1,3} to )?\d{1,3} positional arguments? but \d{1,3} were given",
-     _logger_arguments),
+     from_call.logger_arguments),
+    (r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: "
+     r"'(?P<name>\w{1,120})'", _always("argument_missing")),
 )  # fmt: skip

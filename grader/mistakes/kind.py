@@ -71,6 +71,36 @@ class Kind:
         return Message(self.fixes.get(variant, self.fix), values)
 
 
+@dataclass(frozen=True)
+class Family:
+    """Makes the kinds whose ids begin alike, and that one page of the documentation is about."""
+
+    prefix: str
+    link: str
+
+    def __call__(
+        self,
+        slug: str,
+        stage: Stage,
+        title: str,
+        why: str,
+        fix: str,
+        link: str = "",
+        *,
+        seen: str = "",
+    ) -> Kind:
+        """Return the kind `prefix.slug`."""
+        return Kind(
+            id=f"{self.prefix}.{slug}",
+            stage=stage,
+            title=title,
+            why=why,
+            fix=fix,
+            link=link or self.link,
+            seen=seen,
+        )
+
+
 @dataclass(frozen=True, kw_only=True)
 class Finding:
     """A mistake that was recognised: its kind, what fills the texts, and the place.

@@ -12,6 +12,7 @@ from grader.locale.message import joined
 from grader.locale.message import say
 
 LONGEST = 100  # characters of a text that is marked; a line of a terminal holds as many
+LONGEST_RUN = 12  # characters in a row that are another word, and no slip of the pen
 ALIKE = 0.6  # of 1; less than that, and marks under the one say nothing about the other
 
 
@@ -44,8 +45,14 @@ def marks(found: str, wanted: str) -> str:
     folded = difflib.SequenceMatcher(None, found.lower(), wanted.lower(), autojunk=False)
     if max(matcher.ratio(), folded.ratio()) < ALIKE:
         return ""
+    codes = matcher.get_opcodes()
+    if any(
+        tag != "equal" and end - start > max(LONGEST_RUN, len(found) // 3)
+        for tag, start, end, *_ in codes
+    ):
+        return ""
     line = [" "] * (len(found) + 1)
-    for tag, start, end, _, _ in matcher.get_opcodes():
+    for tag, start, end, *_ in codes:
         if tag != "equal":
             line[start : max(end, start + 1)] = "^" * max(end - start, 1)
     return "".join(line).rstrip()

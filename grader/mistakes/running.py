@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from grader.locale.message import msg
 from grader.mistakes import links
+from grader.mistakes.kind import Family
 from grader.mistakes.kind import Kind
-from grader.mistakes.kind import Stage
 
 SPIN = msg(
     "rclpy.spin(node) is what keeps a node alive: it waits, and calls your callbacks when due."
@@ -18,20 +18,7 @@ RECORD = msg(
 LOG = msg("Write self.get_logger().info(…) in the callback.")
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 
-
-def _run(
-    slug: str,
-    stage: Stage,
-    title: str,
-    why: str,
-    fix: str,
-    link: str = links.FIRST_NODE,
-    *,
-    seen: str = "",
-) -> Kind:
-    return Kind(id=f"run.{slug}", stage=stage, title=title, why=why, fix=fix, link=link, seen=seen)
-
-
+_run = Family("run", links.FIRST_NODE)
 KINDS = (
     _run("died_at_start", "start", msg("the node stops at its start with an exception"),
          msg("An exception that nobody catches ends the program; the last line of the traceback "

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from grader.locale.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
-from grader.mistakes.kind import Stage
+from grader.mistakes.kind import Family
 
 INIT = msg(
     "rclpy's Node sets up all that a node needs in its own __init__: timers, logger and "
@@ -16,20 +15,7 @@ CLOSE = msg("Write {close} instead of {name}.")
 NAMED = ("import_misspelt", "import_name")
 NODES_MADE = msg("rclpy.init() connects the program with ROS; no node can be made before it.")
 
-
-def _node(
-    slug: str,
-    stage: Stage,
-    title: str,
-    why: str,
-    fix: str,
-    link: str = links.FIRST_NODE,
-    *,
-    seen: str = "",
-) -> Kind:
-    return Kind(id=f"node.{slug}", stage=stage, title=title, why=why, fix=fix, link=link, seen=seen)
-
-
+_node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node("no_ros", "start", msg("The file does not use rclpy at all"),
           msg("A program is a ROS node only if it makes one: other programs, ros2 node list and "
@@ -86,6 +72,13 @@ KINDS = (
           seen=r"NotInitializedException"),
     _node("init_late", "start", msg("rclpy.init() is called after the node is made"), NODES_MADE,
           msg("Move rclpy.init(args=args) to the first line of main."), links.RCLPY),
+    _node("init_twice", "start", msg("rclpy.init() is called twice"),
+          msg("rclpy.init() connects the program with ROS; it is an error to do so again."),
+          msg("Keep one rclpy.init(args=args), the first line of main."), links.RCLPY,
+          seen=r"RuntimeError: Context\.init\(\) must only be called once"),
+    _node("class_not_called", "start", msg("The brackets are missing behind the class"),
+          msg("The name of a class alone makes no object; only its call does."),
+          msg("Write {name}() where the node is made."), links.PYTHON_CLASSES),
     _node("context_manager", "start", msg("with rclpy.init() is of a newer ROS"),
           msg("rclpy.init() can be used in a with statement from ROS 2 kilted on; before, it "
               "returns nothing."),
@@ -101,6 +94,14 @@ KINDS = (
           msg("Python calls __init__, with two underscores on both sides, when an object is made. "
               "A function of another name is never called, and Node gets no name."),
           msg("Rename {name} to __init__: two underscores before and after.")),
+    _node("init_no_self", "class", msg("__init__ has no parameter self"),
+          msg("Python hands the new object over to __init__ as its first argument."),
+          msg("Write: def __init__(self):"), links.PYTHON_CLASSES,
+          seen=r"__init__\(\) takes 0 positional arguments but 1 was given"),
+    _node("super_not_called", "class", msg("The brackets are missing behind super"),
+          msg("super alone is a name of Python's; only super() leads to the class that yours "
+              "inherits from."), SUPER, links.PYTHON_CLASSES,
+          seen=r"TypeError: descriptor '__init__' requires a 'super' object"),
     _node("super_missing", "class", msg("super().__init__() is not called"), INIT, SUPER,
           seen=r"AttributeError: '\w{1,120}' object has no attribute '_default_callback_group'"),
     _node("super_late", "class", msg("super().__init__() is called too late"), INIT,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from grader.locale.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
-from grader.mistakes.kind import Stage
+from grader.mistakes.kind import Family
 
 HANDS = msg(
     "create_timer takes the period in seconds and the callback itself, and calls it later. With "
@@ -21,20 +20,7 @@ CLOSE = msg("Write {close} instead of {name}.")
 NAMED = ("method_misspelt", "attribute_not_set", "attribute_unknown", "name_unknown")
 BLOCKS = msg("rclpy.spin(node) waits and calls the callbacks when due, until Ctrl+C.")
 
-
-def _node(
-    slug: str,
-    stage: Stage,
-    title: str,
-    why: str,
-    fix: str,
-    link: str = links.FIRST_NODE,
-    *,
-    seen: str = "",
-) -> Kind:
-    return Kind(id=f"node.{slug}", stage=stage, title=title, why=why, fix=fix, link=link, seen=seen)
-
-
+_node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node("timer_at_class_level", "timer", msg("The timer is made outside of __init__"),
           msg("Lines indented to the class run when the class is defined; there is no self yet."),
@@ -77,18 +63,38 @@ KINDS = (
           seen=r"NameError: name '(?P<name>\w{1,120})' is not defined"),
     _node("callback_no_self", "callback", msg("The callback has no parameter self"), CALLS,
           msg("Write: def {callback}(self):"), links.PYTHON_CLASSES,
-          seen=r"takes 0 positional arguments but 1 was given|ValueError: invalid method signature"),
+          seen=r"(?<!__init__\(\) )takes 0 positional arguments but 1 was given|ValueError: invalid method signature"),
     _node("callback_parameter", "callback", msg("The callback asks for more than self"), CALLS,
           msg("Write: def {callback}(self): (a message is given to a subscription's callback "
               "only)."),
           seen=r"TypeError: [\w.]{0,200}\(\) missing \d{1,3} required positional arguments?: "
                r"'(?P<name>\w{1,120})'"),
+    _node("sleeps_in_callback", "callback", msg("The callback sleeps for longer than the period"),
+          msg("While a callback sleeps, nothing else of the node runs: the timer has to wait, and "
+              "each line comes late."),
+          msg("Take the sleep out of {callback}: the timer alone makes the pauses."),
+          links.EXECUTORS),
     _node("str_plus_int", "text", msg("A text and a number are added"),
           msg("Python joins texts with + only to other texts."),
           msg("Make a text of the number: str({name}), or use an f-string."),
           links.PYTHON_STRINGS,
           seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
                r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'"),
+    _node("step_is_text", "counter", msg("A text is added to the counter"),
+          msg("A number in quotes is a text, and Python adds no text to a number."),
+          msg("Write {name} += {step}, without quotes."), links.PYTHON_CLASSES,
+          seen=r"TypeError: unsupported operand type\(s\) for \+=: '(?:int|float)' and 'str'"),
+    _node("not_callable", "callback", msg("A number or a text is called like a function"),
+          msg("Brackets behind a name call it, and only functions can be called."),
+          msg("Take the brackets away on that line."), links.PYTHON_ERRORS,
+          seen=r"TypeError: '(?P<type>int|float|str)' object is not callable"),
+    _node("argument_missing", "callback", msg("A call gives too few arguments"),
+          msg("A parameter that has no default needs a value at each call."),
+          msg("Give a value for {name} where {function} is called, or take the parameter out of "
+              "your own function."), links.PYTHON_ERRORS),
+    _node("callback_never_ends", "callback", msg("The callback does not come to its end"),
+          msg("The timer can call a callback again only when it has returned."),
+          msg("Take {name} out of {callback}: the timer does the repeating."), links.EXECUTORS),
     _node("logger_not_called", "logger", msg("The brackets are missing behind get_logger"),
           msg("get_logger is a method: only its call gives the logger."),
           msg("Write self.get_logger().info(…)."), links.LOGGING,
@@ -147,7 +153,8 @@ KINDS = (
     _node("f_prefix", "text", msg("The f in front of the text is missing"),
           msg("Only in a text that begins with f does Python replace {{…}} by a value."),
           msg("Write an f in front of the first quote: f'Hello time: {{self.counter_}}'"),
-          links.PYTHON_STRINGS),
+          links.PYTHON_STRINGS,
+          seen=r"^\[[A-Z]{4,5}\] \[\d{1,12}\.\d{9}\] \[[^\]\n]{1,100}\]: [^\n{]{0,200}\{self\.\w{1,60}\}"),
     _node("text_without_number", "text", msg("The counter is not in the text"),
           msg("The number in the line is the counter's value at that moment."),
           msg("Add it to the text: 'Hello time: ' + str(self.counter_)"), links.PYTHON_STRINGS),

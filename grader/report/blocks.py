@@ -50,6 +50,15 @@ def row(check: CheckResult) -> Row:
     )
 
 
+def all_of(names: Sequence[str]) -> str:
+    """Return names as a list in words: `a`, `a and b`, `a, b and c`."""
+    first, last = list(dict.fromkeys(names)), ""
+    if len(first) > 1:
+        last = first.pop()
+    known = joined(*first, by=", ")
+    return say("{names} and {last}", names=known, last=last) if last else known
+
+
 def roots(check: CheckResult, checks: Sequence[CheckResult]) -> list[CheckResult]:
     """Return the checks because of which this one was skipped.
 

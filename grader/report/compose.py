@@ -62,8 +62,8 @@ def compose(
         checks=list(results),
         observed=_observed(run, assignment.output.period),
         evidence=model.Evidence(
-            build_log=_cut(build.log) if build else "",
-            transcript=_cut(run.transcript) if run else "",
+            build_log=_cut(build.log, speak) if build else "",
+            transcript=_cut(run.transcript, speak) if run else "",
         ),
         started="",
     )
@@ -109,9 +109,10 @@ def _observed(run: Run | None, period: float) -> model.Observed:
     )
 
 
-def _cut(text: str) -> str:
+def _cut(text: str, speak: Speaker) -> str:
     """Return a text cut in its middle: how it began and how it ended tell the most."""
     if len(text) <= MOST_EVIDENCE:
         return text
     half = MOST_EVIDENCE // 2
-    return f"{text[:half]}\n… {len(text) - 2 * half} characters left out …\n{text[-half:]}"
+    left_out = say("… {count} characters left out …", count=len(text) - 2 * half)
+    return f"{text[:half]}\n{speak(left_out)}\n{text[-half:]}"

@@ -89,10 +89,11 @@ class LiveProgress:
             case TickSeen(text=text):
                 self._tick = one_line(text, most=60)
             case Note(text=text):
+                told = one_line(self._speak(text), most=500)
                 if self._live is not None:
-                    self._live.console.print(one_line(text, most=500), soft_wrap=True)
+                    self._live.console.print(told, soft_wrap=True)
                 else:
-                    self._print(f"{one_line(text, most=500)}\n")
+                    self._print(f"{told}\n")
 
     def _print(self, text: str) -> None:
         stream = _Sturdy(self._file)

@@ -55,7 +55,7 @@ def report_page(
 
 
 def _head(page: Page, report: Report) -> None:
-    who, env = report.submission, report.environment
+    who = report.submission
     page.line((one_line(report.assignment.title), "bold"))
     page.gap()
     number = f" ({one_line(who.student_id, most=60)})" if who.student_id else ""
@@ -63,14 +63,19 @@ def _head(page: Page, report: Report) -> None:
     none = say("none was found")
     page.field(say("package"), one_line(who.package, most=100) if who.package else none)
     page.code(say("in"), [one_line(who.path, most=4_000)])
-    clock = CLOCKS[report.observed.clock]
-    sandbox = say("sandbox {sandbox}", sandbox=env.sandbox)
-    sandbox = say("no sandbox") if env.sandbox == "none" else sandbox
-    world = [f"ROS 2 {one_line(env.distro, most=40)} ({env.ros})", sandbox, clock]
-    page.field(say("ran on"), joined(*world, by=", "))
+    page.field(say("ran on"), ran_on(report))
     for note in who.notes:
         page.field(say("note"), first_lines(note, lines=3))
     page.gap()
+
+
+def ran_on(report: Report) -> str:
+    """Return in what the package ran: the ROS, the sandbox, the clock."""
+    env = report.environment
+    sandbox = say("sandbox {sandbox}", sandbox=env.sandbox)
+    sandbox = say("no sandbox") if env.sandbox == "none" else sandbox
+    ros = f"ROS 2 {one_line(env.distro, most=40)} ({env.ros})"
+    return joined(ros, sandbox, CLOCKS[report.observed.clock], by=", ")
 
 
 def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:

@@ -12,8 +12,15 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from grader.errors import SurroundingsError
+from grader.locale.message import Message
+from grader.locale.message import msg
 
 Say = Callable[[str], None]
+WAITING = msg("another grader is making the same prefix: waiting for it")
+MORE_SPACE = msg(
+    "Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE to a folder on "
+    "another disk."
+)
 
 
 def cache_root() -> Path:
@@ -38,7 +45,7 @@ def locked(path: Path, *, say: Say) -> Iterator[None]:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            say("another grader is making the same prefix: waiting for it")
+            say(Message(WAITING))
             fcntl.flock(handle, fcntl.LOCK_EX)
         yield
 
@@ -69,9 +76,11 @@ def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
                 shutil.rmtree(staging, ignore_errors=True)
     except OSError as error:
         raise SurroundingsError(
-            f"cannot make {folder}: {error.strerror or error}",
-            remedy="Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE "
-            "to a folder on another disk.",
+            Message(
+                msg("cannot make {path}: {reason}"),
+                {"path": str(folder), "reason": str(error.strerror or error)},
+            ),
+            remedy=Message(MORE_SPACE),
         ) from error
     finally:
         os.umask(old_umask)

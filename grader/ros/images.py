@@ -12,6 +12,8 @@ from typing import Literal
 from typing import get_args
 
 from grader.errors import SurroundingsError
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.ros.cache import cache_root
 from grader.ros.distro import Distro
 from grader.ros.distro import distros
@@ -31,7 +33,7 @@ VERSIONS = "/opt/ros/versions.json"
 OLDEST_API = (1, 40)  # Docker 19.03
 FIRST_ANSWER_SECONDS = 20.0  # a daemon that hangs must not hang us
 ANSWER_SECONDS = 120.0
-WITHOUT = "Without Docker: SANDBOX=bubblewrap."
+WITHOUT = say("Without Docker: SANDBOX=bubblewrap.")
 
 
 def image_name(distro: Distro, stage: Stage | Literal["base"], base: Base) -> str:
@@ -58,9 +60,12 @@ def connect() -> DockerClient:
     client.api.timeout = int(ANSWER_SECONDS)
     if tuple(int(part) for part in version.split(".")[:2]) < OLDEST_API:
         raise SurroundingsError(
-            f"this Docker daemon is too old (API {version}; {'.'.join(map(str, OLDEST_API))} is "
-            "needed)",
-            remedy=f"Update Docker to 19.03 or newer. {WITHOUT}",
+            say(
+                "this Docker daemon is too old (API {version}; {needed} is needed)",
+                version=version,
+                needed=".".join(map(str, OLDEST_API)),
+            ),
+            remedy=joined(say("Update Docker to 19.03 or newer."), WITHOUT),
         )
     return client
 
@@ -68,15 +73,25 @@ def connect() -> DockerClient:
 def _unreachable(said: str) -> SurroundingsError:
     if "Permission denied" in said or "PermissionError" in said:
         return SurroundingsError(
-            "you may not use the Docker daemon: its socket is closed to this user",
-            remedy="Join the group `docker` (sudo usermod -aG docker $USER, then log in again; that "
-            f"is as good as root), or use rootless Docker. {WITHOUT}",
+            say("you may not use the Docker daemon: its socket is closed to this user"),
+            remedy=joined(
+                say(
+                    "Join the group `docker` (sudo usermod -aG docker $USER, then log in again; "
+                    "that is as good as root), or use rootless Docker."
+                ),
+                WITHOUT,
+            ),
         )
-    address = os.environ.get("DOCKER_HOST", "its socket")
+    address = os.environ.get("DOCKER_HOST") or say("its socket")
     return SurroundingsError(
-        f"no Docker daemon answers at {address}",
-        remedy="Start it (sudo systemctl start docker), or install it (Debian and Ubuntu: sudo "
-        f"apt-get install docker.io). {WITHOUT}",
+        say("no Docker daemon answers at {address}", address=address),
+        remedy=joined(
+            say(
+                "Start it (sudo systemctl start docker), or install it (Debian and Ubuntu: sudo "
+                "apt-get install docker.io)."
+            ),
+            WITHOUT,
+        ),
     )
 
 

@@ -20,6 +20,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.errors import SurroundingsError
+from grader.locale.message import Message
+from grader.ros import prefix_texts as texts
 from grader.ros.cache import Say
 from grader.ros.cache import cache_root
 from grader.ros.cache import make_once
@@ -71,8 +73,8 @@ def find_ros(distro: Distro, *, say: Say = print) -> Ros:
     if choice == "system" or (choice == "auto" and is_system):
         if not is_system:
             raise SurroundingsError(
-                f"there is no ROS {distro.name} at {system}",
-                remedy="Install it, or unset GRADER_ROS to use PyPI's wheels.",
+                Message(texts.NO_ROS, {"distro": distro.name, "path": str(system)}),
+                remedy=Message(texts.INSTALL),
             )
         python = Path("/usr/bin/python3").resolve()
         return Ros(distro, "system", system, python, _system_versions(system))
@@ -89,15 +91,20 @@ def prefix_path(distro: Distro) -> Path:
     python = ".".join(platform.python_version_tuple()[:2])
     if distro.lock is None:
         raise SurroundingsError(
-            f"PyPI has no ROS wheels for {distro.name}",
-            remedy="Use DISTRO=jazzy or DISTRO=kilted, or a machine that has ROS "
-            f"{distro.name} at /opt/ros/{distro.name}.",
+            Message(texts.NO_WHEELS, {"distro": distro.name}),
+            remedy=Message(texts.OTHER_DISTRO, {"distro": distro.name}),
         )
     if platform.machine() != "x86_64" or sys.platform != "linux" or python not in PYTHONS:
         raise SurroundingsError(
-            f"PyPI's ROS wheels are for Linux x86_64 and Python {', '.join(PYTHONS)}; "
-            f"this is {sys.platform} {platform.machine()} and Python {python}",
-            remedy="Run the grader with one of those Pythons, e.g. `make setup PYTHON=python3.12`.",
+            Message(
+                texts.OTHER_PLATFORM,
+                {
+                    "versions": ", ".join(PYTHONS),
+                    "system": f"{sys.platform} {platform.machine()}",
+                    "python": python,
+                },
+            ),
+            remedy=Message(texts.OTHER_PYTHON),
         )
     key = hashlib.sha256(f"{FORMAT} {base_interpreter()}".encode())
     key.update(distro.lock.read_bytes())
@@ -113,9 +120,9 @@ def wheels_prefix(distro: Distro, *, say: Say = print) -> Path:
     """Return the wheels prefix of a distro, made now if it is not in the cache."""
     folder = prefix_path(distro)
     if not folder.is_dir():
-        say(f"making the ROS {distro.name} prefix from PyPI's wheels (300 MB, once)")
+        say(Message(texts.MAKING, {"distro": distro.name}))
         make_once(folder, lambda staging: _make(distro, staging, say), say=say)
-        say(f"ROS {distro.name} is ready in {folder}")
+        say(Message(texts.READY, {"distro": distro.name, "path": str(folder)}))
     return folder
 
 
@@ -164,14 +171,13 @@ def _install(distro: Distro, staging: Path, say: Say) -> None:
             if line.startswith("Collecting "):
                 seen += 1
                 if seen % 25 == 0:
-                    say(f"  {seen} of about {total} wheels")
+                    say(Message(texts.PROGRESS, {"seen": seen, "total": total}))
             elif line.startswith("Installing collected"):
-                say("  unpacking")
+                say(Message(texts.UNPACKING))
     if pip.returncode:
         raise SurroundingsError(
-            f"pip could not install the ROS {distro.name} wheels:\n" + "".join(tail).rstrip(),
-            remedy="Check the network (a proxy: HTTPS_PROXY; an own certificate: PIP_CERT), then "
-            "run the command again.",
+            Message(texts.PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),
+            remedy=Message(texts.CHECK_NETWORK),
         )
 
 

@@ -25,6 +25,7 @@ from typing import IO
 
 from grader.errors import SurroundingsError
 from grader.limits import Limits
+from grader.locale.message import say
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE
 from grader.sandbox.base import HOME
@@ -44,11 +45,14 @@ FIRST_UID = 61_000
 UIDS = 4_000
 END_SECONDS = 10.0
 POLL_SECONDS = 0.02
+NOT_ALLOWED = say("unprivileged user namespaces are not allowed here")
+FILTERED = say("namespaces are not allowed here (a container's seccomp filter?)")
+USED_UP = say("the kernel allows no more user namespaces")
 CAUSES = (
-    ("setting up uid map", "unprivileged user namespaces are not allowed here"),
-    ("No permissions to create", "unprivileged user namespaces are not allowed here"),
-    ("Operation not permitted", "namespaces are not allowed here (a container's seccomp filter?)"),
-    ("Creating new namespace failed", "the kernel allows no more user namespaces"),
+    ("setting up uid map", NOT_ALLOWED),
+    ("No permissions to create", NOT_ALLOWED),
+    ("Operation not permitted", FILTERED),
+    ("Creating new namespace failed", USED_UP),
 )
 
 
@@ -244,7 +248,11 @@ class Bubblewrap(LocalSandbox):
         self._holder.wait()
         said = stream.read().decode(errors="replace").strip()
         return SurroundingsError(
-            f"bubblewrap cannot make a sandbox: {_cause(said)}\n  it said: {said or 'nothing'}",
+            say(
+                "bubblewrap cannot make a sandbox: {cause}\n  it said: {output}",
+                cause=_cause(said),
+                output=said or "-",
+            ),
             remedy=_remedy(said),
         )
 
@@ -253,25 +261,25 @@ def _cause(said: str) -> str:
     for mark, cause in CAUSES:
         if mark in said:
             return cause
-    return "its call failed"
+    return say("its call failed")
 
 
 def _remedy(said: str) -> str:
     restricted = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
     if restricted.is_file() and restricted.read_text().strip() == "1":
-        return (
-            "This system's AppArmor blocks them (Ubuntu 24.04 and later do). Either give bwrap an AppArmor profile with "
-            "`userns,` (see docs/sandboxes.md), or run the grader as root."
+        return say(
+            "This system's AppArmor blocks them (Ubuntu 24.04 and later do). Either give bwrap an "
+            "AppArmor profile with `userns,` (see docs/sandboxes.md), or run the grader as root."
         )
     if Path("/.dockerenv").exists() or Path("/run/.containerenv").exists():
-        return (
+        return say(
             "Inside a container: start it with `--security-opt seccomp=unconfined "
             "--security-opt apparmor=unconfined --cap-add SYS_ADMIN`, or, if the container is "
             "thrown away after each submission, use SANDBOX=account as root."
         )
-    if "user namespaces" in _cause(said):
-        return "Allow them (sysctl user.max_user_namespaces=15000), or run the grader as root."
-    return "Report this with its text."
+    if _cause(said) in (NOT_ALLOWED, USED_UP):
+        return say("Allow them (sysctl user.max_user_namespaces=15000), or run the grader as root.")
+    return say("Report this with its text.")
 
 
 def system_mounts() -> Iterator[str]:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.limits import Limits
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.ros.cache import Say
 from grader.ros.distro import Distro
 from grader.ros.prefix import find_ros
@@ -23,10 +26,9 @@ def check_name(name: str) -> None:
     """Raise UsageError (with a "did you mean") if there is no sandbox of that name."""
     if name not in NAMES:
         close = difflib.get_close_matches(name.lower(), NAMES, n=1)
-        hint = f"did you mean '{close[0]}'? " if close else ""
-        raise UsageError(
-            f"there is no sandbox '{name}'", remedy=f"{hint}Sandboxes: {', '.join(NAMES)}."
-        )
+        hint = say("did you mean '{name}'?", name=close[0]) if close else ""
+        known = say("Sandboxes: {names}.", names=", ".join(NAMES))
+        raise UsageError(say("there is no sandbox '{name}'", name=name), remedy=joined(hint, known))
 
 
 def open_sandbox(
@@ -47,9 +49,14 @@ def open_sandbox(
                 return sandbox.__enter__()
         except SurroundingsError as error:
             tried.append(error)
-    raise SurroundingsError(
-        "no sandbox to mark in: " + "\n".join(dict.fromkeys(error.message for error in tried)),
-        remedy="\n".join(dict.fromkeys(error.remedy for error in tried if error.remedy)),
+    raise _none_opened(tried)
+
+
+def _none_opened(tried: Sequence[SurroundingsError]) -> SurroundingsError:
+    reasons = joined(*dict.fromkeys(error.message for error in tried), by="\n")
+    return SurroundingsError(
+        say("no sandbox to mark in: {reasons}", reasons=reasons),
+        remedy=joined(*dict.fromkeys(error.remedy for error in tried), by="\n"),
     )
 
 

@@ -20,6 +20,7 @@ from pathlib import Path
 import pexpect
 
 from grader.errors import SurroundingsError
+from grader.locale.message import say
 from grader.sandbox.base import COLUMNS
 from grader.sandbox.base import PATH
 from grader.sandbox.base import ROWS
@@ -246,8 +247,10 @@ def need(program: str, found: str | None) -> str:
     """Return the path of a program that a sandbox needs; SurroundingsError where it is missing."""
     if found is None:
         raise SurroundingsError(
-            f"the program {program} is missing",
-            remedy="Install it (Debian and Ubuntu: `sudo apt-get install bubblewrap util-linux "
-            "coreutils`).",
+            say("the program {program} is missing", program=program),
+            remedy=say(
+                "Install it (Debian and Ubuntu: `sudo apt-get install bubblewrap util-linux "
+                "coreutils`)."
+            ),
         )
     return found

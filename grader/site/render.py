@@ -19,11 +19,17 @@ from markupsafe import Markup
 from markupsafe import escape
 
 from grader.batch.model import Student
+from grader.locale.message import Message
+from grader.locale.message import say
+from grader.locale.speaker import SOURCE
+from grader.locale.speaker import Speaker
 from grader.report.blocks import WORDS
+from grader.report.blocks import all_of
 from grader.report.plain import one_line
 from grader.report.plain import points
 from grader.report.plain import shorten
 from grader.report.plain import visible
+from grader.report.report_page import hidden_checks
 from grader.site.words import SIGNS
 from grader.site.words import STATES
 from grader.site.words import duration
@@ -36,12 +42,15 @@ MOST_NAME = 120
 
 
 class Renderer:
-    """Makes pages of the templates; `values` are known in all of them."""
+    """Makes pages of the templates in one language; `values` are known in all of them.
 
-    def __init__(self, **values: object) -> None:
+    What a template marks with `say` is said in the language where it comes out.
+    """
+
+    def __init__(self, *, lang: str = SOURCE, **values: object) -> None:
         self._css = (TEMPLATES / "site.css").read_text(encoding="utf-8")
         self._js = (TEMPLATES / "site.js").read_text(encoding="utf-8")
-        self._environment = _environment()
+        self._environment = _environment(Speaker(lang))
         self._environment.globals.update(values)
 
     def page(self, template: str, *, script: bool, **values: object) -> bytes:
@@ -53,17 +62,21 @@ class Renderer:
         return text.encode()
 
 
-def _environment() -> Environment:
+def _environment(speak: Speaker) -> Environment:
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
         undefined=StrictUndefined,
-        finalize=_tamed,
+        finalize=lambda value: _tamed(speak(value) if isinstance(value, Message) else value),
         trim_blocks=True,
         lstrip_blocks=True,
     )
     environment.filters.update(seconds="{:.3f} s".format, whole=_whole)
     environment.globals.update(
+        lang=speak.lang,
+        say=say,
+        all_of=all_of,
+        hidden_checks=hidden_checks,
         states=STATES,
         signs=SIGNS,
         words=WORDS,

@@ -7,14 +7,24 @@ from datetime import timezone
 
 from grader.batch.model import EntryStatus
 from grader.batch.model import System
+from grader.locale.message import Message
+from grader.locale.message import joined
+from grader.locale.message import msg
+from grader.locale.message import say
 
 MINUTE, HOUR, DAY = 60, 3_600, 86_400  # seconds
+UNITS = (
+    (DAY, msg("{count} d")),
+    (HOUR, msg("{count} h")),
+    (MINUTE, msg("{count} min")),
+    (1, msg("{count} s")),
+)
 
 STATES: dict[EntryStatus, str] = {
-    "graded": "graded",
-    "ungradable": "ungradable",
-    "missing": "nothing handed in",
-    "pending": "not marked yet",
+    "graded": say("graded"),
+    "ungradable": say("ungradable"),
+    "missing": say("nothing handed in"),
+    "pending": say("not marked yet"),
 }
 SYSTEMS: dict[System, str] = {
     "folders": "a folder of folders",
@@ -39,14 +49,17 @@ def instant(value: datetime | None) -> str:
 def duration(seconds: float) -> str:
     """Return a duration in its two greatest units: 4.2 s, 12 min, 2 h 10 min, 3 d 4 h."""
     if seconds < MINUTE:
-        return f"{seconds:.1f} s"
-    units = ((DAY, "d"), (HOUR, "h"), (MINUTE, "min"), (1, "s"))
-    for (unit, name), (less, less_name) in zip(units, units[1:]):
+        return say("{count} s", count=f"{seconds:.1f}")
+    for (unit, words), (less, less_words) in zip(UNITS, UNITS[1:]):
         if seconds >= unit:
             great, rest = divmod(int(seconds), unit)
             small = rest // less
-            return f"{great} {name} {small} {less_name}" if small else f"{great} {name}"
+            return joined(_counted(words, great), _counted(less_words, small) if small else "")
     return ""
+
+
+def _counted(words: str, count: int) -> Message:
+    return Message(words, {"count": count})
 
 
 def plural(count: int, one: str, many: str = "") -> str:

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from grader.assignment import Assignment
+from grader.errors import AssignmentError
 from grader.validate import in_files
 from grader.validate import in_setup
 from grader.validate import in_source
@@ -15,36 +16,49 @@ from grader.validate.spots import Code
 from grader.validate.tree import Edit
 from grader.validate.tree import Tree
 from grader.validate.tree import Write
-
-SETUP = "setup.py"
+from grader.validate.tree import text_of
 
 
 def generate(original: Tree, assignment: Assignment) -> Iterator[Mutant]:
     """Yield the automatic mutants of a solution; names are unique, the order is always the same.
 
     A change of the node after which Python cannot read it is a mutant too: it must fail at
-    `source.node_file`.
+    `source.node_file`. What only checks that the assignment does not use could see is left out.
+    Raises AssignmentError for a solution that nothing can be made of.
     """
+    for path in in_files.needed(assignment):
+        if path not in original:
+            raise AssignmentError(f"the solution of {assignment.id} has no file {path}")
+    checks = [use.id for use in assignment.checks]
     used: Counter[str] = Counter()
     for name, edits, families in _made(original, assignment):
         used[name] += 1
         unique = name if used[name] == 1 else f"{name} #{used[name]}"
-        yield Mutant(name=unique, edits=edits, families=families)
+        mutant = Mutant(name=unique, edits=edits, families=families)
+        if any(mutant.is_hit_by(check) for check in checks):
+            yield mutant
 
 
 def _made(
     original: Tree, assignment: Assignment
 ) -> Iterator[tuple[str, tuple[Edit, ...], tuple[str, ...]]]:
     yield from in_files.mutants_of(original, assignment)
-    setup = Code(original[SETUP].data.decode())
+    setup = _read(original, in_files.SETUP)
     for name, text, families in in_setup.mutants_of(setup, assignment):
-        yield name, (Write(SETUP, text.encode()),), families
+        yield name, (Write(in_files.SETUP, text.encode()),), families
     node = f"{assignment.package}/{assignment.node_file}"
-    for name, text, families in in_source.mutants_of(
-        Code(original[node].data.decode()), assignment
-    ):
+    for name, text, families in in_source.mutants_of(_read(original, node), assignment):
         where = families if _parses(text) else ("source.node_file",)
         yield name, (Write(node, text.encode()),), where
+
+
+def _read(original: Tree, path: str) -> Code:
+    code = Code(text_of(original, path))
+    try:
+        compile(code.tree, path, "exec")
+    except (SyntaxError, ValueError) as error:
+        raise AssignmentError(f"the solution's {path} is no Python: {error}") from None
+    return code
 
 
 def _parses(text: str) -> bool:

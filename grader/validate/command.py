@@ -3,39 +3,38 @@
 from __future__ import annotations
 
 import fnmatch
-import os
 import time
 from collections.abc import Callable
-from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import replace
 from pathlib import Path
 
 from grader.checks.all import CHECKS
-from grader.errors import AssignmentError
 from grader.errors import UsageError
 from grader.mistakes.catalogue import CATALOGUE
-from grader.ordering import _assignment_files as assignment_files
+from grader.ordering import assignment_files
 from grader.runner import Order
+from grader.submission import Submission
 from grader.validate.automatic import generate
 from grader.validate.marking import Marked
+from grader.validate.marking import mark_all
 from grader.validate.marking import mark_files
-from grader.validate.marking import mark_path
-from grader.validate.marking import mutate
+from grader.validate.marking import submit
+from grader.validate.marking import submit_path
 from grader.validate.matrix import Matrix
 from grader.validate.matrix import Row
 from grader.validate.matrix import as_json
-from grader.validate.matrix import ordered
 from grader.validate.mutant import Mutant
-from grader.validate.named import Catalogued
+from grader.validate.named import MUTANTS
+from grader.validate.named import Written
 from grader.validate.named import read_mutants
-from grader.validate.pool import mark_all
 from grader.validate.tree import Tree
 from grader.validate.tree import digest
 from grader.validate.tree import read_tree
 
 KEYS = Path(__file__).resolve().parents[1] / "keys"
 TELLS_EACH = 10.0  # seconds between two lines of progress
+SOLUTION, STARTER = "the solution", "the starter"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,14 +42,15 @@ class Wish:
     """What is to be validated: `order` says how to mark (its path is not looked at).
 
     `keys` has the solution and mutants.yaml, `starter` what students begin with (None: nothing).
-    `static`: only the mutants whose files decide them; `only`: those whose name fits the pattern.
+    `static`: only the mutants whose files decide them; `only`: those whose name fits the pattern;
+    `workers`: how many are marked at once (0: as a class is).
     """
 
     order: Order
     keys: Path
     starter: Path | None = None
     static: bool = False
-    jobs: int = 0
+    workers: int = 0
     only: str = "*"
 
 
@@ -61,40 +61,24 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
     """
     begin = time.monotonic()
     assignment = wish.order.assignment
-    solution = wish.keys / "solution"
-    if not (solution / assignment.package).is_dir():
-        raise UsageError(
-            f"there is no solution of {assignment.id} in {solution}",
-            remedy=f"Put the package into {solution / assignment.package}.",
-        )
-    original = read_tree(solution / assignment.package)
+    original = _solution(wish)
     mutants = collect(wish, original)
     chosen = [m for m in mutants if fnmatch.fnmatchcase(m.name, wish.only)]
     if not chosen:
         raise UsageError(f"no mutant has a name like '{wish.only}'")
     marked, waiting = _by_files(chosen, original, wish.order)
-    ends: list[Marked | None] = [None, None]
-    if wish.static:
-        waiting = []
-    else:
-        jobs = wish.jobs or (os.cpu_count() or 1) + 1
-        say(
-            f"{len(marked)} mutants decided by their files, {len(waiting)} to be run, {jobs} at once"
-        )
-        ends = [
-            mark_path(name, replace(wish.order, path=path)) if path else None
-            for name, path in (("solution", solution), ("starter", wish.starter))
-        ]
-        marked |= _by_running(waiting, wish.order, jobs, say)
-    rows = [Row(m, marked[m.name]) for m in chosen if m.name in marked]
+    if not wish.static:
+        say(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
+        marked |= _by_running({**_ends(wish), **waiting}, wish, say)
+    rows = tuple(Row(m, marked[m.name]) for m in chosen if m.name in marked)
     return Matrix(
         assignment=assignment.id,
         checks=tuple(c for c in CHECKS if c in {use.id for use in assignment.checks}),
         max_score=assignment.max_score,
-        rows=ordered(rows, [m.name for m in chosen]),
+        rows=rows,
         left_out=len(mutants) - len(rows),
-        solution=ends[0],
-        starter=ends[1],
+        solution=marked.get(SOLUTION),
+        starter=marked.get(STARTER),
         seconds=time.monotonic() - begin,
     )
 
@@ -102,24 +86,20 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
 def collect(wish: Wish, original: Tree) -> list[Mutant]:
     """Return the named mutants and the automatic ones that none of them is already."""
     assignment = wish.order.assignment
+    automatic = tuple(generate(original, assignment))
     ids = [use.id for use in assignment.checks]
-    path = wish.keys / "mutants.yaml"
-    written = Catalogued()
-    if path.is_file():
-        written = read_mutants(path, checks=ids, mistakes=CATALOGUE)
-    found = list(written.mutants)
-    seen = {digest(original)} | {digest(mutate(mutant, original)) for mutant in found}
-    used = set()
-    for mutant in generate(original, assignment):
-        key = digest(mutate(mutant, original))
+    path = wish.keys / MUTANTS
+    written = read_mutants(path, checks=ids, mistakes=CATALOGUE) if path.is_file() else Written()
+    seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
+    made = []
+    for mutant in automatic:
+        key = digest(mutant.of(original))
         if key not in seen:
             seen.add(key)
-            used.add(mutant.name)
-            found.append(replace(mutant, equivalent=written.equivalent.get(mutant.name, "")))
-    for name in written.equivalent:
-        if name not in used:
-            raise AssignmentError(f"{path}: 'equivalent' explains '{name}', which is no mutant")
-    return found
+            made.append(mutant)
+    whys = written.explained(mutant.name for mutant in made)
+    explained = [replace(mutant, equivalent=whys.get(mutant.name, "")) for mutant in made]
+    return [*written.mutants, *explained]
 
 
 def starter_of(assignment: str) -> Path | None:
@@ -137,29 +117,49 @@ def write_json(matrix: Matrix, path: Path) -> None:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
+def _solution(wish: Wish) -> Tree:
+    assignment = wish.order.assignment
+    folder = wish.keys / "solution" / assignment.package
+    if not folder.is_dir():
+        raise UsageError(
+            f"there is no solution of {assignment.id}: no folder {folder}",
+            remedy="Put the package there, or name the folder above 'solution' with --keys.",
+        )
+    return read_tree(folder)
+
+
+def _ends(wish: Wish) -> dict[str, Submission]:
+    """Return what must have full marks, and what must not."""
+    ends = {SOLUTION: submit_path(wish.keys / "solution", wish.order)}
+    if wish.starter is not None:
+        ends[STARTER] = submit_path(wish.starter, wish.order)
+    return ends
+
+
 def _by_files(
-    mutants: Sequence[Mutant], original: Tree, order: Order
-) -> tuple[dict[str, Marked], list[tuple[str, Tree]]]:
+    mutants: list[Mutant], original: Tree, order: Order
+) -> tuple[dict[str, Marked], dict[str, Submission]]:
     """Mark those whose files decide them; return what was found, and what has to be run."""
     marked = {}
-    waiting = []
+    waiting = {}
     for mutant in mutants:
-        tree = mutate(mutant, original)
-        found = mark_files(mutant.name, tree, order) if mutant.may_be_static else None
+        submission = submit(mutant.of(original), order)
+        found = mark_files(submission, order) if mutant.may_be_static else None
         if found and any(mutant.is_hit_by(check) for check in found.failed):
             marked[mutant.name] = found
         else:
-            waiting.append((mutant.name, tree))
+            waiting[mutant.name] = submission
     return marked, waiting
 
 
 def _by_running(
-    waiting: Sequence[tuple[str, Tree]], order: Order, jobs: int, say: Callable[[str], None]
+    waiting: dict[str, Submission], wish: Wish, say: Callable[[str], None]
 ) -> dict[str, Marked]:
+    """Mark what has to be built and run, and tell how far it is."""
     marked: dict[str, Marked] = {}
     begin = told = time.monotonic()
-    for found in mark_all(waiting, order, jobs=jobs):
-        marked[found.name] = found
+    for name, found in mark_all(waiting.items(), wish.order, workers=wish.workers):
+        marked[name] = found
         now = time.monotonic()
         if now - told >= TELLS_EACH:
             told = now

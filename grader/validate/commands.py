@@ -12,9 +12,7 @@ from grader import options
 @click.command()
 @click.argument("assignment", metavar="ASSIGNMENT")
 @click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
-@click.option(
-    "--jobs", type=click.IntRange(1), help="How many are run at once (default: cores + 1)."
-)
+@click.option("--workers", type=click.IntRange(min=1), help="How many are marked at once.")
 @click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
 @click.option(
     "--json",
@@ -33,7 +31,7 @@ from grader import options
 def validate(
     assignment: str,
     static: bool,
-    jobs: int | None,
+    workers: int | None,
     only: str,
     json_file: Path | None,
     keys: Path | None,
@@ -57,7 +55,7 @@ def validate(
         keys=keys or command.KEYS / order.assignment.id,
         starter=command.starter_of(assignment),
         static=static,
-        jobs=jobs or 0,
+        workers=workers or 0,
         only=only,
     )
     found = command.validate(wish, say=lambda text: click.echo(text, err=True))

@@ -9,49 +9,61 @@ import re
 from collections.abc import Iterator
 
 from grader.assignment import Assignment
+from grader.validate.spots import misspelt
 from grader.validate.tree import Chmod
 from grader.validate.tree import Copy
 from grader.validate.tree import Crlf
 from grader.validate.tree import Delete
 from grader.validate.tree import Edit
+from grader.validate.tree import Move
 from grader.validate.tree import Nest
 from grader.validate.tree import Tree
 from grader.validate.tree import Write
+from grader.validate.tree import text_of
 
 Made = tuple[str, tuple[Edit, ...], tuple[str, ...]]
 ANY = ("package.", "source.", "build.", "entry_point.", "run.")
 MANIFEST = "package.xml"
+SETUP = "setup.py"
 CFG = "setup.cfg"
 REPEATED = ("maintainer", "license", "author", "url")  # REP 149 allows several
+
+
+def needed(assignment: Assignment) -> tuple[str, ...]:
+    """Return the files that a package of this assignment cannot do without."""
+    package = assignment.package
+    inner = (f"{package}/__init__.py", f"{package}/{assignment.node_file}")
+    return (MANIFEST, SETUP, CFG, f"resource/{package}", *inner)
 
 
 def mutants_of(tree: Tree, assignment: Assignment) -> Iterator[Made]:
     """Yield every mutant of the package's files."""
     node = f"{assignment.package}/{assignment.node_file}"
     yield from _layout(tree, assignment)
-    yield from _manifest(tree[MANIFEST].data.decode(), assignment)
-    yield from _cfg(tree[CFG].data.decode(), assignment)
+    yield from _manifest(text_of(tree, MANIFEST), assignment)
+    yield from _cfg(text_of(tree, CFG), assignment)
     yield from _script(tree, node)
 
 
 def _layout(tree: Tree, assignment: Assignment) -> Iterator[Made]:
-    for path, entry in tree.items():
+    package = assignment.package
+    for path in needed(assignment):
+        entry = tree[path]
         folder, _, name = path.rpartition("/")
         stem, dot, suffix = name.partition(".")
-        other = f"{stem[:-2]}{stem[-1]}{dot}{suffix}"
+        other = f"{misspelt(stem)}{dot}{suffix}"
         to = f"{folder}/{other}" if folder else other
         yield f"delete {path}", (Delete(path),), ANY
-        yield f"rename {path}", (Copy(path, to, moved=True),), ANY
+        yield f"rename {path}", (Move(path, to),), ANY
         if folder:
-            yield f"move {path} up", (Copy(path, name + "_", moved=True),), ANY
+            yield f"move {path} up", (Move(path, name + "_"),), ANY
         if entry.data:
             yield f"empty {path}", (Write(path, b""),), ANY
             yield f"Word document for {path}", (Write(path, b"PK\3\4\x14\0\6\0\0\0!\0"),), ANY
-    package = assignment.package
-    for folder in sorted({path.partition("/")[0] for path in tree if "/" in path}):
+    for folder in ("resource", package):
         yield f"delete folder {folder}", (Delete(folder),), ANY
-        yield f"rename folder {folder}", (Copy(folder, f"{folder}s", moved=True),), ANY
-        yield f"folder {folder} in src", (Copy(folder, f"src/{folder}", moved=True),), ANY
+        yield f"rename folder {folder}", (Move(folder, f"{folder}s"),), ANY
+        yield f"folder {folder} in src", (Move(folder, f"src/{folder}"),), ANY
     nested = (Nest(f"src/{package}"), Copy(f"src/{package}", f"src/{package}_copy"))
     yield "copy of the package beside it", nested, ("package.found",)
 
@@ -150,7 +162,7 @@ def _script(tree: Tree, path: str) -> Iterator[Made]:
     for mode in (0o644, 0o600, 0o666, 0o444, 0o000):
         yield f"mode {mode:04o}", (Chmod(path, mode),), ("source.exec_bit",)
     encoding = ("source.",)
-    yield "node in UTF-16", (Write(path, data.decode().encode("utf-16")),), encoding
+    yield "node in UTF-16", (Write(path, text_of(tree, path).encode("utf-16")),), encoding
     yield "node with tabs", (Write(path, data.replace(b"        ", b"\t", 1)),), encoding
     yield "node with a bracket lost", (Write(path, data.replace(b")", b"", 1)),), encoding
     yield "node with a colon lost", (Write(path, data.replace(b":\n", b"\n", 1)),), encoding

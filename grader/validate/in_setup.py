@@ -9,8 +9,10 @@ import ast
 from collections.abc import Iterator
 
 from grader.assignment import Assignment
+from grader.errors import AssignmentError
 from grader.validate.in_source import Made
 from grader.validate.spots import Code
+from grader.validate.spots import misspelt
 
 ANY = ("package.", "source.", "build.", "entry_point.", "run.")
 ENTRY = ("entry_point.mapping", "build.colcon")
@@ -29,10 +31,10 @@ def mutants_of(code: Code, assignment: Assignment) -> Iterator[Made]:
 
 
 def _setup(code: Code) -> ast.Call:
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if isinstance(node, ast.Call) and code.of(node.func).endswith("setup"):
             return node
-    raise ValueError("the solution's setup.py calls no setup()")
+    raise AssignmentError("the solution's setup.py calls no setup()")
 
 
 def _decisive(code: Code) -> Iterator[ast.AST]:
@@ -49,7 +51,7 @@ def _keywords(code: Code) -> Iterator[Made]:
             text = code.put(keyword, "")
             gone = "\n".join(line for line in text.split("\n") if line.strip() != ",")
             yield f"setup.py without {keyword.arg}", gone, ANY
-            new = f"{keyword.arg[:-2]}{keyword.arg[-1]}={code.of(keyword.value)}"
+            new = f"{misspelt(keyword.arg)}={code.of(keyword.value)}"
             yield f"setup.py misspells {keyword.arg}", code.put(keyword, new), ANY
 
 
@@ -81,7 +83,7 @@ def _names(code: Code) -> Iterator[Made]:
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and len(node.value) > 3:
             if " = " in node.value or id(node) in code.docstrings:
                 continue
-            new = repr(node.value[:-2] + node.value[-1])
+            new = repr(misspelt(node.value))
             yield f"setup.py misspells {node.value!r}", code.put(node, new), ANY
 
 
@@ -122,7 +124,7 @@ def _entry(code: Code, assignment: Assignment) -> Iterator[Made]:
             "package lost": f"{name} = {file}:{function}",
             "package doubled": f"{name} = {module.partition('.')[0]}.{target}",
             "package only": f"{name} = {module.partition('.')[0]}:{function}",
-            "module misspelt": f"{name} = {module[:-2]}{module[-1]}:{function}",
+            "module misspelt": f"{name} = {misspelt(module)}:{function}",
             "module capital": f"{name} = {module.partition('.')[0]}.{file.title()}:{function}",
             "blank in target": f"{name} = {module} :{function} x",
             "quote in entry": f"'{name} = {target}'",

@@ -11,16 +11,19 @@ from itertools import pairwise
 
 from grader.assignment import Assignment
 from grader.validate.spots import Code
+from grader.validate.spots import misspelt
 
 Made = tuple[str, str, tuple[str, ...]]
 ANY = ("run.", "source.", "entry_point.")
+TEXTS = ("run.output", "run.node_name", "run.starts")
 COUNTS = ("run.output", "run.period", "run.starts")
 LEVELS = ("debug", "warning", "error")
-PERIODS = ("0.1", "0.5", "0.99", "1.01", "2.0", "10.0")
+TIMES = (0.1, 0.5, 0.99, 1.01, 2.0, 10.0)  # what a number with a point is multiplied with
 
 
 def mutants_of(code: Code, assignment: Assignment) -> Iterator[Made]:
-    """Yield every mutant of the node's source."""
+    """Yield every mutant of the node's source; what hangs first: other work goes on beside it."""
+    yield from _counting(code, assignment)
     for operator in (
         _dropped,
         _doubled,
@@ -36,7 +39,6 @@ def mutants_of(code: Code, assignment: Assignment) -> Iterator[Made]:
         _handlers,
     ):
         yield from operator(code)
-    yield from _counting(code, assignment)
 
 
 def _dropped(code: Code) -> Iterator[Made]:
@@ -61,43 +63,44 @@ def _swapped(code: Code) -> Iterator[Made]:
 def _misspelt(code: Code) -> Iterator[Made]:
     """Leave a letter out of each name where it is first used."""
     seen = {"__name__"}
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
             name = node.attr
-            new = f"{code.of(node.value)}.{name[:-2]}{name[-1]}"
+            new = f"{code.of(node.value)}.{misspelt(name)}"
             yield f"misspell {code.shown(node)}", code.put(node, new), ANY
         elif isinstance(node, ast.Name) and node.id not in seen:
             seen.add(node.id)
-            yield f"misspell {node.id}", code.put(node, node.id[:-2] + node.id[-1]), ANY
+            yield f"misspell {node.id}", code.put(node, misspelt(node.id)), ANY
 
 
 def _uncalled(code: Code) -> Iterator[Made]:
     """Forget the brackets of a call; give brackets to what must not be called."""
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if isinstance(node, ast.Call):
             yield f"no brackets {code.shown(node)}", code.put(node, code.of(node.func)), ANY
             for given in node.args:
-                if isinstance(given, ast.Attribute) and given.attr != "counter_":
+                if isinstance(given, ast.Attribute):
                     name = f"brackets {code.shown(given)}"
                     yield name, code.put(given, f"{code.of(given)}()"), ANY
 
 
 def _numbers(code: Code) -> Iterator[Made]:
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if not isinstance(node, ast.Constant) or isinstance(node.value, bool):
             continue
         if isinstance(node.value, float):
-            for period in PERIODS:
-                name = f"number {code.shown(node)} is {period}"
-                yield name, code.put(node, period), ("run.period", "run.output")
+            for times in TIMES:
+                new = repr(round(times * node.value, 6))
+                name = f"number {code.shown(node)} is {new}"
+                yield name, code.put(node, new), ("run.period", "run.output")
         elif isinstance(node.value, int):
-            for new in (node.value + 1, node.value - 1, f"'{node.value}'"):
-                name = f"number {node.value} is {new}"
-                yield name, code.put(node, str(new)), COUNTS
+            for other in (node.value + 1, node.value - 1, f"'{node.value}'"):
+                name = f"number {node.value} is {other}"
+                yield name, code.put(node, str(other)), COUNTS
 
 
 def _steps(code: Code) -> Iterator[Made]:
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if isinstance(node, ast.AugAssign):
             target, value = code.of(node.target), code.of(node.value)
             for sign in ("=", "=+", "=-", "-=", "*="):
@@ -108,32 +111,44 @@ def _steps(code: Code) -> Iterator[Made]:
 
 
 def _texts(code: Code) -> Iterator[Made]:
-    docstrings = code.docstrings
-    for node in ast.walk(code.tree):
-        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
-            continue
-        if id(node) in docstrings:
-            continue
-        if node.value == "__main__":
-            yield "guard misspelt", code.put(node, "'main'"), ANY
-            continue
-        text = node.value
-        for name, new in {
-            "swapped capitals": text.swapcase(),
-            "letter lost": text[:1] + text[2:],
-            "end lost": text[:-1],
-            "mark added": f"{text}!",
-            "blank before": f" {text}",
-            "blank doubled": text.replace(" ", "  "),
-            "empty": "",
-        }.items():
-            if new != text:
-                families = ("run.output", "run.node_name", "run.starts")
-                yield f"text {text!r} {name}", code.put(node, repr(new)), families
+    for node in code.walk():
+        if isinstance(node, ast.JoinedStr):
+            yield from _f_string(code, node)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            if node.value == "__main__":
+                yield "guard misspelt", code.put(node, "'main'"), ANY
+            elif id(node) not in code.docstrings:
+                for name, new in _other_texts(node.value):
+                    yield name, code.put(node, repr(new)), TEXTS
+
+
+def _f_string(code: Code, node: ast.JoinedStr) -> Iterator[Made]:
+    written = code.of(node)
+    quote = min(written.find(sign) for sign in "'\"" if sign in written)
+    yield f"f lost {code.shown(node)}", code.put(node, written[quote:]), TEXTS
+    for part in node.values:
+        if isinstance(part, ast.Constant) and str(part.value) in written[quote:]:
+            for name, new in _other_texts(str(part.value)):
+                text = written[:quote] + written[quote:].replace(str(part.value), new, 1)
+                yield name, code.put(node, text), TEXTS
+
+
+def _other_texts(text: str) -> Iterator[tuple[str, str]]:
+    for name, new in {
+        "swapped capitals": text.swapcase(),
+        "letter lost": text[:1] + text[2:],
+        "end lost": text[:-1],
+        "mark added": f"{text}!",
+        "blank before": f" {text}",
+        "blank doubled": text.replace(" ", "  "),
+        "empty": "",
+    }.items():
+        if new != text:
+            yield f"text {text!r} {name}", new
 
 
 def _calls(code: Code) -> Iterator[Made]:
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if not isinstance(node, ast.Call):
             continue
         shown = code.shown(node)
@@ -156,7 +171,7 @@ def _calls(code: Code) -> Iterator[Made]:
 
 
 def _definitions(code: Code) -> Iterator[Made]:
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if isinstance(node, ast.ClassDef):
             for base in node.bases:
                 yield f"base is object, not {code.shown(base)}", code.put(base, "object"), ANY
@@ -179,15 +194,14 @@ def _imports(code: Code) -> Iterator[Made]:
     for node in code.tree.body:
         if isinstance(node, ast.Import | ast.ImportFrom):
             for alias in node.names:
-                new = f"{alias.name[:-2]}{alias.name[-1]}"
-                yield f"misspell {code.shown(node)}", code.put(alias, new), ANY
+                yield f"misspell {code.shown(node)}", code.put(alias, misspelt(alias.name)), ANY
         if isinstance(node, ast.ImportFrom) and node.module:
             module = f"from {node.module}x import {code.of(node.names[0])}"
             yield f"other module {code.shown(node)}", code.put(node, module), ANY
 
 
 def _handlers(code: Code) -> Iterator[Made]:
-    for node in ast.walk(code.tree):
+    for node in code.walk():
         if isinstance(node, ast.ExceptHandler) and node.type is not None:
             yield (
                 f"except {code.shown(node.type)} lost",

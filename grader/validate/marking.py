@@ -1,49 +1,54 @@
-"""Mark one mutant: by looking at its files where that decides it, else by building and running it."""
+"""Mark packages: by their files where those decide, else on the workers that mark a class."""
 
 from __future__ import annotations
 
+import contextlib
 import tempfile
-import time
+from collections.abc import Iterable
+from collections.abc import Iterator
 from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field
-from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
+from grader.batch.grade_all import MOST_A_CORE
+from grader.batch.local_pool import LocalPool
+from grader.batch.run import cores_here
+from grader.batch.run import prove
+from grader.batch.work import Done
+from grader.batch.work import Task
 from grader.checks.all import CHECKS
-from grader.checks.registry import Failed
-from grader.checks.registry import Outcome
-from grader.errors import AssignmentError
-from grader.events import Event
+from grader.checks.registry import Inconclusive
 from grader.evidence import Evidence
-from grader.mistakes.diagnose import diagnose
+from grader.locale.speaker import Speaker
 from grader.report.model import CheckResult
 from grader.report.model import CheckStatus
-from grader.report.model import Report
 from grader.runner import Order
-from grader.runner import grade
+from grader.runner import ask
+from grader.submission import Submission
 from grader.submission import take_in
-from grader.validate.mutant import Mutant
-from grader.validate.tree import EditError
 from grader.validate.tree import Tree
-from grader.validate.tree import apply_all
 from grader.validate.tree import write_tree
 
 # what is asked before anything is built
 STATIC_STAGES = ("package", "source", "entry_point")
+UNDECIDED = ("inconclusive", "error")
 
 
 @dataclass(frozen=True)
 class Marked:
-    """What marking a package said: each check's status, and the mistakes of those that failed."""
+    """What marking a package said: each check's status, and the mistakes of those that failed.
 
-    name: str
+    `problem` says why it could not be marked at all, `seconds` how long it took (0 for files).
+    """
+
     status: Mapping[str, CheckStatus]
     mistakes: Mapping[str, str] = field(default_factory=dict)
     score: float = 0
     ran: bool = False
     seconds: float = 0
+    problem: str = ""
 
     @property
     def failed(self) -> tuple[str, ...]:
@@ -53,8 +58,7 @@ class Marked:
     @property
     def unknown(self) -> tuple[str, ...]:
         """The checks that could not be decided."""
-        open_ = ("inconclusive", "error")
-        return tuple(check for check in CHECKS if self.status.get(check) in open_)
+        return tuple(check for check in CHECKS if self.status.get(check) in UNDECIDED)
 
     @property
     def first_mistake(self) -> str:
@@ -62,97 +66,79 @@ class Marked:
         return self.mistakes[self.failed[0]] if self.failed else ""
 
 
-class _NeedsRun(Exception):  # noqa: N818 - no error: the files alone do not decide
-    """A check asked for the build or the run."""
-
-
-def mutate(mutant: Mutant, solution: Tree) -> Tree:
-    """Return the package that a mutant is. Raises AssignmentError where an edit does not fit."""
-    try:
-        return apply_all(mutant.edits, solution)
-    except EditError as error:
-        place = mutant.where or mutant.name
-        raise AssignmentError(f"{place}: the edits do not fit the solution: {error}") from None
-
-
-def mark_files(name: str, tree: Tree, order: Order) -> Marked | None:
-    """Mark a package by its files alone; None where no check fails without a build."""
-    begin = time.monotonic()
+def submit(tree: Tree, order: Order) -> Submission:
+    """Take a package in as if it had been handed in."""
     with tempfile.TemporaryDirectory(prefix="grader-validate-") as folder:
         path = Path(folder) / "handed_in"
         write_tree(tree, path)
-        found = _ask_files(path, order)
-    if found is None:
-        return None
-    status: dict[str, CheckStatus] = {check: result.status for check, result in found.items()}
-    mistakes = {check: r.mistakes[0].id for check, r in found.items() if r.mistakes}
-    seconds = time.monotonic() - begin
-    return Marked(name, status, mistakes, seconds=seconds)
+        return submit_path(path, order)
 
 
-def mark_run(name: str, tree: Tree, order: Order) -> Marked:
-    """Mark a package as every submission is marked. Raises what `grade` raises."""
-    with tempfile.TemporaryDirectory(prefix="grader-validate-") as folder:
-        path = Path(folder) / "handed_in"
-        write_tree(tree, path)
-        return mark_path(name, replace(order, path=path))
+def submit_path(path: Path, order: Order) -> Submission:
+    """Take in what lies at a path."""
+    assignment = order.assignment
+    return take_in(path, package=assignment.package, node_file=assignment.node_file)
 
 
-def mark_path(name: str, order: Order) -> Marked:
-    """Mark what lies at the order's path."""
-    report = grade(order, _unheard)
-    return _of_report(name, report)
+def mark_files(submission: Submission, order: Order) -> Marked:
+    """Mark a package by its files alone, as far as they go: what needs a build is not asked."""
+    evidence = Evidence(order.assignment, submission, build=_not_built, run=_not_built)
+    used = {use.id for use in order.assignment.checks}
+    for check in CHECKS.values():
+        if check.id not in used or check.id.partition(".")[0] not in STATIC_STAGES:
+            continue
+        result = ask(check, evidence, Speaker(order.lang))
+        if result.status in UNDECIDED:
+            break
+        evidence.results[check.id] = result
+    return _marked(evidence.results.values())
 
 
-def _of_report(name: str, report: Report) -> Marked:
+def mark_all(
+    work: Iterable[tuple[str, Submission]], order: Order, *, workers: int
+) -> Iterator[tuple[str, Marked]]:
+    """Mark packages by building and running them; yield each by name when it is done.
+
+    `workers`: how many at once (0: as a class is marked). Raises SurroundingsError where no
+    sandbox opens.
+    """
+    job = prove(order, say=_unheard).job
+    cores = cores_here()
+    pool = LocalPool(job, workers or cores, most=workers or MOST_A_CORE * cores)
+    tasks = (Task(name, name, name, submission.sha256, submission) for name, submission in work)
+    running = pool.run(tasks, started=_unheard)
+    with contextlib.closing(running):
+        for done in running:
+            if done.answer.report is None:
+                pool.prove()
+            yield done.task.student, _of(done)
+
+
+def _of(done: Done) -> Marked:
+    report = done.answer.report
+    if report is None:
+        last = done.answer.fault.strip().splitlines()[-1:]
+        return Marked({}, problem=last[0] if last else "our own side failed")
+    return _marked(report.checks, score=report.score, ran=True, seconds=report.timing.total)
+
+
+def _marked(
+    checks: Iterable[CheckResult], *, score: float = 0, ran: bool = False, seconds: float = 0
+) -> Marked:
+    found = {check.id: check for check in checks}
     return Marked(
-        name,
-        status={check.id: check.status for check in report.checks},
-        mistakes={c.id: c.mistakes[0].id for c in report.checks if c.mistakes},
-        score=report.score,
-        ran=True,
-        seconds=report.timing.total,
+        status={check_id: check.status for check_id, check in found.items()},
+        mistakes={check_id: c.mistakes[0].id for check_id, c in found.items() if c.mistakes},
+        score=score,
+        ran=ran,
+        seconds=seconds,
     )
 
 
-def _ask_files(path: Path, order: Order) -> dict[str, CheckResult] | None:
-    """Ask the checks that need no build; None if they all pass or one of them needs it."""
-    assignment = order.assignment
-    submission = take_in(path, package=assignment.package, node_file=assignment.node_file)
-    evidence = Evidence(assignment, submission, build=_needs_run, run=_needs_run)
-    for use in sorted(assignment.checks, key=lambda use: tuple(CHECKS).index(use.id)):
-        if use.id.partition(".")[0] not in STATIC_STAGES:
-            break
-        status: CheckStatus = "passed"
-        mistakes = []
-        blocked = any(
-            evidence.results[name].status != "passed"
-            for name in CHECKS[use.id].depends
-            if name in evidence.results
-        )
-        try:
-            if blocked:
-                status = "skipped"
-            else:
-                CHECKS[use.id].function(evidence)
-        except Failed as seen:
-            status = "failed"
-            mistakes = diagnose(seen, evidence)[0].mistakes
-        except Outcome:
-            status = "skipped"
-        except _NeedsRun:
-            return None
-        evidence.results[use.id] = CheckResult(
-            id=use.id, title=use.id, status=status, mistakes=mistakes, max_score=use.points
-        )
-    if all(result.status != "failed" for result in evidence.results.values()):
-        return None
-    return evidence.results
+def _not_built() -> NoReturn:
+    raise Inconclusive("the files alone do not decide")
 
 
-def _needs_run() -> NoReturn:
-    raise _NeedsRun
-
-
-def _unheard(event: Event) -> None:
-    del event
+def _unheard(what: object) -> None:
+    """Steps of one verdict are not told: there are many at once."""
+    del what

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.validate.marking import Marked
@@ -28,7 +27,12 @@ class Row:
     @property
     def survived(self) -> bool:
         """Whether nothing failed."""
-        return not self.marked.failed and not self.marked.unknown
+        return not (self.marked.failed or self.marked.unknown or self.marked.problem)
+
+    @property
+    def right(self) -> bool:
+        """Whether every check passed."""
+        return {*self.marked.status.values()} == {"passed"}
 
     @property
     def mistake_first(self) -> bool:
@@ -38,8 +42,10 @@ class Row:
     @property
     def fault(self) -> str:
         """What is not as expected ("" if all is)."""
+        if self.marked.problem:
+            return f"not marked: {self.marked.problem}"
         if self.mutant.equivalent:
-            return "" if self.survived else "explained as right, and failed all the same"
+            return "" if self.right else "explained as right, and failed all the same"
         if self.marked.unknown:
             return f"undecided: {', '.join(self.marked.unknown)}"
         if self.survived:
@@ -68,10 +74,9 @@ class Matrix:
     def faults(self) -> tuple[str, ...]:
         """Everything that is not as expected, one line each."""
         found = []
-        if self.solution and (self.solution.failed or self.solution.unknown):
-            wrong = ", ".join((*self.solution.failed, *self.solution.unknown))
-            found.append(f"the solution does not get full marks: {wrong}")
-        if self.starter and not self.starter.failed:
+        if self.solution and self.solution.score < self.max_score:
+            found.append(f"the solution does not get full marks: {_wanting(self.solution)}")
+        if self.starter and self.starter.score >= self.max_score:
             found.append("the starter gets full marks")
         found += [f"{row.mutant.name}: {row.fault}" for row in self.rows if row.fault]
         return tuple(found)
@@ -163,10 +168,9 @@ def as_json(matrix: Matrix) -> str:
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
 
 
-def ordered(rows: Sequence[Row], names: Sequence[str]) -> tuple[Row, ...]:
-    """Return rows in the order of their mutants' names."""
-    places = {name: n for n, name in enumerate(names)}
-    return tuple(sorted(rows, key=lambda row: places[row.mutant.name]))
+def _wanting(marked: Marked) -> str:
+    """Return why points are missing."""
+    return marked.problem or ", ".join((*marked.failed, *marked.unknown))
 
 
 def _json_row(row: Row) -> dict[str, object]:

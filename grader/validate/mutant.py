@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from grader.errors import AssignmentError
 from grader.validate.tree import Edit
+from grader.validate.tree import EditError
 from grader.validate.tree import Tree
+from grader.validate.tree import apply_all
 
 STATIC = ("package.", "source.")
 
@@ -45,10 +48,10 @@ class Mutant:
             for family in self.families
         )
 
-
-@dataclass(frozen=True)
-class Written:
-    """A mutant and the package that it is."""
-
-    mutant: Mutant
-    tree: Tree
+    def of(self, solution: Tree) -> Tree:
+        """Return the package that it is. Raises AssignmentError where an edit does not fit."""
+        try:
+            return apply_all(self.edits, solution)
+        except EditError as error:
+            place = self.where or self.name
+            raise AssignmentError(f"{place}: the edits do not fit the solution: {error}") from None

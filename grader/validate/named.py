@@ -23,17 +23,18 @@ from collections.abc import Callable
 from collections.abc import Iterable
 from collections.abc import Mapping
 from dataclasses import dataclass
-from dataclasses import field
 from pathlib import Path
 from pathlib import PurePosixPath
 from typing import Any
 
+from grader.errors import AssignmentError
 from grader.positioned_yaml import Document
 from grader.positioned_yaml import Loc
 from grader.positioned_yaml import read_yaml
 from grader.validate import tree
 from grader.validate.mutant import Mutant
 
+MUTANTS = "mutants.yaml"
 # each edit: its other keys, those that must be there first
 VERBS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "replace": (("old", "new"), ()),
@@ -51,14 +52,37 @@ EXPLAINED = ("mutant", "why")
 
 
 @dataclass(frozen=True)
-class Catalogued:
-    """What mutants.yaml holds; `equivalent` says of automatic mutants, by name, why they are right."""
+class Explained:
+    """An automatic mutant that is right all the same, and why; `where` is its place in the file."""
+
+    mutant: str
+    why: str
+    where: str
+
+
+@dataclass(frozen=True)
+class Written:
+    """What mutants.yaml holds."""
 
     mutants: tuple[Mutant, ...] = ()
-    equivalent: Mapping[str, str] = field(default_factory=dict)
+    equivalent: tuple[Explained, ...] = ()
+
+    def explained(self, automatic: Iterable[str]) -> dict[str, str]:
+        """Return why automatic mutants are right; AssignmentError for one that there is not."""
+        names = tuple(automatic)
+        for entry in self.equivalent:
+            if entry.mutant not in names:
+                hint = _hint(entry.mutant, names)
+                raise AssignmentError(
+                    f"{entry.where}: there is no automatic mutant '{entry.mutant}'{hint}"
+                )
+        for mutant in self.mutants:
+            if mutant.name in names:
+                raise AssignmentError(f"{mutant.where}: an automatic mutant has the same name")
+        return {entry.mutant: entry.why for entry in self.equivalent}
 
 
-def read_mutants(path: Path, *, checks: Iterable[str], mistakes: Iterable[str]) -> Catalogued:
+def read_mutants(path: Path, *, checks: Iterable[str], mistakes: Iterable[str]) -> Written:
     """Read mutants.yaml.
 
     Raises AssignmentError, whose message reads `file:line: what is wrong`.
@@ -74,7 +98,7 @@ class _Reader:
         self._checks = checks
         self._mistakes = mistakes
 
-    def read(self) -> Catalogued:
+    def read(self) -> Written:
         content = self._mapping((), self._document.content, ("schema", "mutants", "equivalent"))
         if content.get("schema") != 1:
             raise self._document.error(("schema",), "schema must be 1")
@@ -85,17 +109,27 @@ class _Reader:
                 text = f"there are two mutants '{mutant.name}'"
                 raise self._document.error(("mutants", n, "name"), text)
             mutants[mutant.name] = mutant
-        whys = {}
+        whys: dict[str, Explained] = {}
         for n, item in enumerate(self._list(("equivalent",), content.get("equivalent", ()))):
-            loc: Loc = ("equivalent", n)
-            fields = self._mapping(loc, item, EXPLAINED)
-            whys[self._text(loc, fields, "mutant")] = self._text(loc, fields, "why")
-        return Catalogued(tuple(mutants.values()), whys)
+            entry = self._explained(("equivalent", n), item)
+            if entry.mutant in whys:
+                text = f"'{entry.mutant}' is explained twice"
+                raise self._document.error(("equivalent", n, "mutant"), text)
+            whys[entry.mutant] = entry
+        return Written(tuple(mutants.values()), tuple(whys.values()))
+
+    def _explained(self, loc: Loc, item: Any) -> Explained:
+        fields = self._mapping(loc, item, EXPLAINED)
+        mutant, why = (self._text(loc, fields, key) for key in EXPLAINED)
+        return Explained(mutant, why, self._place(loc))
+
+    def _place(self, loc: Loc) -> str:
+        return f"{self._document.path}:{self._document.line(loc)}"
 
     def _mutant(self, loc: Loc, item: Any) -> Mutant:
         fields = self._mapping(loc, item, NAMED)
-        check = self._one_of(loc, fields, "check", self._checks)
-        mistake = self._one_of(loc, fields, "mistake", self._mistakes)
+        check = self._one_of(loc, fields, "check", self._checks, "the assignment asks no check")
+        mistake = self._one_of(loc, fields, "mistake", self._mistakes, "there is no mistake")
         edits = self._list((*loc, "edits"), fields.get("edits", ()))
         if not edits:
             raise self._document.error(loc, "a mutant needs at least one edit")
@@ -104,7 +138,7 @@ class _Reader:
             edits=tuple(self._edit((*loc, "edits", n), edit) for n, edit in enumerate(edits)),
             families=(check,),
             mistake=mistake,
-            where=f"{self._document.path}:{self._document.line(loc)}",
+            where=self._place(loc),
         )
 
     def _edit(self, loc: Loc, item: Any) -> tree.Edit:
@@ -172,11 +206,13 @@ class _Reader:
             raise self._document.error((*loc, key), f"'{key}' must be a text (quote numbers)")
         return value
 
-    def _one_of(self, loc: Loc, fields: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
+    def _one_of(
+        self, loc: Loc, fields: Mapping[str, Any], key: str, known: tuple[str, ...], unknown: str
+    ) -> str:
         value = self._text(loc, fields, key)
         if value not in known:
             hint = _hint(value, known)
-            raise self._document.error((*loc, key), f"there is no {key} '{value}'{hint}")
+            raise self._document.error((*loc, key), f"{unknown} '{value}'{hint}")
         return value
 
 
@@ -190,7 +226,7 @@ _MADE: Mapping[str, _Maker] = {
     "replace": lambda _r, _l, v: tree.Replace(v["replace"], v["old"], v["new"]),
     "write": _Reader._write,
     "delete": lambda _r, _l, v: tree.Delete(v["delete"]),
-    "rename": lambda _r, _l, v: tree.Copy(v["rename"], v["to"], moved=True),
+    "rename": lambda _r, _l, v: tree.Move(v["rename"], v["to"]),
     "copy": lambda _r, _l, v: tree.Copy(v["copy"], v["to"]),
     "chmod": lambda r, loc, v: tree.Chmod(v["chmod"], r._mode(loc, v)),
     "crlf": lambda _r, _l, v: tree.Crlf(v["crlf"]),

@@ -10,6 +10,11 @@ from functools import cached_property
 MOST_SLUG = 60  # characters of code in a mutant's name
 
 
+def misspelt(word: str) -> str:
+    """Return a word with its last letter but one left out (a single letter twice)."""
+    return word[:-2] + word[-1] if len(word) > 1 else word * 2
+
+
 @dataclass(frozen=True)
 class Code:
     """A Python source as text; positions are those of `ast` (bytes of UTF-8 in a line)."""
@@ -20,6 +25,12 @@ class Code:
     def tree(self) -> ast.Module:
         """The syntax tree."""
         return ast.parse(self.text)
+
+    def walk(self) -> Iterator[ast.AST]:
+        """Yield all nodes but those in f-strings whose place Python before 3.12 does not know."""
+        for node in ast.walk(self.tree):
+            if id(node) not in self._inside_f_strings or self._is_where_it_says(node):
+                yield node
 
     def shown(self, node: ast.AST) -> str:
         """Return a node's code as one short line, for a name."""
@@ -47,7 +58,7 @@ class Code:
 
     def statements(self) -> Iterator[ast.stmt]:
         """Yield the statements that hold no others, but no imports and no docstrings."""
-        for node in ast.walk(self.tree):
+        for node in self.walk():
             if not isinstance(node, ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign):
                 continue
             if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
@@ -55,7 +66,7 @@ class Code:
 
     def blocks(self) -> Iterator[list[ast.stmt]]:
         """Yield the bodies of functions, without docstrings."""
-        for node in ast.walk(self.tree):
+        for node in self.walk():
             if isinstance(node, ast.FunctionDef):
                 doc = ast.get_docstring(node) is not None
                 yield node.body[1:] if doc else node.body
@@ -68,6 +79,20 @@ class Code:
             for node in ast.walk(self.tree)
             if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
         }
+
+    @cached_property
+    def _inside_f_strings(self) -> set[int]:
+        strings = [node for node in ast.walk(self.tree) if isinstance(node, ast.JoinedStr)]
+        return {id(inner) for node in strings for inner in ast.walk(node) if inner is not node}
+
+    def _is_where_it_says(self, node: ast.AST) -> bool:
+        if not isinstance(node, ast.expr):
+            return False
+        try:
+            found = ast.parse(self.of(node), mode="eval").body
+        except (SyntaxError, ValueError):
+            return False
+        return ast.dump(found) == ast.dump(node)
 
     @cached_property
     def _bytes(self) -> bytes:

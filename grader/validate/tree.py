@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.errors import AssignmentError
+
 SKIPPED = ("__pycache__", ".pyc")
 
 
@@ -45,16 +47,17 @@ class Replace:
 
 @dataclass(frozen=True)
 class Write:
-    """Write a file; without a mode, one that is there keeps its own."""
+    """Write a file (a text as UTF-8); without a mode, one that is there keeps its own."""
 
     path: str
-    data: bytes
+    data: bytes | str
     mode: int | None = None
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the file in it."""
         old = tree.get(self.path, Entry(b""))
-        return {**tree, self.path: Entry(self.data, old.mode if self.mode is None else self.mode)}
+        data = self.data.encode() if isinstance(self.data, str) else self.data
+        return {**tree, self.path: Entry(data, old.mode if self.mode is None else self.mode)}
 
 
 @dataclass(frozen=True)
@@ -71,20 +74,31 @@ class Delete:
 
 @dataclass(frozen=True)
 class Copy:
-    """Copy a file or folder; `moved`: what is copied goes away."""
+    """Copy a file or folder."""
 
     path: str
     to: str
-    moved: bool = False
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the copy."""
         here = _below(tree, self.path)
         if any(path == self.to or path.startswith(f"{self.to}/") for path in tree):
             raise EditError(f"{self.to} is there already")
-        copies = {self.to + path[len(self.path) :]: tree[path] for path in here}
-        left = {path: e for path, e in tree.items() if not (self.moved and path in here)}
-        return {**left, **copies}
+        return {**tree, **{self.to + path[len(self.path) :]: tree[path] for path in here}}
+
+
+@dataclass(frozen=True)
+class Move:
+    """Rename or move a file or folder."""
+
+    path: str
+    to: str
+
+    def apply(self, tree: Tree) -> Tree:
+        """Return the tree with it elsewhere."""
+        copied = Copy(self.path, self.to).apply(tree)
+        gone = _below(tree, self.path)
+        return {path: entry for path, entry in copied.items() if path not in gone}
 
 
 @dataclass(frozen=True)
@@ -135,7 +149,7 @@ class Nest:
         return {f"{self.folder}/{path}": entry for path, entry in tree.items()}
 
 
-Edit = Replace | Write | Delete | Copy | Chmod | Crlf | Link | Nest
+Edit = Replace | Write | Delete | Copy | Move | Chmod | Crlf | Link | Nest
 
 
 def apply_all(edits: tuple[Edit, ...], tree: Tree) -> Tree:
@@ -158,6 +172,14 @@ def read_tree(folder: Path) -> Tree:
             mode = 0o755 if data.startswith(b"#!") else 0o644
             tree[path.relative_to(folder).as_posix()] = Entry(data, mode)
     return tree
+
+
+def text_of(tree: Tree, path: str) -> str:
+    """Return a file's text. Raises AssignmentError where it is not UTF-8."""
+    try:
+        return tree[path].data.decode()
+    except UnicodeDecodeError:
+        raise AssignmentError(f"the solution's {path} is not UTF-8 text") from None
 
 
 def write_tree(tree: Tree, folder: Path) -> None:

@@ -13,11 +13,17 @@ from rich.markdown import Markdown
 from rich.rule import Rule
 from rich.text import Text
 
+from grader import options
 from grader.assignment import load_assignment
 from grader.errors import GraderError
 from grader.errors import UsageError
+from grader.locale.message import say
+from grader.locale.speaker import Speaker
+from grader.locale.speaker import chosen_language
+from grader.locale.speaker import errors_in
 from lab.guide.lesson import Lesson
 from lab.guide.lesson import Step
+from lab.guide.lesson import lesson_file
 from lab.guide.lesson import read_lesson
 from lab.guide.progress import Place
 from lab.guide.progress import current
@@ -51,54 +57,73 @@ def main(argv: Sequence[str] | None = None) -> int:
     show_default=True,
     help="The workspace to look at.",
 )
+@options.lang
 @click.argument("what", required=False, metavar="[N|list|all]")
-def command(workspace: Path, what: str | None) -> None:
+def command(workspace: Path, lang: str | None, what: str | None) -> None:
     """Show what to do next; N shows step N, `list` all steps with what is done, `all` the lesson.
 
     What is done is told from the files in your workspace, and from this terminal.
     """
-    lesson = read_lesson(
-        COURSE / "hello_time" / "lesson.md", distro=os.environ.get("ROS_DISTRO") or "jazzy"
-    )
+    speak = Speaker(lang or chosen_language(os.environ))
+    distro = os.environ.get("ROS_DISTRO") or "jazzy"
+    lesson = read_lesson(lesson_file(COURSE / "hello_time", speak.lang), distro=distro)
     wanted = load_assignment(COURSE / "hello_time" / "assignment.yaml")
     found = progress(Place(workspace.expanduser(), wanted, os.environ))
+    with errors_in(speak.lang):
+        _show(what, _console(), lesson, [speak(action) for action in found], speak)
+
+
+def _console() -> Console:
     console = Console(highlight=False, soft_wrap=True)
     if console.is_terminal:
-        console = Console(highlight=False, width=min(console.width, WIDEST))
+        return Console(highlight=False, width=min(console.width, WIDEST))
+    return console
+
+
+def _show(
+    what: str | None, console: Console, lesson: Lesson, found: Sequence[str], speak: Speaker
+) -> None:
     if what == "list":
-        _show_list(console, lesson, found)
+        _show_list(console, lesson, found, speak)
     elif what == "all":
         _show_markdown(console, lesson.introduction)
         for step in lesson.steps:
-            _show_step(console, step, lesson)
+            _show_step(console, step, lesson, speak)
     else:
         step = lesson.steps[(_number(what, lesson) if what else current(found)) - 1]
-        _show_step(console, step, lesson)
+        _show_step(console, step, lesson, speak)
         if what is None:
-            _show_next(console, found[step.number - 1])
+            _show_next(console, found[step.number - 1], speak)
 
 
 def _number(word: str, lesson: Lesson) -> int:
     if word.isdecimal() and 1 <= int(word) <= len(lesson.steps):
         return int(word)
     raise UsageError(
-        f"there is no step '{word}'",
-        remedy=f"guide 1 to guide {len(lesson.steps)}, guide list, or guide all.",
+        say("there is no step '{word}'", word=word),
+        remedy=say("guide 1 to guide {last}, guide list, or guide all.", last=len(lesson.steps)),
     )
 
 
-def _show_list(console: Console, lesson: Lesson, found: tuple[str, ...]) -> None:
+def _show_list(console: Console, lesson: Lesson, found: Sequence[str], speak: Speaker) -> None:
     here = current(found)
     for step in lesson.steps:
         done = not found[step.number - 1]
         mark = "x" if done else ">" if step.number == here else " "
         style = "green" if done else "bold" if step.number == here else ""
         console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
-    _show_next(console, found[here - 1])
+    _show_next(console, found[here - 1], speak)
 
 
-def _show_step(console: Console, step: Step, lesson: Lesson) -> None:
-    heading = f"Step {step.number} of {len(lesson.steps)}: {step.title}"
+def _show_step(console: Console, step: Step, lesson: Lesson, speak: Speaker) -> None:
+    heading = speak(
+        say(
+            "Step {number} of {count}: {title}",
+            number=step.number,
+            count=len(lesson.steps),
+            title=step.title,
+        )
+    )
     if console.is_terminal:
         console.print(Rule(Text(heading, style="bold"), align="left"))
     else:
@@ -119,5 +144,6 @@ def _show_markdown(console: Console, text: str) -> None:
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 
-def _show_next(console: Console, action: str) -> None:
-    console.print(Text.assemble(("Next: ", "bold green"), action), soft_wrap=True)
+def _show_next(console: Console, action: str, speak: Speaker) -> None:
+    label = speak(say("Next: "))
+    console.print(Text.assemble((label, "bold green"), action), soft_wrap=True)

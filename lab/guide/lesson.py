@@ -27,6 +27,12 @@ class Lesson:
     steps: tuple[Step, ...]
 
 
+def lesson_file(course: Path, lang: str) -> Path:
+    """Return the lesson in a language, `lesson.<lang>.md`; without one, the English."""
+    own = course / f"lesson.{lang}.md"
+    return own if own.is_file() else course / "lesson.md"
+
+
 def read_lesson(file: Path, *, distro: str) -> Lesson:
     """Return the lesson, with the commands of this distro."""
     text = file.read_text(encoding="utf-8").replace(WRITTEN_FOR, f"/opt/ros/{distro}")

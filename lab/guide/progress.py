@@ -10,10 +10,13 @@ import ast
 import os
 from collections.abc import Callable
 from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.assignment import Assignment
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.source.entry_points import from_setup_cfg
 from grader.source.entry_points import from_setup_py
 from grader.source.python import PythonFault
@@ -55,7 +58,7 @@ def progress(place: Place) -> tuple[str, ...]:
     return tuple(step(place) for step in STEPS)
 
 
-def current(found: tuple[str, ...]) -> int:
+def current(found: Sequence[str]) -> int:
     """Return the number of the first step that is not done."""
     return next(number for number, action in enumerate(found, start=1) if action)
 
@@ -77,9 +80,17 @@ def _package(place: Place) -> str:
     if (place.package / "package.xml").is_file() and (place.package / "setup.py").is_file():
         return ""
     if (place.package / "CMakeLists.txt").is_file():
-        return f"Delete ~/ros2_ws/src/{name} (it is a C++ package), then in ~/ros2_ws/src: {create}"
+        return say(
+            "Delete ~/ros2_ws/src/{name} (it is a C++ package), then in ~/ros2_ws/src: {command}",
+            name=name,
+            command=create,
+        )
     if place.package.exists():
-        return f"~/ros2_ws/src/{name} is not complete. Delete it, then in ~/ros2_ws/src: {create}"
+        return say(
+            "~/ros2_ws/src/{name} is not complete. Delete it, then in ~/ros2_ws/src: {command}",
+            name=name,
+            command=create,
+        )
     return f"cd ~/ros2_ws/src && {create}"
 
 
@@ -87,7 +98,9 @@ def _first_build(place: Place) -> str:
     if place.installed(f"share/ament_index/resource_index/packages/{place.wanted.package}"):
         return ""
     if (place.workspace / "src" / "install").is_dir():
-        return f"You built in src. Delete build, install and log there, then: {BUILD}"
+        return say(
+            "You built in src. Delete build, install and log there, then: {command}", command=BUILD
+        )
     return BUILD
 
 
@@ -102,24 +115,29 @@ def _code(place: Place) -> str:
     name = place.wanted.node_file
     text = _read(place.node)
     if not text.strip():
-        return f"Write the node in {name}."
+        return say("Write the node in {file}.", file=name)
     try:
         tree = parse_python(text).tree
     except PythonFault as fault:
-        line = f" Look at line {fault.line}." if fault.line else ""
-        return f"Python cannot read {name}: {fault.text}.{line}"
+        fault_there = say("Python cannot read {file}: {reason}.", file=name, reason=fault.text)
+        line = say("Look at line {line}.", line=fault.line) if fault.line else ""
+        return joined(fault_there, line)
     if not text.startswith(b"#!"):
-        return f"The first line of {name} must say what runs it: #!/usr/bin/env python3"
+        return say(
+            "The first line of {file} must say what runs it: {line}",
+            file=name,
+            line="#!/usr/bin/env python3",
+        )
     calls = {_called(node) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
     if not any(_is_node(each) for each in ast.walk(tree)):
-        return f"{name} has no class that inherits from Node yet (part 3)."
+        return say("{file} has no class that inherits from Node yet (part 3).", file=name)
     if "create_timer" not in calls:
-        return f"The node in {name} has no timer yet (part 3)."
+        return say("The node in {file} has no timer yet (part 3).", file=name)
     if place.wanted.target.rpartition(":")[2] not in functions:
-        return f"{name} has no function main yet (part 5)."
+        return say("{file} has no function main yet (part 5).", file=name)
     if not any(call.startswith("spin") for call in calls):
-        return f"Nothing in {name} spins yet: the node would end at once (part 5)."
+        return say("Nothing in {file} spins yet: the node would end at once (part 5).", file=name)
     return ""
 
 
@@ -130,15 +148,17 @@ def _entry_point(place: Place) -> str:
         found = from_setup_py(read_setup_py(_read(place.package / "setup.py")))
         config = from_setup_cfg(read_setup_cfg(_read(place.package / "setup.cfg")))
     except (PythonFault, SetupCfgFault) as fault:
-        return f"setup.py or setup.cfg cannot be read: {fault.text}"
+        return say("setup.py or setup.cfg cannot be read: {reason}", reason=fault.text)
     entries = found.group("console_scripts") + config.group("console_scripts")
     if not found.told and (place.package / "setup.py").is_file():
         return ""  # (only the build can tell)
     mine = [entry for entry in entries if entry.name == wanted.executable]
     if not mine:
-        return f"Add this line to console_scripts in setup.py: {line}"
+        return say("Add this line to console_scripts in setup.py: {line}", line=line)
     if not any(entry.target == wanted.target for entry in mine):
-        return f"The entry point leads to {mine[0].target}. Make it: {line}"
+        return say(
+            "The entry point leads to {target}. Make it: {line}", target=mine[0].target, line=line
+        )
     return ""
 
 
@@ -157,10 +177,9 @@ def _overlay(place: Place) -> str:
 
 def _run(place: Place) -> str:
     """Return what is left to do: that somebody has watched it cannot be told."""
-    return (
-        f"ros2 run {place.wanted.package} {place.wanted.executable}   "
-        "(count along, stop it with Ctrl+C; then run: check)"
-    )
+    run = f"ros2 run {place.wanted.package} {place.wanted.executable}"
+    then = say("(count along, stop it with Ctrl+C; then run: check)")
+    return joined(run, then, by="   ")
 
 
 STEPS: tuple[Callable[[Place], str], ...] = (

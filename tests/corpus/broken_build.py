@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Delete
+from grader.validate.tree import Edit
+from grader.validate.tree import Replace
+
 from .model import BUILT
 from .model import INSTALLED
 from .model import SETUP
-from .model import Delete
-from .model import Edit
 from .model import Package
-from .model import Replace
 from .model import broken
 
 CALL = "\nsetup(\n"

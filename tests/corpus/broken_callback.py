@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Edit
+from grader.validate.tree import Replace
+
 from .model import NODE
 from .model import TICKS
-from .model import Edit
 from .model import Package
-from .model import Replace
 from .model import broken
 from .right_node import COUNT
 from .right_node import LINE

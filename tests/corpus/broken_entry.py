@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Edit
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
 from .model import BUILT
 from .model import INNER
 from .model import INSTALLED
 from .model import RUN
 from .model import SETUP
-from .model import Edit
 from .model import Package
-from .model import Replace
-from .model import Write
 from .model import broken
 
 TARGET = "my_robot_controller.my_first_node:main"

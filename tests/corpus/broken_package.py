@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Copy
+from grader.validate.tree import Delete
+from grader.validate.tree import Move
+from grader.validate.tree import Nest
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
 from .model import BUILT
 from .model import CFG
 from .model import FOUND
@@ -12,13 +19,6 @@ from .model import MARKER
 from .model import NODE
 from .model import PACKAGE
 from .model import SETUP
-from .model import Copy
-from .model import Delete
-from .model import Nest
-from .model import Raw
-from .model import Rename
-from .model import Replace
-from .model import Write
 from .model import broken
 
 ALL = tuple(Delete(path) for path in (INNER, "resource", MANIFEST, SETUP, CFG))
@@ -41,7 +41,7 @@ PACKAGES = (
     broken("only_a_text", *ALL, Write("submission.txt", "see my repository\n"),
            failed={"package.found": "package.no_manifest"}, skipped=FOUND, score=0),
     broken("only_the_node", *(e for e in ALL if e.path != INNER), Delete(f"{INNER}/__init__.py"),
-           Rename(NODE, "my_first_node.py"),
+           Move(NODE, "my_first_node.py"),
            failed={"package.found": "package.only_node"}, skipped=FOUND, score=0,
            note="the node's file alone"),
     broken("manifest_and_setup_missing", Delete(MANIFEST), Delete(SETUP),
@@ -57,7 +57,7 @@ PACKAGES = (
            Replace(SETUP, f"test_node = {PACKAGE}.", f"test_node = {OTHER}."),
            Write(CFG, f"[develop]\nscript_dir=$base/lib/{OTHER}\n[install]\n"
                       f"install_scripts=$base/lib/{OTHER}\n"),
-           Rename(MARKER, f"resource/{OTHER}"), Rename(INNER, OTHER),
+           Move(MARKER, f"resource/{OTHER}"), Move(INNER, OTHER),
            failed={"package.manifest": "package.name_mismatch",
                    "package.marker": "package.marker_missing",
                    "package.setup_cfg": "package.setup_cfg_wrong",
@@ -78,7 +78,7 @@ PACKAGES = (
            note="colcon takes it for plain Python: it builds, and ros2 run does not find it"),
     broken("manifest_empty", Write(MANIFEST, ""),
            failed={"package.manifest": "package.broken_xml"}, skipped=BUILT, score=50),
-    broken("manifest_not_utf8", Raw(MANIFEST, b'<?xml version="1.0"?>\n<package format="3">'
+    broken("manifest_not_utf8", Write(MANIFEST, b'<?xml version="1.0"?>\n<package format="3">'
            b"<name>my_robot_controller</name><version>0.0.0</version><description>f\xfcr"
            b"</description></package>\n"),
            failed={"package.manifest": "package.broken_xml"}, skipped=BUILT, score=50),
@@ -103,7 +103,7 @@ PACKAGES = (
     broken("marker_folder_missing", Delete("resource"),
            failed={"package.marker": "package.marker_missing"}, skipped=BUILT, score=50,
            note="git keeps no empty folders, and some tools drop empty files"),
-    broken("marker_misnamed", Rename(MARKER, "resource/my_robot_controler"),
+    broken("marker_misnamed", Move(MARKER, "resource/my_robot_controler"),
            failed={"package.marker": "package.marker_missing"}, skipped=BUILT, score=50),
     broken("marker_not_installed", Replace(SETUP, MARKER_LINES, ""),
            failed={"package.marker": "package.marker_not_installed"}, score=95,

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Chmod
+from grader.validate.tree import Crlf
+from grader.validate.tree import Delete
+from grader.validate.tree import Edit
+from grader.validate.tree import Move
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
 from .model import AFTER_START
 from .model import INIT
 from .model import INNER
 from .model import NODE
 from .model import RUN
 from .model import SETUP
-from .model import Chmod
-from .model import Crlf
-from .model import Delete
-from .model import Edit
 from .model import Package
-from .model import Raw
-from .model import Rename
-from .model import Replace
 from .model import broken
 
 SHEBANG = "#!/usr/bin/env python3\n"
@@ -38,19 +39,19 @@ SOURCE = (
     broken("node_not_written", Delete(NODE), failed={"source.node_file": "source.no_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50,
            note="the entry point is there, its file is not"),
-    broken("node_in_package_root", Rename(NODE, "my_first_node.py"),
+    broken("node_in_package_root", Move(NODE, "my_first_node.py"),
            failed={"source.node_file": "source.misplaced_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
-    broken("node_in_scripts", Rename(NODE, "scripts/my_first_node.py"),
+    broken("node_in_scripts", Move(NODE, "scripts/my_first_node.py"),
            failed={"source.node_file": "source.misplaced_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
-    broken("node_misnamed", Rename(NODE, f"{INNER}/my_frist_node.py"),
+    broken("node_misnamed", Move(NODE, f"{INNER}/my_frist_node.py"),
            failed={"source.node_file": "source.misnamed_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
-    broken("inner_folder_misnamed", Rename(INNER, "my_robot_controler"),
+    broken("inner_folder_misnamed", Move(INNER, "my_robot_controler"),
            failed={"source.node_file": "source.misplaced_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
-    broken("node_empty", Raw(NODE, b""), failed={"source.node_file": "source.empty_node_file",
+    broken("node_empty", Write(NODE, b""), failed={"source.node_file": "source.empty_node_file",
            "source.shebang": "source.no_shebang"}, skipped=RUN, score=60,
            note="not saved in VS Code"),
     _unreadable("bracket_missing", Replace(NODE, "str(self.counter_))", "str(self.counter_)"),
@@ -64,11 +65,11 @@ SOURCE = (
                 "\tself.counter_ += 1"), mistake="source.syntax_error"),
     _unreadable("python_2_print", Replace(NODE, "        pass\n", "        print 'bye'\n"),
                 mistake="source.syntax_error"),
-    _unreadable("not_utf8", Raw(NODE, LATIN), mistake="source.not_utf8",
+    _unreadable("not_utf8", Write(NODE, LATIN), mistake="source.not_utf8",
                 note="latin-1 from an old editor"),
-    _unreadable("null_bytes", Raw(NODE, SHEBANG.encode() + b"\0\0\0\0"),
+    _unreadable("null_bytes", Write(NODE, SHEBANG.encode() + b"\0\0\0\0"),
                 mistake="source.syntax_error", note="UTF-16, or a damaged copy"),
-    broken("word_document", Raw(NODE, b"PK\3\4\x14\0\6\0\x08\0\0\0!\0"),
+    broken("word_document", Write(NODE, b"PK\3\4\x14\0\6\0\x08\0\0\0!\0"),
            failed={"source.node_file": "source.syntax_error",
                    "source.shebang": "source.no_shebang"}, skipped=RUN, score=60),
     broken("exec_bit_missing", Chmod(NODE, 0o644),

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Replace
+
 from .model import BUILT
 from .model import INSTALLED
 from .model import SETUP
 from .model import Package
-from .model import Replace
 from .model import hostile
 
 CALL = "\nsetup(\n"

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field
 
+from grader.validate.tree import Edit
+
 PACKAGE = "my_robot_controller"
 INNER = PACKAGE
 NODE = f"{INNER}/my_first_node.py"
@@ -33,88 +35,6 @@ INSTALLED = RUN | {"entry_point.executable"}
 BUILT = INSTALLED | {"build.colcon"}
 FOUND = STATIC | BUILT | {"entry_point.mapping"}
 TICKS = frozenset({"run.logger", "run.period"})
-
-
-@dataclass(frozen=True)
-class Replace:
-    """Replace a text that occurs exactly once in the file."""
-
-    path: str
-    old: str
-    new: str
-
-
-@dataclass(frozen=True)
-class Write:
-    """Write a text file; one that is there keeps its mode."""
-
-    path: str
-    text: str
-    mode: int | None = None
-
-
-@dataclass(frozen=True)
-class Raw:
-    """Write bytes; a file that is there keeps its mode."""
-
-    path: str
-    data: bytes
-
-
-@dataclass(frozen=True)
-class Delete:
-    """Delete a file, or a folder with all that is in it."""
-
-    path: str
-
-
-@dataclass(frozen=True)
-class Rename:
-    """Rename or move a file or folder; folders on the way are made."""
-
-    path: str
-    to: str
-
-
-@dataclass(frozen=True)
-class Copy:
-    """Copy a file or folder."""
-
-    path: str
-    to: str
-
-
-@dataclass(frozen=True)
-class Chmod:
-    """Set the permission bits."""
-
-    path: str
-    mode: int
-
-
-@dataclass(frozen=True)
-class Crlf:
-    """End every line of the file as Windows does."""
-
-    path: str
-
-
-@dataclass(frozen=True)
-class Link:
-    """Make a symbolic link to `target`."""
-
-    path: str
-    target: str
-
-
-@dataclass(frozen=True)
-class Nest:
-    """Move all that is there into a new folder below; later paths start above it."""
-
-    folder: str
-
-
-Edit = Replace | Write | Raw | Delete | Rename | Copy | Chmod | Crlf | Link | Nest
 
 
 @dataclass(frozen=True, kw_only=True)

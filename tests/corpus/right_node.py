@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
 from .model import INNER
 from .model import NODE
-from .model import Replace
-from .model import Write
 from .model import right
 
 TEXT = "'Hello time: ' + str(self.counter_)"

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Chmod
+from grader.validate.tree import Copy
+from grader.validate.tree import Crlf
+from grader.validate.tree import Nest
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
 from .model import CFG
 from .model import INNER
 from .model import MANIFEST
 from .model import NODE
 from .model import PACKAGE
 from .model import SETUP
-from .model import Chmod
-from .model import Copy
-from .model import Crlf
-from .model import Nest
-from .model import Raw
-from .model import Replace
-from .model import Write
 from .model import right
 
 ENTRY = "            'test_node = my_robot_controller.my_first_node:main',\n"
@@ -132,13 +132,13 @@ PACKAGING = (
           Copy(f"src/{PACKAGE}/{MANIFEST}", f"install/{PACKAGE}/share/{PACKAGE}/package.xml"),
           Write("install/.colcon_install_layout", "merged\n"), Write("log/COLCON_IGNORE", ""),
           note="committed build, install and log of another machine, with stale copies"),
-    right("compiled", Raw(f"{INNER}/__pycache__/my_first_node.cpython-312.pyc", b"\0\1\2stale"),
+    right("compiled", Write(f"{INNER}/__pycache__/my_first_node.cpython-312.pyc", b"\0\1\2stale"),
           note="105 of 147 committed __pycache__"),
     right("egg_info",
           Write(f"{PACKAGE}.egg-info/entry_points.txt", "[console_scripts]\nold = a:b\n"),
           Write(f"{PACKAGE}.egg-info/PKG-INFO", "Metadata-Version: 2.1\nName: old\nVersion: 0\n")),
     right("editor_and_system_files", Write(".vscode/settings.json", "{}\n"),
-          Raw(".DS_Store", b"\0\0\0\1Bud1"), Raw(f"{INNER}/.my_first_node.py.swp", b"b0VIM\0\xff")),
+          Write(".DS_Store", b"\0\0\0\1Bud1"), Write(f"{INNER}/.my_first_node.py.swp", b"b0VIM\0\xff")),
     right("tests_of_the_template", Write("test/test_flake8.py", "def test_nothing():\n    pass\n"),
           Replace(SETUP, "    license=", "    tests_require=['pytest'],\n    license=")),
     right("no_license_text", Replace(MANIFEST, "Apache-2.0", "TODO: License declaration"),

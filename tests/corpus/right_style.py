@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from grader.validate.tree import Edit
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+
 from .model import INNER
 from .model import NODE
 from .model import SETUP
-from .model import Edit
-from .model import Raw
-from .model import Replace
-from .model import Write
 from .model import right
 from .right_node import CATCH
 from .right_node import COUNT
@@ -167,7 +167,7 @@ STYLE = (
           _node(LINE, "global counter\n        self.get_logger().info(f'Hello time: {counter}')"),
           _node(STEP, "counter += 1")),
     right("compact_with_tabs", Write(NODE, COMPACT, 0o755)),
-    right("latin_1_declared", Raw(NODE, NO_CLASS.replace(
+    right("latin_1_declared", Write(NODE, NO_CLASS.replace(
           "#!/usr/bin/env python3\n", "#!/usr/bin/env python3\n# -*- coding: latin-1 -*-\n"
           "# f\xfcr die erste \xdcbung\n").encode("latin-1"))),
     right("private_main", _node("def main(", "def _run("), _node("\n    main()\n", "\n    _run()\n"),

@@ -9,20 +9,21 @@ from pathlib import Path
 import pytest
 import yaml
 
+from grader.validate.tree import Chmod
+from grader.validate.tree import Crlf
+from grader.validate.tree import EditError
+from grader.validate.tree import Link
+from grader.validate.tree import Nest
+from grader.validate.tree import Replace
+
 from .broken import BROKEN
 from .build import ROOT
 from .build import SOLUTION
-from .build import EditError
 from .build import write
 from .hostile import HOSTILE
 from .model import NODE
 from .model import SETUP
-from .model import Chmod
-from .model import Crlf
-from .model import Link
-from .model import Nest
 from .model import Package
-from .model import Replace
 from .right import RIGHT
 
 CORPUS = (*RIGHT, *BROKEN, *HOSTILE)

@@ -11,8 +11,8 @@ from grader.fix.plan import Plan
 from grader.fix.plan import mend_files
 from grader.submission import Submission
 from grader.submission import take_in
+from grader.validate.tree import Edit
 from tests.corpus.build import write
-from tests.corpus.model import Edit
 from tests.corpus.model import Package
 from tests.static_bench import ASSIGNMENT
 

@@ -10,16 +10,16 @@ from pathlib import Path
 import pexpect
 import pytest
 
+from grader.validate.tree import Chmod
+from grader.validate.tree import Delete
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
 from tests import stage
 from tests.corpus.model import INNER
 from tests.corpus.model import MANIFEST
 from tests.corpus.model import MARKER
 from tests.corpus.model import NODE
 from tests.corpus.model import SETUP
-from tests.corpus.model import Chmod
-from tests.corpus.model import Delete
-from tests.corpus.model import Raw
-from tests.corpus.model import Replace
 from tests.fix.bench import TOOLS
 from tests.fix.bench import edited
 from tests.fix.bench import plan_of
@@ -27,7 +27,7 @@ from tests.fix.bench import with_tool
 from tests.fix.test_disk import tree
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
-EMPTY = Raw(NODE, b"")
+EMPTY = Write(NODE, b"")
 
 
 def test_a_dry_run_is_the_default_and_prints_what_apply_writes(tmp_path: Path) -> None:

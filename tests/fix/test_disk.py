@@ -12,14 +12,14 @@ from grader.errors import UsageError
 from grader.fix.disk import apply
 from grader.fix.files import Files
 from grader.fix.plan import Plan
+from grader.validate.tree import Chmod
+from grader.validate.tree import Delete
+from grader.validate.tree import Move
+from grader.validate.tree import Replace
 from tests.corpus.model import MANIFEST
 from tests.corpus.model import MARKER
 from tests.corpus.model import NODE
 from tests.corpus.model import SETUP
-from tests.corpus.model import Chmod
-from tests.corpus.model import Delete
-from tests.corpus.model import Rename
-from tests.corpus.model import Replace
 from tests.fix.bench import contents
 from tests.fix.bench import edited
 from tests.fix.bench import plan_of
@@ -65,7 +65,7 @@ def test_a_second_backup_does_not_replace_the_first(tmp_path: Path) -> None:
 
 
 def test_a_file_that_moves_is_not_left_behind(tmp_path: Path) -> None:
-    root = edited(tmp_path, Rename(NODE, "scripts/my_first_node.py"))
+    root = edited(tmp_path, Move(NODE, "scripts/my_first_node.py"))
     apply(plan_of(root), root)
     assert not (root / "scripts/my_first_node.py").exists()
     assert (root / NODE).stat().st_mode & 0o111
@@ -89,12 +89,12 @@ def _link(root: Path) -> None:
 
 
 def _marker_there(root: Path) -> None:
+    (root / MARKER).parent.mkdir()
     (root / MARKER).write_text("made meanwhile")
 
 
 def _resource_is_a_link(root: Path) -> None:
     (root.parent / "elsewhere").mkdir(exist_ok=True)
-    (root / "resource").rmdir()
     (root / "resource").symlink_to(root.parent / "elsewhere")
 
 
@@ -136,7 +136,7 @@ def test_a_failure_half_way_brings_everything_back(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    edits = (NAME, ENTRY, Delete(MARKER), Rename(NODE, "scripts/my_first_node.py"))
+    edits = (NAME, ENTRY, Delete(MARKER), Move(NODE, "scripts/my_first_node.py"))
     root = edited(tmp_path, *edits)
     plan = plan_of(root)
     before = tree(root)

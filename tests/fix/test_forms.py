@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from grader.validate.tree import Delete
+from grader.validate.tree import Edit
+from grader.validate.tree import Move
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
 from tests.corpus.model import CFG
 from tests.corpus.model import INNER
 from tests.corpus.model import MANIFEST
 from tests.corpus.model import MARKER
 from tests.corpus.model import NODE
 from tests.corpus.model import SETUP
-from tests.corpus.model import Delete
-from tests.corpus.model import Edit
-from tests.corpus.model import Rename
-from tests.corpus.model import Replace
-from tests.corpus.model import Write
 from tests.fix.bench import contents
 from tests.fix.bench import edited
 from tests.fix.bench import plan_of
@@ -141,8 +141,8 @@ FORMS: dict[str, tuple[Edit, tuple[str, str]]] = {
         Replace(MANIFEST, "</maintainer>", "</maintaner>"),
         (MANIFEST, "</maintainer>"),
     ),
-    "a manifest with a capital": (Rename(MANIFEST, "Package.xml"), (MANIFEST, "<package")),
-    "a setup.cfg with a capital": (Rename(CFG, "Setup.cfg"), (CFG, "[develop]")),
+    "a manifest with a capital": (Move(MANIFEST, "Package.xml"), (MANIFEST, "<package")),
+    "a setup.cfg with a capital": (Move(CFG, "Setup.cfg"), (CFG, "[develop]")),
     "a misspelt section": (Replace(CFG, "[install]", "[instal]"), (CFG, "\n[install]\n")),
     "a misspelt key": (Replace(CFG, "script_dir", "scripts_dir"), (CFG, "\nscript_dir=$base")),
     "blanks around =": (
@@ -163,9 +163,9 @@ FORMS: dict[str, tuple[Edit, tuple[str, str]]] = {
         (CFG, f"[install]\ninstall_scripts=$base/lib/{INNER}\n"),
     ),
     "a section not closed": (Replace(CFG, "[install]", "[install"), (CFG, "\n[install]\n")),
-    "a marker of nearly the name": (Rename(MARKER, "resource/My_robot_controller"), (MARKER, "")),
-    "a node with a capital": (Rename(NODE, f"{INNER}/My_First_Node.py"), (NODE, "class")),
-    "a node beside the package's folder": (Rename(NODE, "src/my_first_node.py"), (NODE, "class")),
+    "a marker of nearly the name": (Move(MARKER, "resource/My_robot_controller"), (MARKER, "")),
+    "a node with a capital": (Move(NODE, f"{INNER}/My_First_Node.py"), (NODE, "class")),
+    "a node beside the package's folder": (Move(NODE, "src/my_first_node.py"), (NODE, "class")),
     "no __init__.py": (Delete(f"{INNER}/__init__.py"), (f"{INNER}/__init__.py", "")),
     "no rclpy in the manifest": (
         Replace(MANIFEST, "\n  <depend>rclpy</depend>\n", ""),
@@ -217,7 +217,7 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
     "a CMake package": (Replace(MANIFEST, "ament_python", "ament_cmake"),
                         Write("CMakeLists.txt", "project(x)\n")),
     "two build types": (export(EXPORT + "  <build_type>ament_python</build_type>\n"),),
-    "two files of the node's name": (Rename(NODE, "a/my_first_node.py"),
+    "two files of the node's name": (Move(NODE, "a/my_first_node.py"),
                                      Write("b/my_first_node.py", "x = 1\n")),
     "no licence": (Replace(MANIFEST, "  <license>Apache-2.0</license>\n", ""),),
     "a document type": (Replace(MANIFEST, "<package ", "<!DOCTYPE a>\n<package "),),

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
+from grader.validate.tree import Crlf
+from grader.validate.tree import Delete
+from grader.validate.tree import Edit
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
 from tests.corpus.model import CFG
 from tests.corpus.model import MANIFEST
 from tests.corpus.model import NODE
 from tests.corpus.model import SETUP
-from tests.corpus.model import Crlf
-from tests.corpus.model import Delete
-from tests.corpus.model import Edit
-from tests.corpus.model import Raw
-from tests.corpus.model import Replace
 from tests.fix.bench import TOOLS
 from tests.fix.bench import contents
 from tests.fix.bench import edited
@@ -114,7 +114,7 @@ def test_a_shebang_before_windows_lines_makes_them_those_of_linux(tmp_path: Path
 
 def test_carriage_returns_in_a_line_are_not_line_ends_to_be_changed(tmp_path: Path) -> None:
     code = b"#!/usr/bin/env python3\r\nTEXT = 'a\\rb'\r\n\r\ndef main():\r\n    pass\r\n"
-    before, after = change(edited(tmp_path, Raw(NODE, code)), NODE)
+    before, after = change(edited(tmp_path, Write(NODE, code)), NODE)
     assert after == before.replace(b"\r\n", b"\n")
 
 

@@ -19,13 +19,13 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.ordering import make_orders
 from grader.report.model import CheckResult
 from grader.report.model import Mistake
+from grader.validate.tree import Replace
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION
 from tests.corpus.build import write
 from tests.corpus.model import NODE
 from tests.corpus.model import SETUP
 from tests.corpus.model import Package
-from tests.corpus.model import Replace
 from tests.fix.bench import TOOLS
 from tests.fix.bench import edited
 from tests.fix.bench import taken
@@ -134,7 +134,7 @@ def test_the_real_verdict_is_full_after_the_mend(name: str, tmp_path: Path) -> N
     root = write(package(name), tmp_path)
     limits = ("build_seconds=30", "start_seconds=15")
     (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
-    plan = make_plan(Wish(order=order), taken(root), say=print)
+    plan = make_plan(Wish(order=order), taken(root), tell=print)
     assert not plan.left, plan.left
     assert plan.patch
 

@@ -8,11 +8,11 @@ import pytest
 
 from grader.fix.asking import ask
 from grader.fix.plan import patch_for
+from grader.validate.tree import Crlf
+from grader.validate.tree import Write
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
-from tests.corpus.model import Crlf
 from tests.corpus.model import Package
-from tests.corpus.model import Raw
 from tests.fix.bench import NODE
 from tests.fix.bench import TOOLS
 from tests.fix.bench import contents
@@ -142,7 +142,7 @@ def test_a_report_is_not_filled_by_the_diff_of_a_huge_file(tmp_path: Path) -> No
 
 def test_a_diff_that_json_cannot_hold_is_left_out_of_a_report(tmp_path: Path) -> None:
     code = b"#!/usr/bin/env python3\r\n# -*- coding: latin-1 -*-\r\n# f\xfcr\r\nx = 1\r\n"
-    root = write(Package(name="latin", edits=(Raw(NODE, code),)), tmp_path)
+    root = write(Package(name="latin", edits=(Write(NODE, code),)), tmp_path)
     submission = taken(root)
     result = ask(submission, ASSIGNMENT)["source.shebang"]
     assert patch_for(result, submission, ASSIGNMENT) == ""

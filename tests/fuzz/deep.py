@@ -1,6 +1,7 @@
 """Coverage-guided fuzzing of all targets in one process, with atheris (libFuzzer).
 
-    .venv/bin/pip install atheris     # wheels for Linux x86_64, Python 3.11 to 3.13 (not 3.10)
+It is in the tests' environment for Python 3.11 to 3.13 (there is no wheel for 3.10).
+
     nice -n 19 .venv/bin/python -m tests.fuzz.deep FOLDER -max_total_time=600
 
 FOLDER keeps what reached new code; it begins with the corpus's packages. The first byte of an
@@ -51,6 +52,7 @@ def seed(folder: Path, names: list[str], seeds: dict[str, bytes]) -> None:
     short = importlib.import_module("tests.fuzz.test_short")
     broken = importlib.import_module("tests.corpus.broken").BROKEN
     model = importlib.import_module("tests.corpus.model")
+    tree = importlib.import_module("grader.validate.tree")
     paths = {seeds["manifest"]: model.MANIFEST, seeds["setup_py"]: model.SETUP,
              seeds["setup_cfg"]: model.CFG, seeds["python"]: model.NODE}  # fmt: skip
     for number, name in enumerate(names):
@@ -59,7 +61,7 @@ def seed(folder: Path, names: list[str], seeds: dict[str, bytes]) -> None:
         for package in broken:
             changed = right
             for edit in package.edits:
-                if isinstance(edit, model.Replace) and edit.path == paths.get(right):
+                if isinstance(edit, tree.Replace) and edit.path == paths.get(right):
                     changed = changed.replace(edit.old.encode(), edit.new.encode())
             found.add(changed)
         for example in found:

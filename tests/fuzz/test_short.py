@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from grader.validate.tree import Replace
 from tests.corpus.broken import BROKEN
-from tests.corpus.model import Replace
 from tests.fuzz.targets import SEEDS
 from tests.fuzz.targets import TARGETS
 

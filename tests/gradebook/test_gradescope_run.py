@@ -29,10 +29,10 @@ from grader.ros.prefix import Ros
 from grader.runner import Order
 from grader.runner import grade
 from grader.submission import take_in
+from grader.validate.tree import Replace
 from tests import stage
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.corpus.model import Replace
 from tests.gradebook.schemas import GRADESCOPE
 from tests.report import samples
 

@@ -93,6 +93,11 @@ def line_of(text: str, part: str) -> int:
          "create_timer"),
         ("run.print_not_logger", "self.get_logger().info(", "print(", "print_used", "print("),
         ("run.wrong_start", "self.n = 0", "self.n = 5", "starts_elsewhere", "self.n = 5"),
+        ("run.stops", "self.n = self.n + 1", "self.n += 1; input()", "callback_never_ends", "input"),
+        ("run.no_lines", "def tick(self):", "def tick(self):\n        while True:\n"
+         "            pass", "callback_never_ends", "while"),
+        ("run.wrong_period", "self.n = self.n + 1", "self.n += 1; time.sleep(2.5)",
+         "sleeps_in_callback", "sleep"),
     ],
 )  # fmt: skip
 def test_a_mistake_is_found_in_a_node_that_is_written_otherwise(
@@ -117,11 +122,24 @@ def test_a_counter_is_found_where_the_text_is_put_together_before() -> None:
     assert found.where == Where(file=FILE, line=line_of(text, "+= 2"))
 
 
+def test_a_loop_that_is_left_is_not_accused() -> None:
+    text = OTHERWISE.replace("self.n = self.n + 1", "while True:\n            break")
+    assert look("run.stops", text) is None
+
+
+@pytest.mark.parametrize(
+    ("period", "sleep"), [("1", "0.5"), ("1", "seconds"), ("1", ""), ("2", "2.5")]
+)
+def test_a_sleep_that_keeps_no_line_apart_is_not_accused(period: str, sleep: str) -> None:
+    text = OTHERWISE.replace("self.n = self.n + 1", f"self.n += 1; time.sleep({sleep})")
+    assert look("run.wrong_period", text.replace("sec=1)", f"sec={period})")) is None
+
+
 @pytest.mark.parametrize("text", [RIGHT, OTHERWISE])
 @pytest.mark.parametrize(
     "symptom",
     ["run.exits_at_once", "run.no_node", "run.constant_counter", "run.wrong_step", "run.twice",
-     "run.by_hand", "run.stops", "run.ended_early", "run.print_not_logger"],
+     "run.by_hand", "run.stops", "run.ended_early", "run.print_not_logger", "run.wrong_period"],
 )  # fmt: skip
 def test_a_right_node_is_not_accused(symptom: str, text: str) -> None:
     assert look(symptom, text) is None
@@ -147,6 +165,21 @@ def test_a_right_node_is_not_accused(symptom: str, text: str) -> None:
          "callback=self.tick, timer_period_sec=1", "self.tick, 1", "timer_arguments_swapped", ""),
         ("AttributeError: module 'a.b' has no attribute 'main'", "def main(", "def mian(",
          "main_misspelt", "main"),
+        ("TypeError: Hello.__init__() takes 0 positional arguments but 1 was given",
+         "__init__(self)", "__init__()", "init_no_self", ""),
+        ("TypeError: Hello.tick() takes 0 positional arguments but 1 was given", "tick(self)",
+         "tick()", "callback_no_self", ""),
+        ("TypeError: Node.destroy_node() missing 1 required positional argument: 'self'",
+         "hello = Hello()", "hello = Hello\n", "class_not_called", ""),
+        ("TypeError: descriptor '__init__' requires a 'super' object but received a 'str'",
+         "super()._", "super._", "super_not_called", ""),
+        ("TypeError: 'int' object is not callable", "{self.n}", "{self.n()}", "not_callable", ""),
+        ("TypeError: unsupported operand type(s) for +=: 'int' and 'str'", "self.n = self.n + 1",
+         "self.n += '1'", "step_is_text", ""),
+        ("TypeError: RcutilsLogger.info() missing 1 required positional argument: 'message'",
+         'info(f"Hello time: {self.n}")', "info()", "argument_missing", ""),
+        ("TypeError: Hello.__init__() missing 1 required positional argument: 'name'",
+         "__init__(self)", "__init__(self, name)", "argument_missing", ""),
     ],
 )  # fmt: skip
 def test_an_exception_is_told_apart_and_the_right_name_proposed(
@@ -161,6 +194,14 @@ def test_an_exception_is_told_apart_and_the_right_name_proposed(
     assert found.words["close"] == close
     assert found.where is not None
     assert found.where.line == at
+
+
+def test_the_second_of_two_calls_of_init_is_the_one_too_many() -> None:
+    text = OTHERWISE.replace("args=args)\n", "args=args)\n    rclpy.init()\n")
+    found = raised("RuntimeError: Context.init() must only be called once", text, None)
+    assert found is not None
+    assert found.kind == "node.init_twice"
+    assert found.where == Where(file=FILE, line=line_of(text, "rclpy.init()"))
 
 
 def test_an_exception_of_the_students_own_is_not_guessed_at() -> None:

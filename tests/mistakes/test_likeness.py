@@ -37,7 +37,16 @@ def test_the_difference_is_marked_where_it_is(found: str, wanted: str, line: str
 
 @pytest.mark.parametrize(
     ("found", "wanted"),
-    [("same", "same"), ("", "main"), ("tomato", "my_first_node"), ("안녕 시간", "안녕 시가")],
+    [
+        ("same", "same"),
+        ("", "main"),
+        ("tomato", "my_first_node"),
+        ("안녕 시간", "안녕 시가"),
+        (
+            "test_node = a.my_first_node:mainsecond = a.second:main",
+            "test_node = a.my_first_node:main",
+        ),
+    ],
 )
 def test_where_marks_would_say_nothing_there_are_none(found: str, wanted: str) -> None:
     assert marks(found, wanted) == ""

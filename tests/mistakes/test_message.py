@@ -94,6 +94,17 @@ def test_the_language_is_chosen_as_gnu_gettext_chooses_it(
     assert chosen_language(environment) == wanted
 
 
+@pytest.mark.parametrize(
+    ("own", "wanted"), [("ko", "ko"), ("ko_KR.UTF-8", "ko"), ("en", "en"), ("", "en"), ("de", "en")]
+)
+def test_a_place_without_locales_names_the_language_itself(own: str, wanted: str) -> None:
+    assert chosen_language({"LC_ALL": "C.UTF-8", "GRADER_LANG": own}) == wanted
+
+
+def test_an_own_language_comes_before_the_locale_s() -> None:
+    assert chosen_language({"LANG": "ko_KR.UTF-8", "GRADER_LANG": "en"}) == "en"
+
+
 def test_a_language_that_nobody_speaks_is_english() -> None:
     assert Speaker("tlh").lang == "en"
     assert Speaker("tlh")(say("there is no setup.cfg")) == "there is no setup.cfg"

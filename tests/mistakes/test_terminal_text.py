@@ -33,6 +33,9 @@ SHOWN = {
     "setup.misspelt_module": [
         "ModuleNotFoundError: No module named 'my_robot_controller.my_frist_node'"
     ],
+    "node.f_prefix": [
+        "[INFO] [1795271258.137196884] [my_first_node]: Hello time: {self.counter_}",
+    ],
     "node.import_misspelt": ["ModuleNotFoundError: No module named 'my_first_node'"],
     "setup.py_in_target": [
         "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node.py'; "
@@ -101,6 +104,13 @@ SHOWN = {
         "rclpy.exceptions.NotInitializedException: rclpy.init() has not been called. msg:cannot "
         "create node"
     ],
+    "node.init_twice": ["RuntimeError: Context.init() must only be called once"],
+    "node.init_no_self": ["TypeError: MyNode.__init__() takes 0 positional arguments but 1 was given"],
+    "node.super_not_called": [
+        "TypeError: descriptor '__init__' requires a 'super' object but received a 'str'"
+    ],
+    "node.step_is_text": ["TypeError: unsupported operand type(s) for +=: 'int' and 'str'"],
+    "node.not_callable": ["TypeError: 'int' object is not callable"],
     "node.spin_of_class": ["TypeError: 'property' object is not iterable"],
     "node.str_plus_int": ['TypeError: can only concatenate str (not "int") to str'],
     "node.counter_local": [

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import string
+from collections.abc import Iterator
 
 import pytest
 
 from grader.locale import update
 from grader.locale.speaker import LANGUAGES
+from tests.stage import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
 # what is to be typed or written word for word, and what is all placeholders
@@ -35,6 +38,32 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
         assert message is not None, f"{place}: {template!r}: run python -m grader.locale.update"
         assert message.string, f"{place}: {template!r} has no translation"
         assert placeholders(str(message.string)) == placeholders(template), template
+
+
+def marked() -> Iterator[str]:
+    """Yield every text that the source marks, as Python reads it (Babel reads tokens)."""
+    for path in sorted(path for room in update.ROOMS for path in (ROOT / room).rglob("*.py")):
+        source = path.read_text(encoding="utf-8")
+        if update.MARKS not in source:
+            continue
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                first = node.args[0] if node.args else None
+                if node.func.id in update.KEYWORDS and isinstance(first, ast.Constant):
+                    yield str(first.value)
+
+
+def test_every_text_that_is_marked_is_gathered() -> None:
+    """(Babel does not see one within an f-string, or within another that is marked.)"""
+    gathered = {template for template, _ in update.templates()}
+    assert set(marked()) - gathered == set()
+
+
+@pytest.mark.parametrize("room", ["gradebook", "site", "fix", "batch", "sandbox", "ros", "lab"])
+def test_the_texts_of_every_room_that_students_read_are_gathered(room: str) -> None:
+    places = {place for _, place in update.templates()}
+    folder = "lab" if room == "lab" else f"grader/{room}"
+    assert any(place.startswith(f"{folder}/") for place in places)
 
 
 def test_korean_texts_are_korean() -> None:

@@ -7,9 +7,9 @@ import ast
 import pytest
 
 from grader.assignment import load_assignment
+from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.command import KEYS
-from grader.validate.marking import mutate
 from grader.validate.spots import Code
 from grader.validate.tree import digest
 from grader.validate.tree import read_tree
@@ -22,19 +22,19 @@ MUTANTS = {mutant.name: mutant for mutant in generate(SOLUTION, ASSIGNMENT)}
 
 
 def node_of(name: str) -> str:
-    return mutate(MUTANTS[name], SOLUTION)[NODE].data.decode()
+    return MUTANTS[name].of(SOLUTION)[NODE].data.decode()
 
 
 def test_there_are_enough_and_they_are_the_same_each_time() -> None:
     again = list(generate(SOLUTION, ASSIGNMENT))
     assert again == list(MUTANTS.values())
-    assert len({digest(mutate(mutant, SOLUTION)) for mutant in again}) >= 120
+    assert len({digest(mutant.of(SOLUTION)) for mutant in again}) >= 120
 
 
 def test_every_mutant_differs_from_the_solution_and_says_what_must_fail() -> None:
     known = {use.id for use in ASSIGNMENT.checks}
     for mutant in MUTANTS.values():
-        assert digest(mutate(mutant, SOLUTION)) != digest(SOLUTION), mutant.name
+        assert digest(mutant.of(SOLUTION)) != digest(SOLUTION), mutant.name
         assert any(mutant.is_hit_by(check) for check in known), mutant.name
 
 
@@ -68,6 +68,15 @@ def test_a_node_that_python_cannot_read_must_fail_at_the_source() -> None:
         if mutant.families == ("source.node_file",):
             with pytest.raises((SyntaxError, ValueError)):
                 compile(ast.parse(node_of(mutant.name)), "<node>", "exec")
+
+
+def test_an_f_string_is_changed_as_a_whole_and_inside_where_its_parts_stand() -> None:
+    source = "text = f'[{self.n}] ticks'\n"
+    made = {name: text for name, text, _ in in_source.mutants_of(Code(source), ASSIGNMENT)}
+    assert made["f lost f'[{self.n}] ticks'"] == "text = '[{self.n}] ticks'\n"
+    assert made["text '] ticks' mark added"] == "text = f'[{self.n}] ticks!'\n"
+    assert made["text '[' empty"] == "text = f'{self.n}] ticks'\n"
+    assert made["misspell self.n"] == "text = f'[{self.nn}] ticks'\n"
 
 
 def test_places_are_found_in_lines_with_letters_of_several_bytes() -> None:

@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from grader.errors import AssignmentError
-from grader.validate.named import Catalogued
+from grader.validate.named import Written
 from grader.validate.named import read_mutants
 from grader.validate.tree import Chmod
 from grader.validate.tree import Copy
 from grader.validate.tree import Delete
+from grader.validate.tree import Move
 from grader.validate.tree import Replace
 from grader.validate.tree import Write
 
@@ -29,7 +30,7 @@ mutants:
 """
 
 
-def read(folder: Path, text: str) -> Catalogued:
+def read(folder: Path, text: str) -> Written:
     path = folder / "mutants.yaml"
     path.write_text(text)
     return read_mutants(path, checks=CHECKS, mistakes=MISTAKES)
@@ -64,14 +65,32 @@ def test_every_edit_can_be_written_down(tmp_path: Path) -> None:
         Write("f", b"t\n", 0o755),
         Write("f", b"\0\1"),
         Delete("f"),
-        Copy("f", "g", moved=True),
+        Move("f", "g"),
         Copy("f", "g"),
     )
 
 
 def test_survivors_are_explained_by_name(tmp_path: Path) -> None:
     text = GOOD + "equivalent:\n  - {mutant: drop x, why: nobody reads it}\n"
-    assert read(tmp_path, text).equivalent == {"drop x": "nobody reads it"}
+    written = read(tmp_path, text)
+    assert written.explained(["drop x", "drop y"]) == {"drop x": "nobody reads it"}
+
+
+@pytest.mark.parametrize(
+    ("automatic", "line", "says"),
+    [
+        (["drop xy"], 9, "no automatic mutant 'drop x': did you mean 'drop xy'?"),
+        (["drop x", "no_bit"], 3, "an automatic mutant has the same name"),
+    ],
+)
+def test_names_that_do_not_fit_the_automatic_mutants_are_told_with_their_line(
+    automatic: list[str], line: int, says: str, tmp_path: Path
+) -> None:
+    written = read(tmp_path, GOOD + "equivalent:\n  - {mutant: drop x, why: nobody reads it}\n")
+    with pytest.raises(AssignmentError) as caught:
+        written.explained(automatic)
+    assert str(caught.value).startswith(f"{tmp_path}/mutants.yaml:{line}: ")
+    assert says in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -95,6 +114,7 @@ def test_survivors_are_explained_by_name(tmp_path: Path) -> None:
         (edits("{write: f, base64: '%'}"), 7, "base64"),
         (edits("delete"), 7, "mapping"),
         (GOOD + "equivalent:\n  - {mutant: x}\n", 9, "why"),
+        (GOOD + "equivalent:\n" + 2 * "  - {mutant: x, why: y}\n", 10, "twice"),
     ],
 )
 def test_a_fault_is_told_with_file_and_line(

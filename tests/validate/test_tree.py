@@ -14,6 +14,7 @@ from grader.validate.tree import Edit
 from grader.validate.tree import EditError
 from grader.validate.tree import Entry
 from grader.validate.tree import Link
+from grader.validate.tree import Move
 from grader.validate.tree import Nest
 from grader.validate.tree import Replace
 from grader.validate.tree import Tree
@@ -66,7 +67,7 @@ def test_each_edit_does_what_its_name_says() -> None:
         Write("new/d.txt", b"d"),
         Delete("in/c.txt"),
         Copy("in", "out"),
-        Copy("in/b.txt", "b.txt", moved=True),
+        Move("in/b.txt", "b.txt"),
         Chmod("out/b.txt", 0o600),
         Crlf("b.txt"),
         Link("out/l", "/nowhere"),

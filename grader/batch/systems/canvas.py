@@ -18,6 +18,7 @@ from grader.batch.systems.layout import Layout
 from grader.batch.systems.layout import Read
 from grader.batch.systems.layout import Reading
 from grader.batch.systems.words import plain
+from grader.locale.message import say
 
 NAMED = re.compile(
     r"(?P<late1>LATE_)?(?:anon_(?P<anon>[A-Za-z0-9]+)|(?P<name>\w+?)(?P<late2>_LATE)?_(?P<user>\d+))"
@@ -31,7 +32,7 @@ NO_TIMES = (
     "of the download), only whether it was late (LATE in the name)"
 )
 TYPED = "left out, as text or a link that was typed into Canvas"
-ONLY_TYPED = "only text or a link was handed in, typed into Canvas: there is no file to mark"
+ONLY_TYPED = say("only text or a link was handed in, typed into Canvas: there is no file to mark")
 EARLIER = "a file that was handed in again under the same name: the newest counts as the last"
 AMBIGUOUS = "the student's number is not certain, as the name has digits around it"
 RENAMED = "named as before Canvas added a number"

@@ -26,12 +26,13 @@ from grader.intake.notes import shown
 from grader.intake.reading import MEGABYTE
 from grader.intake.reading import Unread
 from grader.intake.reading import read_bytes
+from grader.locale.message import say
 
 METADATA = "submission_metadata.yml"
 NAMED = re.compile(r"submission_\d+")
 LARGEST = 64 * MEGABYTE
 UNKNOWN = "not in submission_metadata.yml: its number stands for the student"
-NO_FOLDER = "it is in submission_metadata.yml, and its folder is not in the export"
+NO_FOLDER = say("it is in submission_metadata.yml, and its folder is not in the export")
 GROUP = "handed in together: each of them gets the verdict"
 NO_METADATA = "submission_metadata.yml is not there: nobody's name, and no times"
 

@@ -21,6 +21,7 @@ from grader.intake.archive_kind import kind_of
 from grader.intake.notes import shown
 from grader.intake.reading import Unread
 from grader.intake.reading import open_file
+from grader.locale.message import say
 
 Kind = Literal["folder", "archive", "file"]
 
@@ -28,7 +29,9 @@ MOST_NAMES = 100_000
 HIDDEN = "left out, as hidden"
 OF_SYSTEM = "left out, as no student's: the operating system's, a tool's or this grader's"
 NO_SUBMISSION = "left out, as neither a folder nor an archive"
-IS_LINK = "it is a link to elsewhere, and links are not followed: put what it leads to in its place"
+IS_LINK = say(
+    "it is a link to elsewhere, and links are not followed: put what it leads to in its place"
+)
 FILES = frozenset(
     [
         ".csv",

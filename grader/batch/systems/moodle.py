@@ -21,6 +21,7 @@ from grader.batch.systems.layout import Layout
 from grader.batch.systems.layout import Read
 from grader.batch.systems.layout import Reading
 from grader.batch.systems.words import plain
+from grader.locale.message import say
 
 NAMED = re.compile(
     r"(?P<name>.*?)(?:_(?P<id>\d+))?_assignsubmission_(?P<plugin>[a-z]+)(?:_(?P<file>.*))?",
@@ -31,7 +32,7 @@ NO_TIMES = (
     "of the download): nothing counts as late by it"
 )
 ONLINE_TEXT = "left out, as text that was typed into Moodle"
-ONLY_TEXT = "only text was handed in, typed into Moodle: there is no file to mark"
+ONLY_TEXT = say("only text was handed in, typed into Moodle: there is no file to mark")
 NO_ID = "Moodle's number is not in the name: the name stands for it"
 TWICE = "more than one folder of this student, taken as attempts in the order of their names"
 

@@ -1,0 +1,73 @@
+"""A class is marked in the language that was asked for, and each language keeps its verdicts."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from grader.batch.keys import surroundings_key
+from grader.batch.work import Job
+from grader.limits import Limits
+from grader.ros.prefix import Ros
+from tests.batch.classes import grade_all
+from tests.batch.works import JOB
+from tests.batch.works import package
+
+ROSTER = "id,name\nan,김하나\nabsent,이두리\n"
+
+
+def report_of(out: Path) -> dict[str, object]:
+    (path,) = out.glob("*/jazzy/report.json")
+    found: dict[str, object] = json.loads(path.read_text(encoding="utf-8"))
+    return found
+
+
+@pytest.mark.prefix
+def test_a_class_asked_for_in_korean_after_english_comes_out_in_korean(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    folder, out = tmp_path / "class", tmp_path / "out"
+    package("entry_missing", folder, called="an")
+    roster = tmp_path / "roster.csv"
+    roster.write_text(ROSTER, encoding="utf-8")
+    words = ("--roster", str(roster))
+    assert "1 to mark, 0 marked before" in grade_all(folder, out, *words, "--lang", "en").stderr
+    english = report_of(out)
+
+    done = grade_all(folder, out, *words, "--lang", "ko")
+    assert "1 to mark, 0 marked before" in done.stderr
+    korean = report_of(out)
+    assert (english["lang"], korean["lang"]) == ("en", "ko")
+    assert (korean["score"], korean["status"]) == (english["score"], english["status"])
+    feedback = sorted((out / "feedback").iterdir())
+    assert len(feedback) == 4  # also who handed in nothing reads Korean
+    for path in feedback:
+        text = path.read_text(encoding="utf-8")
+        assert re.search("만점에|아직 점수가 없습니다", text), path.name
+        assert not re.search(r"of 100 points|No points yet|All checks", text), path.name
+    with (out / "gradebook.csv").open(encoding="utf-8-sig") as file:
+        rows = list(csv.DictReader(file))
+    assert rows[0]["status"] == "graded"
+    assert "setup.no_entry" in rows[0]["mistakes"]
+
+    again = grade_all(folder, out, *words, env={"LC_ALL": "", "LANG": "ko_KR.UTF-8"})
+    assert "0 to mark, 1 marked before" in again.stderr
+    back = grade_all(folder, out, *words, "--lang", "en")
+    assert "0 to mark, 1 marked before" in back.stderr
+    assert report_of(out) == english
+
+
+def test_workers_are_told_the_language() -> None:
+    job = Job(JOB.assignment, JOB.distro, JOB.sandbox, JOB.limits, "ko")
+    assert Job.from_text(job.to_text()) == job
+
+
+def test_verdicts_in_two_languages_have_two_keys(ros_jazzy: Ros) -> None:
+    keys = {
+        surroundings_key(JOB.assignment, ros_jazzy, Limits(), lang=lang) for lang in ("en", "ko")
+    }
+    assert len(keys) == 2

@@ -1,0 +1,31 @@
+"""The change in a report is the one that mends: applied by git, the check that failed passes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import write
+from tests.fix.bench import TOOLS
+from tests.fix.bench import with_tool
+from tests.test_verdicts import mark
+
+BY_NAME = {package.name: package for package in BROKEN}
+
+
+@pytest.mark.parametrize("name", ["comma_missing", "printed", "text_capital"])
+def test_the_change_in_a_report_mends_the_check_that_failed(name: str, tmp_path: Path) -> None:
+    handed_in = write(BY_NAME[name], tmp_path)
+    report = mark(handed_in)
+    first = next(check for check in report.checks if check.status == "failed")
+    mended = mark(with_tool(TOOLS[0], first.patch.encode(), handed_in))
+    now = {check.id: check.status for check in mended.checks}
+    assert now[first.id] == "passed"
+    assert first.patch not in [check.patch for check in mended.checks]
+
+
+def test_what_passes_has_no_change(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["printed"], tmp_path))
+    assert {check.patch for check in report.checks if check.status != "failed"} == {""}

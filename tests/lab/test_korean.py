@@ -1,0 +1,200 @@
+"""The lab in Korean: the lesson, the guide, the shell and its messages, with the same commands."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.locale.speaker import LANGUAGES
+from grader.ros.prefix import Ros
+from lab.guide.lesson import lesson_file
+from lab.guide.lesson import read_lesson
+from tests import stage
+from tests.lab.kinds import Kind
+from tests.lab.screen import Lab
+from tests.lab.screen import command
+from tests.lab.screen import environment
+from tests.lab.visits import run
+from tests.lab.walk import NODE
+from tests.lab.workspaces import after_step
+from tests.lab.workspaces import put
+
+COURSE = stage.ROOT / "lab/course/hello_time"
+WORDS = stage.ROOT / "lab/shell/words"
+STARTER = COURSE / "starter/src"
+OTHERS = [lang for lang in LANGUAGES if lang != "en"]
+BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+INLINE = re.compile(r"`([^`\n]+)`")
+HANGUL = re.compile("[가-힣]")
+PROSE = re.compile(r"(?:\b[a-z]{2,}\b +){2}[a-z]{2,}\b")
+KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""}
+
+
+def guide(*words: str, workspace: Path, env: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    line = [sys.executable, "-m", "lab.guide", "--workspace", str(workspace), *words]
+    return stage.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **KOREAN, **env})
+
+
+def code_of(text: str) -> list[str]:
+    """Return what is to be typed, or is printed, word for word."""
+    return BLOCK.findall(text)
+
+
+def names_in(text: str) -> set[str]:
+    """Return the names, commands and messages that a lesson sets as code within a line."""
+    return set(INLINE.findall(BLOCK.sub("", text)))
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+@pytest.mark.parametrize(
+    ("english", "other"),
+    [
+        (COURSE / "lesson.md", COURSE / "lesson.{lang}.md"),
+        (STARTER / "README.md", STARTER / "README.{lang}.md"),
+    ],
+    ids=["lesson", "starter"],
+)
+def test_a_text_of_the_course_has_the_same_commands_and_names(
+    english: Path, other: Path, lang: str
+) -> None:
+    one = english.read_text(encoding="utf-8")
+    same = Path(str(other).format(lang=lang)).read_text(encoding="utf-8")
+    assert code_of(same) == code_of(one)
+    assert names_in(same) == names_in(one)
+    lines = [line for line in BLOCK.sub("", same).splitlines() if line.strip()]
+    assert [line for line in lines if not HANGUL.search(line) and not line.startswith("|--")] == []
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_the_lesson_has_the_same_steps_with_the_same_parts(lang: str) -> None:
+    one = read_lesson(lesson_file(COURSE, "en"), distro="kilted")
+    same = read_lesson(lesson_file(COURSE, lang), distro="kilted")
+    assert [step.number for step in same.steps] == [step.number for step in one.steps]
+    for step, other in zip(one.steps, same.steps, strict=True):
+        assert code_of(other.text) == code_of(step.text)
+        for part in (r"^\d\. ", r"^\|", r"^\*(?!\*)"):  # the guide names a list's parts by number
+            found = [re.findall(part, text, re.MULTILINE) for text in (step.text, other.text)]
+            assert found[0] == found[1]
+
+
+def test_a_language_without_a_lesson_has_the_english_one(tmp_path: Path) -> None:
+    assert lesson_file(COURSE, "fr") == COURSE / "lesson.md"
+
+
+@pytest.mark.parametrize("step", range(2, 10))
+def test_the_guide_tells_each_next_thing_in_korean(step: int, tmp_path: Path) -> None:
+    """(A next thing that is nothing but a command is the same in every language.)"""
+    env = after_step(tmp_path / "ws", step, NODE)
+    done = guide(workspace=tmp_path / "ws", env=env)
+    assert (done.returncode, done.stderr) == (0, "")
+    first, *_, last = done.stdout.splitlines()
+    assert first.startswith(f"10단계 중 {step + 1}단계: ")
+    assert last.startswith("다음: ")
+    assert HANGUL.search(first.partition(": ")[2])
+    english = guide("--lang", "en", workspace=tmp_path / "ws", env=env).stdout.splitlines()
+    assert english[0].startswith(f"Step {step + 1} of 10: ")
+    action = english[-1].removeprefix("Next: ")
+    assert HANGUL.search(last.removeprefix("다음: ")) or last == f"다음: {action}"
+    assert PROSE.findall(last.removeprefix("다음: ").replace(action, "")) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("#!/usr/bin/env python3\n", ""),
+        ("(Node)", "(object)"),
+        ("self.create_timer(1.0, self.timer_callback)", "pass"),
+        ("def main(", "def mian("),
+        ("rclpy.spin(node)", "pass"),
+        ("class MyFirstNode(Node):", "class MyFirstNode(Node)"),
+    ],
+)
+def test_what_a_node_lacks_is_told_in_korean(old: str, new: str, tmp_path: Path) -> None:
+    env = after_step(tmp_path / "ws", 9, NODE.replace(old, new))
+    *_, last = guide(workspace=tmp_path / "ws", env=env).stdout.splitlines()
+    assert "my_first_node.py" in last
+    assert HANGUL.search(last.removeprefix("다음: "))
+    assert PROSE.findall(last) == []
+
+
+def test_a_package_in_a_wrong_state_and_a_wrong_step_are_told_in_korean(tmp_path: Path) -> None:
+    env = after_step(tmp_path / "ws", 9, NODE)
+    put(tmp_path / "ws", "src/my_robot_controller/setup.py", "setup(")
+    listed = guide("list", workspace=tmp_path / "ws", env=env).stdout.splitlines()
+    assert [line[:3] for line in listed[:10]] == ["[x]"] * 6 + ["[>]"] + ["[x]"] * 2 + ["[ ]"]
+    assert all(HANGUL.search(line) for line in listed)
+    done = guide("11", workspace=tmp_path, env={})
+    assert done.returncode == 2
+    assert "'11' 단계는 없습니다" in done.stderr
+
+
+def test_the_shell_s_words_have_every_language_with_the_same_places() -> None:
+    def words(lang: str) -> dict[str, list[str]]:
+        text = (WORDS / f"{lang}.sh").read_text(encoding="utf-8")
+        found = re.findall(r"^(\w+)=(.*)$", text, re.MULTILINE)
+        return {
+            name: re.findall(r"%.|~/[a-z0-9_]+|\\n$", value.strip("'\"")) for name, value in found
+        }
+
+    for lang in OTHERS:
+        assert words(lang) == words("en")
+        lines = (WORDS / f"{lang}.sh").read_text(encoding="utf-8").splitlines()[1:]
+        assert all(HANGUL.search(line) for line in lines)
+
+
+def test_the_language_of_the_caller_is_the_labs(kind: Kind, tmp_path: Path) -> None:
+    for words, env, lang in (
+        ((), KOREAN, "ko"),
+        (("--lang", "ko"), {**KOREAN, "LANG": "C.UTF-8"}, "ko"),
+        (("--lang", "en"), KOREAN, "en"),
+    ):
+        there = Kind(kind.sandbox, {**kind.env, **env})
+        done = run(there, tmp_path / "ws", *words, "--", "sh", "-c", "guide list && code .")
+        assert done.returncode == 0, done.stderr
+        first, *_, last = done.stdout.strip().splitlines()
+        for line in (first, last):
+            assert bool(HANGUL.search(line)) == (lang == "ko"), line
+
+
+def test_a_check_in_the_lab_speaks_the_language(kind: Kind, tmp_path: Path) -> None:
+    there = Kind(kind.sandbox, {**kind.env, **KOREAN})
+    done = run(there, tmp_path / "ws", "--", "check")
+    assert done.returncode == 1, done.stderr
+    assert "기대값" in done.stdout
+    assert "  expected  " not in done.stdout
+
+
+def test_the_welcome_is_in_the_language(kind: Kind, tmp_path: Path) -> None:
+    with Lab(kind, tmp_path / "ws", env=KOREAN) as lab:
+        _, _, told = lab.welcome.partition("\n\n")
+        assert "다음에 할 일을 한 단계씩" in told
+        assert str(tmp_path / "ws") in lab.welcome
+        assert PROSE.findall(told) == []
+        assert lab.type("echo $lab_welcome").strip() == ""  # the words are not left in the shell
+        assert lab.leave() == 0
+
+
+def test_wrong_words_are_told_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
+    for words, status in (
+        (["--workspace", "/"], 2),
+        (["--sandbox", "dokcer"], 2),
+        (["--distro", "jazy"], 2),
+        (["--sandbox", "docker", "--workspace", str(tmp_path / "ws")], 3),
+    ):
+        done = subprocess.run(
+            command(*words, "--", "true"),
+            cwd=stage.ROOT,
+            env=environment(**KOREAN, DOCKER_HOST="unix:///no-daemon"),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == status
+        assert done.stderr.startswith("lab: ")
+        assert HANGUL.search(done.stderr)
+        told = re.sub(r"\(.*?\)", "", done.stderr)  # (commands to be typed)
+        assert PROSE.findall(told) == [], done.stderr

@@ -1,0 +1,31 @@
+"""What `build.colcon` says of a setup.py that fails, told from what the real colcon printed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import write
+from tests.test_verdicts import mark
+
+BY_NAME = {package.name: package for package in BROKEN}
+
+
+@pytest.mark.parametrize(
+    ("name", "error", "code"),
+    [
+        ("setup_import_error", "No module named 'setuptool'", "from setuptool import setup"),
+        ("setup_raises", "RuntimeError: not today", "raise RuntimeError('not today')"),
+    ],
+)
+def test_the_error_of_setup_py_is_told_and_not_colcons_own(
+    name: str, error: str, code: str, tmp_path: Path
+) -> None:
+    package = write(BY_NAME[name], tmp_path)
+    found = next(c for c in mark(package).checks if c.id == "build.colcon")
+    assert found.actual.splitlines()[0].endswith(error)
+    assert found.where is not None
+    lines = (package / "setup.py").read_text(encoding="utf-8").splitlines()
+    assert found.where.line == lines.index(code) + 1

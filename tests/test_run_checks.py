@@ -1,0 +1,141 @@
+"""The checks of a run, before runs that were put together: what each says of what it sees."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from grader.checks.registry import Blocked
+from grader.checks.registry import Check
+from grader.checks.registry import Failed
+from grader.checks.registry import Passed
+from grader.checks.starting import interrupt
+from grader.checks.timing import period
+from grader.evidence import Evidence
+from grader.observer import Event
+from grader.observer import Watch
+from grader.running import Run
+from grader.workspace import Build
+from tests.corpus.build import SOLUTION
+from tests.static_bench import NODE
+from tests.static_bench import Bench
+
+RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
+STEP = "self.counter_ += 1"
+HANDLER = """\
+Traceback (most recent call last):
+  File "/ws/build/my_robot_controller/my_robot_controller/my_first_node.py", line 25, in main
+    rclpy.spin(node)
+KeyboardInterrupt
+
+During handling of the above exception, another exception occurred:
+
+Traceback (most recent call last):
+  File "/ws/build/my_robot_controller/my_robot_controller/my_first_node.py", line {line}, in main
+{error}
+"""
+BUILT = Build("colcon build", 0, "", 0.0)
+PLAIN = HANDLER[: HANDLER.index("\nDuring")]
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "my_robot_controller")
+
+
+def ask(check: Check, bench: Bench, run: Run, source: str = RIGHT) -> Passed | None:
+    bench.write(NODE, source)
+    static = bench.evidence()
+    return check.function(
+        Evidence(static.assignment, static.submission, build=lambda: BUILT, run=lambda: run)
+    )
+
+
+def line(n: int, *, virtual: float, wall: float, due: int | None) -> Event:
+    return Event(f"Hello time: {n}", wall, virtual, "logger", n, due)
+
+
+def on_time(walls: Sequence[float]) -> Run:
+    """Return a run in which each line came at its instant of ROS time."""
+    events = [line(n, virtual=n + 1, wall=wall, due=n) for n, wall in enumerate(walls)]
+    dues = [event.virtual for event in events]
+    return Run("ros2 run", Watch(clock="virtual", events=events, dues=dues), started=True)
+
+
+def ended(transcript: str, status: int) -> Run:
+    """Return a run that Ctrl+C has ended."""
+    return Run(
+        "ros2 run",
+        started=True,
+        interrupted=True,
+        stop_seconds=0.3,
+        status=status,
+        transcript=transcript,
+    )
+
+
+def test_one_line_much_too_late_is_a_wrong_period(bench: Bench) -> None:
+    seen = Watch(clock="virtual", dues=[1.0], missing=[0])
+    seen.events.append(line(0, virtual=10.0, wall=1.0, due=None))
+    with pytest.raises(Failed) as caught:
+        ask(period, bench, Run("ros2 run", seen, started=True))
+    assert caught.value.mistakes[0].id == "run.wrong_period"
+    assert caught.value.mistakes[0].params == {"period": 10.0}
+    assert "10.00 s" in caught.value.actual
+
+
+def test_one_line_on_time_and_no_more_is_left_to_the_output(bench: Bench) -> None:
+    run = on_time([0.1])
+    run.watch.dues.append(2.0)
+    run.watch.missing.append(1)
+    run.watch.early.append(line(1, virtual=1.5, wall=0.2, due=None))
+    with pytest.raises(Blocked) as caught:
+        ask(period, bench, run)
+    assert caught.value.by == "run.output"
+
+
+def test_a_callback_that_sleeps_for_longer_than_the_period_is_late(bench: Bench) -> None:
+    source = RIGHT.replace(STEP, f"{STEP}\n        time.sleep(3)")
+    with pytest.raises(Failed) as caught:
+        ask(period, bench, on_time([0.1, 3.1, 6.2, 9.2]), source)
+    assert caught.value.mistakes[0].params["period"] == pytest.approx(3.0, abs=0.11)
+
+
+@pytest.mark.parametrize(
+    ("source", "walls"),
+    [
+        (RIGHT, [0.1, 3.1, 6.2, 9.2]),
+        (RIGHT.replace(STEP, f"{STEP}\n        time.sleep(0.9)"), [0.1, 3.1, 6.2, 9.2]),
+        (RIGHT.replace(STEP, f"{STEP}\n        later(lambda: time.sleep(3))"), [0.1, 0.2, 0.3]),
+    ],
+)
+def test_a_slow_machine_makes_nobody_late(bench: Bench, source: str, walls: list[float]) -> None:
+    assert ask(period, bench, on_time(walls), source) is not None
+
+
+@pytest.mark.parametrize(
+    "error",
+    ["NameError: name 'KeyboardInterupt' is not defined. Did you mean: 'KeyboardInterrupt'?",
+     "AttributeError: 'MyFirstNode' object has no attribute 'destroy'"],
+)  # fmt: skip
+def test_a_handler_of_ctrl_c_that_fails_is_an_error_at_the_stop(bench: Bench, error: str) -> None:
+    with pytest.raises(Failed) as caught:
+        ask(interrupt, bench, ended(HANDLER.format(line=26, error=error), status=1))
+    assert caught.value.mistakes[0].id == "run.error_at_stop"
+    assert caught.value.where is not None
+    assert caught.value.where.line == 26
+
+
+@pytest.mark.parametrize(
+    "transcript",
+    [
+        PLAIN,
+        HANDLER.format(line=29, error="rclpy._rclpy_pybind11.RCLError: context is not valid"),
+        HANDLER.format(line=29, error="rclpy.executors.ExternalShutdownException"),
+        PLAIN + "Exception ignored in: <function x>\nAttributeError: 'NoneType' object\n",
+    ],
+)
+def test_the_traceback_of_ctrl_c_itself_is_no_error(bench: Bench, transcript: str) -> None:
+    assert ask(interrupt, bench, ended(transcript, status=1)) is not None
