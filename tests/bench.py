@@ -43,6 +43,7 @@ COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
 SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 ASSIGNMENT = load_assignment(COURSE)
 PLAIN_TICKS = 5
+PLAIN_LIMIT = 10.0  # seconds for a line to come; what never comes would be waited for for ever
 
 
 @dataclass(frozen=True)
@@ -215,18 +216,24 @@ def plain_grader(ros: Ros, submission: Submission) -> Cost:
     before = machine_cpu()
     begin = time.monotonic()
     with Bubblewrap(ros, Limits()) as sandbox:
-        build(sandbox, submission, package=ASSIGNMENT.package)
-        script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
-        script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
-        terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
-        seen = 0
-        while seen < PLAIN_TICKS and not terminal.ended:
-            seen += sum("Hello time" in line.text for line in terminal.read(10))
-        terminal.interrupt()
-        terminal.finish(10)
-        terminal.close()
+        if build(sandbox, submission, package=ASSIGNMENT.package).status == 0:
+            _watch_ticks(sandbox, ros)
     wall = time.monotonic() - begin
     return Cost(wall, machine_cpu() - before)
+
+
+def _watch_ticks(sandbox: Bubblewrap, ros: Ros) -> None:
+    script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
+    script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
+    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
+    seen = 0
+    until = time.monotonic() + PLAIN_LIMIT
+    while seen < PLAIN_TICKS and not terminal.ended and time.monotonic() < until:
+        seen += sum("Hello time" in line.text for line in terminal.read(1))
+    if not terminal.ended:
+        terminal.interrupt()
+    terminal.finish(10)
+    terminal.close()
 
 
 def starts(ros: Ros, submission: Submission, count: int) -> tuple[list[float], float]:

@@ -13,23 +13,15 @@ import tempfile
 import time
 from pathlib import Path
 
-from grader.errors import GraderError
-from grader.limits import Limits
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.ros.prefix import find_ros
-from grader.sandbox.bubblewrap import Bubblewrap
-from grader.submission import Submission
 from grader.submission import take_in
-from grader.terminal import Terminal
-from grader.workspace import build
 from tests.batch import classes
 from tests.bench import ASSIGNMENT
 from tests.bench import bound
 from tests.bench import machine_cpu
-
-PLAIN_TICKS = 5
-PLAIN_LIMIT = 10.0  # seconds for a line to come; what never comes would be waited for for ever
+from tests.bench import plain_grader
 
 
 def main() -> int:
@@ -99,32 +91,9 @@ def stubbed(place: Path, count: int, report: Path) -> list[bool]:
 
 
 def plain_once(ros: Ros, student: Path) -> float:
-    """Build, run, watch five ticks of the wall clock, next: return the seconds."""
-    begin = time.monotonic()
-    submission: Submission = take_in(
-        student, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file
-    )
-    try:
-        with Bubblewrap(ros, Limits()) as sandbox:
-            if build(sandbox, submission, package=ASSIGNMENT.package).status == 0:
-                _watch(sandbox, ros)
-    except GraderError as error:
-        sys.exit(str(error))
-    return time.monotonic() - begin
-
-
-def _watch(sandbox: Bubblewrap, ros: Ros) -> None:
-    script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec ros2 run "
-    script += f"{ASSIGNMENT.package} {ASSIGNMENT.executable}"
-    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)
-    seen = 0
-    until = time.monotonic() + PLAIN_LIMIT
-    while seen < PLAIN_TICKS and not terminal.ended and time.monotonic() < until:
-        seen += sum("Hello time" in line.text for line in terminal.read(1))
-    if not terminal.ended:
-        terminal.interrupt()
-    terminal.finish(10)
-    terminal.close()
+    """Return the seconds of wall time that a plain grader takes for one package."""
+    submission = take_in(student, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+    return plain_grader(ros, submission).wall
 
 
 def at_least(name: str, value: float, least: float) -> bool:
