@@ -86,7 +86,7 @@ def test_an_assignment_may_ask_for_the_output_alone(
 ) -> None:
     text = course.read_text()
     checks = "checks:\n  - {id: package.found, points: 1}\n  - {id: run.output, points: 2}\n"
-    course.write_text(text[: text.index("checks:")] + checks)
+    course.write_text(text[: text.index("\nchecks:") + 1] + checks)
     done = stage.run(
         stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )

@@ -53,6 +53,11 @@ def fix(
 
     with errors_in(lang):
         place = path or own_place()
+        if path is None and not dry_run and place != Path.home() / "ros2_ws":
+            raise UsageError(
+                say("it was not said which package is to be changed"),
+                remedy=say("For example: grader fix --apply path/to/my_robot_controller"),
+            )
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if len(orders) > 1:
             raise UsageError(say("fix runs the node on one distro: name one"))

@@ -127,9 +127,13 @@ def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
         ([root, "--check", "package.marke"], "did you mean 'package.marker'?"),
         ([root, "--assignment", "hello_tme"], "hello_time"),
         ([root, "--distro", "jazzy,kilted"], "one distro"),
-        ([], "PATH"),
+        ([], "path/to/my_robot_controller"),
     ):
-        done = stage.run(stage.grader("fix", "--apply", "--no-run", *words))
+        done = stage.run(
+            stage.grader("fix", "--apply", "--no-run", *words),
+            cwd=tmp_path,
+            env={"HOME": str(tmp_path)},
+        )
         assert (done.returncode, done.stdout) == (2, ""), words
         assert said in done.stderr
         assert "Traceback" not in done.stderr

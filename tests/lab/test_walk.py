@@ -22,6 +22,14 @@ def test_the_ten_steps_work_word_by_word_and_a_second_visit_finds_them(
         said = lab.type("check")
         assert lab.status() == 0, said
         assert "100 / 100" in said
+        (workspace / "src" / "my_robot_controller" / "setup.cfg").unlink()
+        shown = lab.type("fix --no-run")
+        assert lab.status() == 0, shown
+        assert "+++ b/setup.cfg" in shown
+        lab.type("fix --apply --no-run")
+        assert lab.status() == 0
+        assert (workspace / "src" / "my_robot_controller" / "setup.cfg").is_file()
+        assert "lab.no_executable" in lab.type("echo No executable found | explain -")
         assert lab.leave() == 0
     student = os.geteuid() or 1000  # root's lab is the machine's first ordinary user's
     assert walk.owners(workspace) == {student}
