@@ -110,7 +110,7 @@ def uncommented(case: Case) -> Files | None:
 def added(case: Case) -> Files | None:
     """Add the entry to console_scripts, which is made where it is missing."""
     setup = read_setup_call(case)
-    if setup is None or setup.unpacks or not _leads_somewhere(case):
+    if setup is None or setup.unpacks or _has_entry(case) or not _leads_somewhere(case):
         return None
     entry = f"{setup.quote}{case.entry}{setup.quote}"
     scripts = f"{setup.quote}{GROUP}{setup.quote}"
@@ -132,6 +132,14 @@ def added(case: Case) -> Files | None:
 
 def _is_group(key: ast.expr | None) -> bool:
     return isinstance(key, ast.Constant) and key.value == GROUP
+
+
+def _has_entry(case: Case) -> bool:
+    """Whether there is an entry of the name already, right or wrong: another makes it no better."""
+    points = _points(case)
+    return points is not None and case.assignment.executable in [
+        entry.name for entry in points.group(GROUP)
+    ]
 
 
 def _leads_somewhere(case: Case) -> bool:

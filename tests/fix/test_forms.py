@@ -236,3 +236,11 @@ def test_it_is_left_to_the_student(form: str, tmp_path: Path) -> None:
     root = edited(tmp_path, *UNCERTAIN[form])
     plan = plan_of(root)
     assert contents(plan.new) == contents(plan.old), plan.patch.decode()
+
+
+def test_an_entry_that_is_there_twice_is_not_added_once_more(tmp_path: Path) -> None:
+    """(Two on one line, without a comma between them: found by fuzzing.)"""
+    entry = "'test_node = my_robot_controller.my_first_node:main'"
+    wrong = entry.replace("first", "frist")
+    old = plan_of(edited(tmp_path, Replace(SETUP, f"{entry},", f"{entry} {wrong},")))
+    assert contents(old.new)[SETUP].count(b"test_node") == 2
