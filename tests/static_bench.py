@@ -17,6 +17,7 @@ from grader.checks.registry import Failed
 from grader.checks.registry import Passed
 from grader.submission import Submission
 from grader.submission import take_in
+from grader.workspace import Build
 
 if TYPE_CHECKING:
     from grader.evidence import Evidence
@@ -27,6 +28,9 @@ NAME = "my_robot_controller"
 NODE = f"{NAME}/my_first_node.py"
 MARKER = f"resource/{NAME}"
 ENTRY = "'test_node = my_robot_controller.my_first_node:main',"
+BUILT = Build(command="colcon build", status=0, log="", seconds=0.0)
+"""A build that went well, for what is only looked at after it."""
+
 FILES = {
     "package.xml": """\
 <?xml version="1.0"?>

@@ -17,8 +17,8 @@ from grader.evidence import Evidence
 from grader.observer import Event
 from grader.observer import Watch
 from grader.running import Run
-from grader.workspace import Build
 from tests.corpus.build import SOLUTION
+from tests.static_bench import BUILT
 from tests.static_bench import NODE
 from tests.static_bench import Bench
 
@@ -36,7 +36,6 @@ Traceback (most recent call last):
   File "/ws/build/my_robot_controller/my_robot_controller/my_first_node.py", line {line}, in main
 {error}
 """
-BUILT = Build("colcon build", 0, "", 0.0)
 PLAIN = HANDLER[: HANDLER.index("\nDuring")]
 
 
