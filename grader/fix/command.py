@@ -51,8 +51,8 @@ class Wish:
 def fix(wish: Wish, tell: Tell) -> int:
     """Mend a package and return the exit status: 0 nothing is left, 1 something is.
 
-    The diff goes to stdout; what is said goes to `tell`, in the order's language. Raises UsageError for a path that cannot be
-    written to, with nothing written.
+    The diff goes to stdout; what is said goes to `tell`, in the order's language. Raises
+    UsageError for a path that cannot be written to, with nothing written.
     """
     speak = Speaker(wish.order.lang)
 
