@@ -13,7 +13,7 @@ $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval overri
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # one process more than cores: a node that is being watched leaves them idle
-PYTEST := .venv/bin/python -m pytest -q -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
+PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 GRADER := .venv/bin/python -m grader
 OPTIONS := $${ASSIGNMENT:+--assignment "$$ASSIGNMENT"} $${DISTRO:+--distro "$$DISTRO"} \
   $${SANDBOX:+--sandbox "$$SANDBOX"}

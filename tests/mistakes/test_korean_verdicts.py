@@ -25,7 +25,7 @@ from tests.test_verdicts import LIMITS
 # one of each kind of mistake: handed in, manifest, setup.py, source, build, start, callback, text
 NAMES = ("only_the_node", "manifest_other_name", "comma_missing", "super_missing", "f_prefix_missing",
          "printed", "called_by_hand", "setup_prints", "colon_missing", "callback_misspelt")  # fmt: skip
-QUICK = 3
+QUICK = 5
 # what programs print word for word, and commands to be typed
 QUOTED = (
     "No executable found",

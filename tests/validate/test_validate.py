@@ -58,7 +58,14 @@ def test_all_mutants_of_the_files_fail_where_and_why_they_must(tmp_path: Path) -
     assert figures["mistake_named_first"] == figures["named"] >= 60
 
 
-@pytest.mark.parametrize("name", ["text_capital", "spin_missing", "period_half"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "spin_missing",
+        pytest.param("text_capital", marks=pytest.mark.full),
+        pytest.param("period_half", marks=pytest.mark.full),
+    ],
+)
 def test_a_mutant_that_has_to_be_run_fails_where_and_why_it_must(name: str, tmp_path: Path) -> None:
     status, shown, errors = validate("hello_time", "--only", name, "--json", tmp_path / "m.json")
     assert status == 0, shown[-2000:] + errors
