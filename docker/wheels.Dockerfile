@@ -26,8 +26,9 @@ RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
  && python3 -m venv .venv \
  && .venv/bin/pip install -q --require-hashes --only-binary :all: -r grader/requirements.txt
 COPY grader/__init__.py grader/errors.py grader/
+COPY grader/locale/__init__.py grader/locale/message.py grader/locale/
 COPY grader/ros/__init__.py grader/ros/cache.py grader/ros/distro.py grader/ros/prefix.py \
-     grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
+     grader/ros/prefix_texts.py grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
 COPY grader/ros/locks grader/ros/locks
 COPY grader/ros/ros2_command grader/ros/ros2_command
 ARG DISTRO=jazzy

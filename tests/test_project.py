@@ -96,3 +96,23 @@ def test_the_versions_agree() -> None:
 def test_grader_never_imports_lab() -> None:
     for source in (stage.ROOT / "grader").rglob("*.py"):
         assert not re.search(r"^\s*(from|import) lab\b", source.read_text(), re.MULTILINE), source
+
+
+def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Path) -> None:
+    recipe = (stage.ROOT / "docker/wheels.Dockerfile").read_text().replace("\\\n", " ")
+    for line in re.findall(r"^COPY (grader/.*)$", recipe, re.MULTILINE):
+        *sources, folder = line.split()
+        into = tmp_path / folder
+        for source in (stage.ROOT / name for name in sources):
+            if source.is_dir():
+                shutil.copytree(source, into)
+            else:
+                into.mkdir(parents=True, exist_ok=True)
+                shutil.copy(source, into)
+    code = (
+        "from grader.ros import distro, prefix; print(prefix.__file__, distro.find_distro('jazzy'))"
+    )
+    command = [sys.executable, "-c", code]
+    done = stage.run(command, cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)})
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(str(tmp_path))
