@@ -97,7 +97,8 @@ bench:  ## Measure a verdict against the bare commands, as ratios in one run (wi
 	@$(BOOTSTRAP) --tests
 	@trap '.venv/bin/python -m tests.engine down' EXIT; \
 	  .venv/bin/python -m tests.engine up && .venv/bin/python -m tests.bench && \
-	  .venv/bin/python -m tests.bench_diagnosis && .venv/bin/python -m tests.bench_class
+	  .venv/bin/python -m tests.bench_diagnosis && .venv/bin/python -m tests.bench_matrix && \
+	  .venv/bin/python -m tests.bench_class
 
 lock:  ## Write the lock files anew from their .in files (needs uv)
 	@sh grader/ros/locks/lock.sh
