@@ -158,8 +158,9 @@ def test_ctrl_c_ends_it_and_all_that_it_started() -> None:
 @pytest.mark.full
 def test_what_is_left_out_of_the_node_fails_or_is_explained(tmp_path: Path) -> None:
     """(The whole matrix takes minutes: `make bench` has it.)"""
-    status, shown, errors = validate("hello_time", "--only", "drop*", "--json", tmp_path / "m.json")
+    file = tmp_path / "m.json"
+    status, shown, errors = validate("hello_time", "--only", "drop*", "--json", file, timeout=600)
     assert status == 0, shown[-4000:] + errors[-1000:]
-    figures = json.loads((tmp_path / "m.json").read_text())["figures"]
+    figures = json.loads(file.read_text())["figures"]
     assert figures["failed_where_they_must"] == figures["that_must_fail"] > 5
     assert figures["equivalent"] > 0
