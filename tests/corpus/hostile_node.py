@@ -222,7 +222,7 @@ NODES = (
                     "from rclpy.time import Time\nfrom rosgraph_msgs.msg import Clock\n"),
             _made(CLOCK), undecided=frozenset({"run.output", "run.period"}),
             note="its own clock, ten times as fast; without use_sim_time it is a right node"),
-    hostile("forged_lines", Write(NODE, FORGERY), failed={"run.starts": "run.no_node"},
+    hostile("forged_lines", Write(NODE, FORGERY), failed={"run.starts": "node.no_ros"},
             skipped=AFTER_START, score=70, note="right lines from a shell, and no node"),
     hostile("forged_rclpy", Write("rclpy/__init__.py", FAKE_RCLPY),
             Write("rclpy/node.py", FAKE_NODE),
