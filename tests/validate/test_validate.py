@@ -81,6 +81,7 @@ def test_a_mutant_that_survives_is_told(tmp_path: Path) -> None:
     assert "mine: survived" in shown
 
 
+@pytest.mark.full
 def test_a_mutant_that_fails_elsewhere_is_told(tmp_path: Path) -> None:
     other = CHECKED + "      - {delete: resource/my_robot_controller}\n"
     found = keys(tmp_path, other)
@@ -89,6 +90,7 @@ def test_a_mutant_that_fails_elsewhere_is_told(tmp_path: Path) -> None:
     assert "mine: failed elsewhere than at source.exec_bit" in shown
 
 
+@pytest.mark.full
 def test_another_mistake_than_the_named_one_is_told(tmp_path: Path) -> None:
     mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
     wrong = CHECKED.replace("source.not_executable", "source.crlf") + mode
@@ -109,6 +111,7 @@ def test_a_solution_that_does_not_get_full_marks_is_told(tmp_path: Path) -> None
     assert "the solution does not get full marks: package.setup_cfg" in shown
 
 
+@pytest.mark.full
 def test_a_right_mutant_needs_to_be_right(tmp_path: Path) -> None:
     text = "schema: 1\nequivalent:\n  - {mutant: drop rclpy.spin(node), why: I thought so}\n"
     found = keys(tmp_path, text)
