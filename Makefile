@@ -78,7 +78,7 @@ test:  ## Run the tests that need no Docker
 	@$(MAKE) --no-print-directory lint
 	@$(PYTEST) -m "not full and not docker" $${PYTEST_ARGS}
 
-test-all:  ## Run the tests, and then those that take longer or need Docker (as root: brings Docker where it is missing)
+test-all:  ## Run every test (as root: brings Docker where it is missing)
 	@$(MAKE) --no-print-directory test
 	@if [ "$${GRADER_TESTS_WITHOUT_DOCKER:-}" = 1 ]; then \
 	  echo "make test-all: GRADER_TESTS_WITHOUT_DOCKER=1: the tests that need Docker are left out" >&2; \

@@ -116,6 +116,13 @@ def bound(name: str, value: float, most: float) -> bool:
     return kept
 
 
+def at_least(name: str, value: float, least: float) -> bool:
+    """Print a figure next to its bound and return whether it is reached."""
+    kept = value >= least
+    print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at least {least:g})")
+    return kept
+
+
 def middle(measure: Callable[[], Cost], runs: int) -> Cost:
     """Return the medians of several runs."""
     return middle_of([measure() for _ in range(runs)])

@@ -19,6 +19,7 @@ from grader.ros.prefix import find_ros
 from grader.submission import take_in
 from tests.batch import classes
 from tests.bench import ASSIGNMENT
+from tests.bench import at_least
 from tests.bench import bound
 from tests.bench import machine_cpu
 from tests.bench import plain_grader
@@ -94,13 +95,6 @@ def plain_once(ros: Ros, student: Path) -> float:
     """Return the seconds of wall time that a plain grader takes for one package."""
     submission = take_in(student, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
     return plain_grader(ros, submission).wall
-
-
-def at_least(name: str, value: float, least: float) -> bool:
-    """Print a figure next to its bound and return whether it is reached."""
-    kept = value >= least
-    print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at least {least:g})")
-    return kept
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ import time
 from pathlib import Path
 
 from tests import stage
+from tests.bench import at_least
 from tests.bench import bound
-from tests.bench_class import at_least
 
 MOST_SECONDS = 600.0
 LEAST_MUTANTS = 120
