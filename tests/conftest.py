@@ -18,6 +18,7 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 
 ROOT = Path(__file__).resolve().parent.parent
+pytest_plugins = ["tests.site.fixtures"]
 
 # A shell that starts us in the background has Ctrl+C ignored, and all that we start would inherit it
 signal.signal(signal.SIGINT, signal.default_int_handler)

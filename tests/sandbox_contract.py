@@ -104,10 +104,12 @@ def terminal(sandbox: Sandbox, script: str, *, most: int = 100_000) -> Terminal:
 
 
 def test_ctrl_c_reaches_the_command_and_its_last_words_are_seen(sandbox: Sandbox) -> None:
-    code = (
-        "import sys, time\n"
-        "try:\n    print('up', flush=True); time.sleep(60)\n"
-        "except KeyboardInterrupt:\n    print('last words'); sys.exit(7)\n"
+    code = (  # sigwait: a signal that comes just before time.sleep would not end it
+        "import signal, sys\n"
+        "signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])\n"
+        "print('up', flush=True)\n"
+        "signal.sigwait([signal.SIGINT])\n"
+        "print('last words'); sys.exit(7)\n"
     )
     opened = terminal(sandbox, f'exec python3 -c "{code}"')
     while not any(line.text == "up" for line in opened.read(10)):

@@ -89,6 +89,16 @@ def alive(mark: str) -> list[str]:
     return found
 
 
+def wait_until_asleep(pid: int) -> None:
+    """Wait until a process' first thread sleeps in the kernel, where every signal wakes it.
+
+    (Python looks for signals before it calls sleep, pause or read, and none of them returns for a
+    signal that comes between the two: on a busy machine Ctrl+C is lost there, about once in 300.)
+    """
+    while Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "S":
+        os.sched_yield()
+
+
 def descendants() -> dict[int, str]:
     """Return the running processes below this one, with their command lines."""
     parents: dict[int, int] = {}

@@ -7,11 +7,6 @@ import pytest
 from grader.batch.model import ClassResult
 from grader.report.model import Report
 from tests.site import classes
-from tests.site.conftest import chromium
-from tests.site.conftest import reports
-from tests.site.conftest import visit
-
-__all__ = ["chromium", "reports", "visit"]
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from grader.events import Note
 from grader.events import StageStarted
 from grader.events import to_all
 from grader.report.terminal import LiveProgress
+from tests import stage
 from tests.report.stage import ROOT
 from tests.report.stage import SECONDS
 from tests.report.stage import STYLES
@@ -106,6 +107,7 @@ def test_however_it_ends_the_cursor_is_there(how: str) -> None:
         for _ in range(4):
             terminal.sendline()
     elif how == "is interrupted":
+        stage.wait_until_asleep(terminal.pid)
         terminal.sendintr()
     else:
         terminal.kill(signal.SIGKILL)

@@ -11,7 +11,10 @@ import sys
 import pexpect
 import pytest
 
+from tests.stage import wait_until_asleep
+
 from .surroundings import Surroundings
+from .surroundings import children
 from .surroundings import files
 
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
@@ -19,15 +22,15 @@ CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller"
 LISTENER = f"""\
 #!{sys.executable}
 import os, signal, sys
-def heard(number, frame):
+def heard(number):
     os.write(1, f"heard {{signal.Signals(number).name}}\\n".encode())
     if number == signal.SIGTERM:
         sys.exit(5)
-signal.signal(signal.SIGINT, heard)
-signal.signal(signal.SIGTERM, heard)
+signals = [signal.SIGINT, signal.SIGTERM]
+signal.pthread_sigmask(signal.SIG_BLOCK, signals)
 print("ready", flush=True)
 while True:
-    signal.pause()
+    heard(signal.sigwait(signals))
 """
 
 
@@ -70,6 +73,8 @@ def test_a_node_that_sigint_ends_gives_254(kilted: Surroundings) -> None:
         timeout=30,
     )
     terminal.expect_exact("hanging")
+    for process in (terminal.pid, *children(terminal.pid)):
+        wait_until_asleep(process)
     os.kill(terminal.pid, signal.SIGINT)
     terminal.expect(pexpect.EOF)
     said = terminal.before or ""

@@ -15,6 +15,8 @@ from typing import Any
 import pexpect
 import pytest
 
+from tests.stage import wait_until_asleep
+
 from .surroundings import Surroundings
 from .surroundings import children
 from .surroundings import files
@@ -91,6 +93,8 @@ def test_ctrl_c_on_the_terminal_ends_as_recorded(jazzy: Surroundings, name: str)
     ros2 = str(jazzy.prefix / "bin" / "ros2")
     with on_a_terminal(jazzy, ros2, "run", "my_robot_controller", executable) as terminal:
         terminal.expect_exact({"wait": "waiting", "hang": "hanging"}[executable] + "\r\n")
+        (node,) = children(terminal.pid)
+        wait_until_asleep(node)
         terminal.sendintr()
         terminal.expect(pexpect.EOF)
         after = terminal.before
@@ -119,6 +123,7 @@ def test_a_signal_to_ros2_alone_does_as_recorded(jazzy: Surroundings, name: str)
         terminal.expect_exact("hanging\r\n")
         (ros2,) = children(terminal.pid)
         (node,) = children(ros2)
+        wait_until_asleep(ros2)
         os.kill(ros2, number)
         if case["ros2_alive"]:
             _let_handle(ros2, number)

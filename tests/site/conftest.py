@@ -1,52 +1,15 @@
-"""Fixtures of the page's tests: one browser, and real reports, marked once a session."""
+"""Fixtures of the page's tests (the browser and the reports are in fixtures.py)."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser
 
-from grader.report.files import report_json
 from grader.report.model import Report
-from grader.ros.cache import make_once
-from grader.ros.prefix import Ros
 from grader.site import write_site
 from tests.site import axe
-from tests.site import browser
 from tests.site import classes
-
-
-@pytest.fixture(scope="session")
-def reports(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, ...]:
-    """Reports of a solution and of packages with mistakes; several test processes mark them once."""
-    base = tmp_path_factory.getbasetemp()
-    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-
-    def make(staging: Path) -> None:
-        for name in classes.REAL:
-            report = classes.marked(name, staging)
-            (staging / f"{name}.json").write_text(report_json(report), encoding="utf-8")
-
-    folder = shared / "site-reports"
-    make_once(folder, make, say=lambda text: None)
-    found = [(folder / f"{name}.json").read_text(encoding="utf-8") for name in classes.REAL]
-    return tuple(Report.model_validate_json(text) for text in found)
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Browser]:
-    with browser.browser() as started:
-        yield started
-
-
-@pytest.fixture
-def visit(chromium: Browser) -> Iterator[browser.Open]:
-    """Opens pages, each in a context of its own, and witnesses what they do."""
-    with browser.opening(chromium) as new:
-        yield new
 
 
 @pytest.fixture(scope="session")
