@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -29,6 +28,7 @@ from grader.sandbox.bubblewrap import memory_file
 from grader.sandbox.bubblewrap import parents_of as parents
 from grader.sandbox.bubblewrap import system_mounts
 from grader.sandbox.local import need
+from grader.sandbox.processes import kill_with_children
 from lab.terminal import foreground_again
 from lab.terminal import ignoring_interrupts
 from lab.visit import BASHRC
@@ -64,32 +64,32 @@ class BubblewrapLab:
         Raises SurroundingsError where bubblewrap cannot make it, with cause and remedy.
         """
         descriptors = {path: memory_file(text) for path, text in self._texts(visit).items()}
-        told, tell = os.pipe()
-        words = self._command(visit, descriptors, tell)
+        # a file and no pipe: where nobody reads any more, writing would kill the outer bwrap before
+        # it lets the inner one go on, which would wait for ever
+        status_file = memory_file("")
+        words = self._command(visit, descriptors, status_file)
         try:
             # bwrap would die of Ctrl+C and take the lab along; the command inside gets its default
             # back (env --default-signal)
             with ignoring_interrupts(), foreground_again():
                 process = subprocess.Popen(
                     words,
-                    pass_fds=[tell, *descriptors.values()],
+                    pass_fds=[status_file, *descriptors.values()],
                     env=self._environment(visit),
                 )
-                os.close(tell)
-                tell = -1
                 status = _wait(process)
+            os.lseek(status_file, 0, os.SEEK_SET)
+            with open(status_file, closefd=False) as stream:
+                if not _has_run(stream.read()):
+                    raise self._refused()
         finally:
-            for descriptor in (tell, *descriptors.values()):
-                if descriptor >= 0:
-                    os.close(descriptor)
-        with os.fdopen(told) as stream:
-            if not _has_run(stream.read()):
-                raise self._refused()
+            for descriptor in (status_file, *descriptors.values()):
+                os.close(descriptor)
         return status
 
-    def _command(self, visit: Visit, descriptors: Mapping[str, int], tell: int) -> list[str]:
+    def _command(self, visit: Visit, descriptors: Mapping[str, int], status_file: int) -> list[str]:
         owner = visit.workspace.owner
-        words = [self._bwrap, "--die-with-parent", "--json-status-fd", str(tell)]
+        words = [self._bwrap, "--die-with-parent", "--json-status-fd", str(status_file)]
         words += ["--unshare-pid", "--unshare-uts", "--hostname", visit.hostname]
         if not self._root:
             words += ["--unshare-user", "--uid", str(owner.uid), "--gid", str(owner.gid)]
@@ -184,7 +184,7 @@ def _wait(process: subprocess.Popen[bytes]) -> int:
     try:
         status = process.wait()
     except BaseException:
-        process.send_signal(signal.SIGKILL)  # (what is inside ends with it: --die-with-parent)
+        kill_with_children(process.pid)
         process.wait()
         raise
     return status if status >= 0 else 128 - status

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import subprocess
 import sys
+import time
+from collections.abc import Collection
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -14,6 +17,7 @@ from grader.ros.prefix import base_interpreter
 
 ROOT = Path(__file__).resolve().parent.parent
 USER = 54_321
+GONE_SECONDS = 20.0
 
 
 def grader(*words: str | Path) -> list[str]:
@@ -119,3 +123,20 @@ def descendants() -> dict[int, str]:
                 line = Path(f"/proc/{pid}/cmdline").read_bytes().replace(b"\0", b" ")
                 found[pid] = line.decode(errors="replace")
     return found
+
+
+def wait_until_gone(before: Collection[int]) -> None:
+    """Wait until nothing runs below this process that did not before; fail if it stays."""
+    deadline = time.monotonic() + GONE_SECONDS
+    while left := {pid: line for pid, line in descendants().items() if pid not in before}:
+        assert time.monotonic() < deadline, left
+        time.sleep(0.02)
+
+
+def ends_as_bwrap_starts(folder: Path, name: str) -> dict[str, str]:
+    """Return the environment in which bwrap begins by sending this signal to who started it."""
+    program = folder / "bin" / "bwrap"
+    program.parent.mkdir()
+    program.write_text(f'#!/bin/sh\nkill -{name} $PPID\nexec "{shutil.which("bwrap")}" "$@"\n')
+    program.chmod(0o755)
+    return {"PATH": f"{program.parent}:{os.environ['PATH']}"}

@@ -15,6 +15,7 @@ import pytest
 from grader.limits import Limits
 from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.processes import adopt_orphans
 from tests import stage
 
 
@@ -60,6 +61,24 @@ def test_kill_9_of_the_grader_leaves_nothing() -> None:
     assert grader.stdout.read() == b""
     grader.stdout.close()
     assert [line for line in stage.alive(mark) if "bash -c" not in line] == []
+
+
+@pytest.mark.parametrize("name", ["KILL", "INT"])
+def test_a_grader_that_ends_while_the_sandbox_opens_leaves_nothing(
+    tmp_path: Path, name: str
+) -> None:
+    adopt_orphans()
+    before = set(stage.descendants())
+    grader = subprocess.run(
+        [sys.executable, "-c", KILLED],
+        cwd=stage.ROOT,
+        env=os.environ | stage.ends_as_bwrap_starts(tmp_path, name),
+        capture_output=True,
+        check=False,
+    )
+    number = signal.Signals["SIG" + name]
+    assert grader.returncode == -number, grader.stderr
+    stage.wait_until_gone(before)
 
 
 def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) -> None:

@@ -89,7 +89,9 @@ class Bubblewrap(LocalSandbox):
         }
         descriptors = {path: memory_file(text) for path, text in texts.items()}
         told, tell = os.pipe()
-        command = [self._bwrap, "--die-with-parent", "--info-fd", str(tell)]
+        # No --die-with-parent here: its end is that of `cat`'s input. Were the outer bwrap killed
+        # before it lets the inner one go on, that one would wait for it for ever.
+        command = [self._bwrap, "--info-fd", str(tell)]
         command += ["--unshare-net", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
         command += ["--hostname", "lab"]
         if not self._root:
@@ -104,7 +106,8 @@ class Bubblewrap(LocalSandbox):
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
-                pass_fds=[tell, *descriptors.values()],
+                # the reading end too: where the grader is gone, writing would kill the outer bwrap
+                pass_fds=[told, tell, *descriptors.values()],
                 start_new_session=True,  # Ctrl+C at the grader's terminal is not the holder's
                 env={"PATH": "/usr/bin:/bin"},
             )
@@ -161,6 +164,9 @@ class Bubblewrap(LocalSandbox):
                 with contextlib.suppress(ProcessLookupError, PermissionError):
                     # the end of the first process of a PID namespace is the end of all in it
                     os.kill(self._held_pid, signal.SIGKILL)
+            else:  # interrupted while it opened: `cat` has nothing to read as soon as it starts
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    holder.wait(END_SECONDS)
             if holder.poll() is None:
                 holder.kill()
             holder.wait()

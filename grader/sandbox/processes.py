@@ -5,8 +5,10 @@ Source: proc(5).
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
+import signal
 from collections.abc import Iterable
 from collections.abc import Iterator
 from pathlib import Path
@@ -52,6 +54,22 @@ def reap(pids: Iterable[int]) -> None:
                 os.waitpid(pid, os.WNOHANG)
         except OSError:
             continue
+
+
+def kill_with_children(pid: int) -> None:
+    """Kill a process and its children; it is stopped first, so that it starts no other meanwhile.
+
+    (A bwrap that is killed alone while it makes its namespaces leaves its other half waiting.)
+    """
+    with contextlib.suppress(OSError):
+        os.kill(pid, signal.SIGSTOP)
+        while Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "TtZX":
+            os.sched_yield()
+        for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
+            with contextlib.suppress(OSError):
+                os.kill(int(word), signal.SIGKILL)
+    with contextlib.suppress(OSError):
+        os.kill(pid, signal.SIGKILL)
 
 
 def collect_orphans() -> None:

@@ -6,10 +6,13 @@ import os
 import secrets
 import shlex
 import signal
+import subprocess
 from pathlib import Path
 
 import pexpect
+import pytest
 
+from grader.sandbox.processes import adopt_orphans
 from tests import stage
 from tests.lab.kinds import Kind
 from tests.lab.kinds import containers
@@ -36,6 +39,17 @@ def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
     if kind.sandbox == "docker":
         until(lambda: not containers(workspace))
     lab.screen.close(force=True)
+
+
+@pytest.mark.parametrize("name", ["KILL", "TERM"])
+def test_a_lab_that_ends_while_it_opens_leaves_nothing(tmp_path: Path, name: str) -> None:
+    adopt_orphans()
+    before = set(stage.descendants())
+    own = environment(**stage.ends_as_bwrap_starts(tmp_path, name))
+    words = command("--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "cat")
+    with subprocess.Popen(words, cwd=stage.ROOT, env=own, stdin=subprocess.PIPE) as opened:
+        assert opened.wait(SLOW) in (-signal.SIGKILL, 143)
+    stage.wait_until_gone(before)
 
 
 def test_a_container_is_gone_when_the_lab_has_been_left(docker_kind: Kind, tmp_path: Path) -> None:
