@@ -6,30 +6,21 @@ It prints nothing: it emits events, and returns the report.
 from __future__ import annotations
 
 import time
-import traceback
 from dataclasses import dataclass
 from dataclasses import field
 from datetime import datetime
 from datetime import timezone
 from pathlib import Path
-from typing import cast
 
 from grader import events
+from grader.asking import ask
 from grader.assignment import Assignment
-from grader.assignment import CheckUse
 from grader.checks.all import CHECKS
-from grader.checks.registry import Blocked
-from grader.checks.registry import Check
-from grader.checks.registry import Failed
-from grader.checks.registry import Inconclusive
-from grader.checks.registry import Passed
-from grader.errors import SurroundingsError
 from grader.evidence import Evidence
 from grader.fix.plan import patch_for
 from grader.limits import Limits
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
-from grader.mistakes.diagnose import diagnose
 from grader.observer import Event
 from grader.report import model
 from grader.report.compose import compose
@@ -156,83 +147,16 @@ def _decide(
         listener(events.CheckStarted(check.id, speak(check.title), visibility))
         result = ask(check, evidence, speak)
         if result.status == "failed":
-            result = result.model_copy(update={"patch": _patch(result, evidence)})
+            result = result.model_copy(update={"patch": _patch(result, evidence, listener)})
         evidence.results[check_id] = result
         listener(events.CheckFinished(result))
     listener(events.StageFinished(stage, time.monotonic() - begin))
     return [evidence.results[use.id] for use in assignment.checks]
 
 
-def ask(check: Check, evidence: Evidence, speak: Speaker) -> model.CheckResult:
-    """Ask one check; the build and the run happen in the first check that needs them."""
-    uses = {use.id: use for use in evidence.assignment.checks}
-    return _said(_found(check, uses[check.id], evidence, uses), speak)
-
-
-def _said(found: dict[str, object], speak: Speaker) -> model.CheckResult:
-    """Return a result with all its texts in the reader's language."""
-    texts = {name: speak(text) for name, text in found.items() if isinstance(text, str)}
-    advice = [speak(text) for text in cast("list[str]", found.get("advice", []))]
-    return model.CheckResult.model_validate({**found, **texts, "advice": advice})
-
-
-def _patch(result: model.CheckResult, evidence: Evidence) -> str:
+def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:
     try:
         return patch_for(result, evidence.submission, evidence.assignment)
-    except Exception:  # a fault of ours in a mend must not lose the verdict: it has no change then
+    except Exception as fault:  # of ours: it must not lose the verdict, which has no change then
+        listener(events.Note(f"{result.id}: no change could be made, a fault of ours: {fault!r}"))
         return ""
-
-
-def _found(
-    check: Check, use: CheckUse, evidence: Evidence, uses: dict[str, CheckUse]
-) -> dict[str, object]:
-    common = {
-        "id": check.id,
-        "title": check.title,
-        "max_score": use.points,
-        "visibility": use.visibility,
-        "depends": [dependency for dependency in check.depends if dependency in uses],
-    }
-    blocker = _blocker(check, evidence)
-    if blocker:
-        return _skipped(common, blocker, evidence)
-    begin = time.monotonic()
-    found: dict[str, object]
-    try:
-        passed = check.function(evidence) or Passed()
-        found = {"status": "passed", "score": use.points, "actual": passed.actual}
-        found["advice"] = list(passed.advice)
-    except Failed as seen:
-        failed, cause = diagnose(seen, evidence)
-        found = {"status": "failed", "mistakes": failed.mistakes, "where": failed.where}
-        found["consequence_of"] = cause
-        for name in ("expected", "actual", "rationale", "fix", "advice"):
-            found[name] = getattr(failed, name)
-    except Blocked as blocked:
-        return _skipped(common, blocked.by, evidence)
-    except Inconclusive as unknown:
-        found = {"status": "inconclusive", "actual": unknown.reason}
-    except SurroundingsError:
-        raise
-    except Exception:  # a fault of ours in one check must not lose the verdict on the others
-        found = {"status": "error", "actual": traceback.format_exc(limit=-4)}
-    seconds = round(time.monotonic() - begin, 3)
-    return {**common, **found, "seconds": seconds}
-
-
-def _blocker(check: Check, evidence: Evidence) -> str:
-    for dependency in check.depends:
-        result = evidence.results.get(dependency)
-        if result is not None and result.status != "passed":
-            return result.blocked_by or dependency
-    return ""
-
-
-def _skipped(common: dict[str, object], by: str, evidence: Evidence) -> dict[str, object]:
-    cause = evidence.results.get(by)
-    root = (cause.blocked_by if cause is not None else "") or by
-    title = CHECKS[root].title if root in CHECKS else root
-    if evidence.is_hidden(root) and common["visibility"] == "visible":
-        title = say("a hidden check")
-    actual = say("not asked, because of: {title}", title=title)
-    return {**common, "status": "skipped", "blocked_by": root, "actual": actual}

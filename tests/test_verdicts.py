@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from grader.assignment import load_assignment
-from grader.events import Event
+from grader.events import Listener
 from grader.limits import Limits
 from grader.report.model import Report
 from grader.ros.cache import cache_root
@@ -35,11 +35,13 @@ LIMITS = Limits().override({"build_seconds": 20, "start_seconds": 8, "run_second
 PATIENCE = 120.0  # seconds in which the worst package must have its verdict
 
 
-def _unheard(event: Event) -> None:
-    del event
-
-
-def mark(path: Path, *, distro: str = "jazzy", sandbox: str = "bubblewrap") -> Report:
+def mark(
+    path: Path,
+    *,
+    distro: str = "jazzy",
+    sandbox: str = "bubblewrap",
+    listener: Listener = lambda event: None,
+) -> Report:
     order = Order(
         path=path,
         assignment=ASSIGNMENT,
@@ -47,7 +49,7 @@ def mark(path: Path, *, distro: str = "jazzy", sandbox: str = "bubblewrap") -> R
         sandbox=sandbox,
         limits=LIMITS,
     )
-    return grade(order, _unheard)
+    return grade(order, listener)
 
 
 def packages(corpus: tuple[Package, ...], quick: int = QUICK) -> list[object]:

@@ -96,6 +96,13 @@ class Check:
     depends: tuple[str, ...]
     function: CheckFunction = field(repr=False)
 
+    def ask(self, evidence: Evidence) -> Passed | Failed | Blocked | Inconclusive:
+        """Return what it says of this evidence. What else it raises is a fault of ours."""
+        try:
+            return self.function(evidence) or Passed()
+        except (Failed, Blocked, Inconclusive) as outcome:
+            return outcome
+
 
 def check(check_id: str, *, depends: Sequence[str] = ()) -> Callable[[CheckFunction], Check]:
     """Declare a check: its id, and the checks without which it makes no sense to ask."""

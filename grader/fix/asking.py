@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import NoReturn
 
+from grader.asking import spoken
+from grader.asking import told
 from grader.assignment import Assignment
 from grader.assignment import CheckUse
 from grader.checks.all import CHECKS
-from grader.checks.registry import Blocked
 from grader.checks.registry import Check
 from grader.checks.registry import Failed
 from grader.checks.registry import Inconclusive
@@ -22,12 +23,8 @@ from grader.report.model import CheckResult
 from grader.submission import Submission
 
 
-class _NotHereError(Exception):
-    """A check wants the build or the run."""
-
-
 def _not_here() -> NoReturn:
-    raise _NotHereError
+    raise Inconclusive("a build or a run is wanted")
 
 
 def ask(
@@ -66,20 +63,11 @@ def _passed(result: CheckResult | None) -> bool:
 
 
 def _decide(check: Check, use: CheckUse, evidence: Evidence, speak: Speaker) -> CheckResult | None:
-    found: dict[str, object]
-    try:
-        passed = check.function(evidence) or Passed()
-        advice = [speak(text) for text in passed.advice]
-        found = {"status": "passed", "actual": speak(passed.actual), "advice": advice}
-    except Failed as failed:
-        found = {"status": "failed", "mistakes": failed.mistakes, "where": failed.where}
-        for name in ("expected", "actual", "rationale", "fix"):
-            found[name] = speak(getattr(failed, name))
-    except (Blocked, Inconclusive, _NotHereError):
+    said = check.ask(evidence)
+    if not isinstance(said, (Passed, Failed)):
         return None
-    return CheckResult.model_validate(
-        {"id": check.id, "title": speak(check.title), "max_score": use.points, **found}
-    )
+    common = {"id": check.id, "title": check.title, "max_score": use.points}
+    return spoken({**common, **told(said)}, speak)
 
 
 def findings(

@@ -123,16 +123,16 @@ def _cfg(text: str, assignment: Assignment) -> Iterator[Made]:
         shown = line.strip()
         yield made(f"without {shown}", "".join(lines[:n] + lines[n + 1 :]))
         changes = {
-            "other package": (assignment.package, assignment.package[:-1]),
-            "no $base": ("$base", ""),
-            "bin": ("/lib/", "/bin/"),
-            "no folder": (f"/{assignment.package}", ""),
+            "other package": (assignment.package, assignment.package[:-1], -1),
+            "no $base": ("$base", "", -1),
+            "bin": ("/lib/", "/bin/", -1),
+            "no folder": (f"/{assignment.package}", "", -1),
             "misspelt": ("s", "", 1),
             "no sign": ("=", " ", 1),
             "bracket lost": ("]", "", 1),
         }
-        for name, change in changes.items():
-            new = line.replace(*change)  # type: ignore[arg-type]
+        for name, (old, instead, times) in changes.items():
+            new = line.replace(old, instead, times)
             if new != line:
                 yield made(f"{name} in {shown}", "".join([*lines[:n], new, *lines[n + 1 :]]))
 

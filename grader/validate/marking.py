@@ -12,6 +12,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import NoReturn
 
+from grader.asking import ask
 from grader.batch.grade_all import MOST_A_CORE
 from grader.batch.local_pool import LocalPool
 from grader.batch.run import cores_here
@@ -25,7 +26,6 @@ from grader.locale.speaker import Speaker
 from grader.report.model import CheckResult
 from grader.report.model import CheckStatus
 from grader.runner import Order
-from grader.runner import ask
 from grader.submission import Submission
 from grader.submission import take_in
 from grader.validate.tree import Tree

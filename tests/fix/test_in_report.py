@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from grader import events
+from grader import runner
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.fix.bench import TOOLS
@@ -36,3 +38,21 @@ def test_the_change_in_a_report_mends_the_check_that_failed(name: str, tmp_path:
 def test_what_passes_has_no_change(tmp_path: Path) -> None:
     report = mark(write(BY_NAME["printed"], tmp_path))
     assert {check.patch for check in report.checks if check.status != "failed"} == {""}
+
+
+def test_a_fault_of_ours_in_a_change_costs_no_verdict_and_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def faulty(*_: object) -> str:
+        raise KeyError("our fault")
+
+    handed_in = write(BY_NAME["comma_missing"], tmp_path)
+    right = mark(handed_in)
+    monkeypatch.setattr(runner, "patch_for", faulty)
+    told: list[events.Event] = []
+    report = mark(handed_in, listener=told.append)
+    assert {check.id: check.status for check in report.checks} == {
+        check.id: check.status for check in right.checks
+    }
+    assert {check.patch for check in report.checks} == {""}
+    assert any(isinstance(event, events.Note) and "our fault" in event.text for event in told)
