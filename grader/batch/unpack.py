@@ -133,6 +133,8 @@ def _read_into(writing: Writing, file: IO[bytes], path: Path) -> None:
         with parsing(path.name):
             for member in members_of(file, kind, path.name, Spent(CLASS_LIMITS)):
                 writing.add(member)
+        if writing.locked is not None:
+            raise writing.locked
     except ArchiveError as error:
         raise UsageError(
             f"the class' archive cannot be unpacked. {error.problem.text}",

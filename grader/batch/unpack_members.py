@@ -13,6 +13,7 @@ from grader.intake.archive import TWICE
 from grader.intake.archive_limits import ArchiveLimits
 from grader.intake.archive_member import Member
 from grader.intake.archive_member import inside
+from grader.intake.archive_problems import ENCRYPTED
 from grader.intake.archive_problems import ArchiveError
 from grader.intake.archive_problems import too_large
 from grader.intake.notes import shown
@@ -43,6 +44,7 @@ TOO_MUCH = (
 )
 NO_SOURCE = f"{NOT_UNPACKED}, as a hard link to what is not in the archive before it"
 NO_PLACE = f"{NOT_UNPACKED}, as it has no place beside the other names, or too long a name"
+LOCKED = f"{NOT_UNPACKED}, as it is locked with a password"
 DAMAGED = f"{NOT_UNPACKED} to its end, as it is damaged"
 
 
@@ -53,6 +55,9 @@ class Writing:
         self.root = root
         self.remarks: list[tuple[str, str]] = []
         self.modes_recorded = True
+        self.locked: ArchiveError | None = None
+        """What the first locked file raised, as long as there is no file that is not locked."""
+        self._filled = False
         self._total = 0
         self._folders: set[Path] = set()
         self._bytes: Counter[str] = Counter()
@@ -138,11 +143,15 @@ class Writing:
             for chunk in member.chunks():
                 out.write(chunk)
         except ArchiveError as error:
+            if error.problem.mistake == ENCRYPTED:
+                self.locked = None if self._filled else error
+                return LOCKED
             return f"{NOT_UNPACKED}. {error.problem.text}"
         except OSError:
             raise
         except Exception as error:  # whatever a parser raises over the bytes of a stranger
             return f"{DAMAGED} ({shown(str(error))})"
+        self._filled, self.locked = True, None
         return ""
 
     def _copy(self, path: str, target: str) -> None:

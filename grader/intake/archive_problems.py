@@ -7,6 +7,7 @@ from grader.intake.problems import Problem
 from grader.locale.message import Message
 from grader.locale.message import say
 
+ENCRYPTED = "package.archive_encrypted"
 AGAIN = say(
     "Pack the package's folder anew, with nothing else in it: cd ~/ros2_ws/src && "
     "tar -czf my_package.tar.gz my_package (with your package's name)."
@@ -46,7 +47,7 @@ def no_archive(what: str) -> Problem:
 def encrypted(what: str) -> Problem:
     """It asks for a password."""
     return Problem(
-        "package.archive_encrypted",
+        ENCRYPTED,
         say("The archive {what} is locked with a password.", what=shown(what)),
         say("Pack it again without a password."),
     )

@@ -68,8 +68,6 @@ def read_zip(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
         by_git = COMMIT.fullmatch(archive.comment) is not None
         for member in members:
             spent.member(what)
-            if member.flag_bits & ENCRYPTED:
-                raise ArchiveError(encrypted(what))
             yield _member(archive, member, what, spent, by_git=by_git)
 
 
@@ -80,7 +78,11 @@ def _member(
     bits = info.external_attr >> 16 if info.create_system in UNIX else 0
     mode = stat.S_IMODE(bits) if bits else (0o644 if by_git else None)
 
+    locked = bool(info.flag_bits & ENCRYPTED)
+
     def chunks() -> Iterator[bytes]:
+        if locked:
+            raise ArchiveError(encrypted(what))
         if info.compress_type not in READABLE:
             kind = say("packed by a method of zip ({method})", method=info.compress_type)
             raise ArchiveError(unsupported(what, kind))
@@ -91,12 +93,12 @@ def _member(
 
     if name.endswith("/") or stat.S_ISDIR(bits):
         return Member(name, "folder", mode, remark=remark)
-    if stat.S_ISLNK(bits):
+    if stat.S_ISLNK(bits) and not locked:
         target = b"".join(chunks()) if info.file_size <= LONGEST_LINK else b"/"
         return Member(
             name, "link", mode, target=target.decode("utf-8", "surrogateescape"), remark=remark
         )
-    special = stat.S_IFMT(bits) not in (0, stat.S_IFREG)
+    special = stat.S_IFMT(bits) not in (0, stat.S_IFREG) and not locked
     return Member(
         name,
         "special" if special else "file",

@@ -21,6 +21,7 @@ from grader.batch.model import HandedIn
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.intake.archive_limits import ArchiveLimits
+from tests.installed import installed
 
 from .handed_out import PACKAGE
 from .handed_out import WINDOWS
@@ -30,6 +31,7 @@ from .handed_out import package
 from .handed_out import take
 from .handed_out import tar_with
 from .handed_out import tarred
+from .handed_out import write
 from .handed_out import zip_of
 from .handed_out import zipped
 
@@ -260,16 +262,29 @@ def test_a_class_archive_that_was_cut_short_is_refused_whole(
     assert not [path for path in everything_below(tmp_path / "work") if "setup.py" in path]
 
 
+def packed_by_zip(folder: Path, files: dict[str, bytes], *locked: str) -> bytes:
+    """Return a zip by Debian's `zip` in which the files with these names have a password."""
+    write(folder, files)
+    program = str(installed("zip", "zip"))
+    for name in files:
+        password = ("-P", "secret") if name in locked else ()
+        subprocess.run([program, "-q", *password, "c.zip", name], cwd=folder, check=True)
+    return (folder / "c.zip").read_bytes()
+
+
 def test_a_class_archive_with_a_password_is_refused_whole(tmp_path: Path) -> None:
-    data = bytearray(zipped(two()))
-    for mark, at in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
-        position = data.find(mark)
-        while position >= 0:
-            data[position + at] |= 1
-            position = data.find(mark, position + 1)
+    data = packed_by_zip(tmp_path / "made", two(), *two())
     with pytest.raises(UsageError, match="password") as error:
-        found_in(tmp_path, bytes(data))
+        found_in(tmp_path, data)
     assert "give the folder" in error.value.remedy
+
+
+def test_one_file_with_a_password_costs_one_student(tmp_path: Path) -> None:
+    data = packed_by_zip(tmp_path / "made", two(), "ann/ws/setup.py")
+    found = found_in(tmp_path, data)
+    assert "password" in said(one(found, "ann"))
+    are_marked(found, "joe")
+    assert "password" not in said(one(found, "joe"))
 
 
 def test_a_place_that_cannot_be_written_is_our_surroundings_fault(tmp_path: Path) -> None:
