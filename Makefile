@@ -48,14 +48,15 @@ grade:  ## Mark one package: make grade STUDENT=path
 	@if [ -z "$$STUDENT" ]; then \
 	  echo "make grade: say which package: make grade STUDENT=path/to/package" >&2; exit 2; fi
 	@$(BOOTSTRAP)
-	@$(GRADER) grade $(OPTIONS) $${NAME:+--name "$$NAME"} $${OUT:+--out "$$OUT"} -- "$$STUDENT"
+	@$(GRADER) grade $(OPTIONS) $${KEYS:+--keys "$$KEYS"} $${NAME:+--name "$$NAME"} $${OUT:+--out "$$OUT"} -- "$$STUDENT"
 
 grade-all:  ## Mark a class: make grade-all SUBMISSIONS=path [ROSTER=csv] [REGRADE=1]
 	@if [ -z "$$SUBMISSIONS" ]; then \
 	  echo "make grade-all: say which class: make grade-all SUBMISSIONS=path/to/downloads" >&2; \
 	  exit 2; fi
 	@$(BOOTSTRAP)
-	@$(GRADER) grade-all $(OPTIONS) $${OUT:+--out "$$OUT"} $${ROSTER:+--roster "$$ROSTER"} \
+	@$(GRADER) grade-all $(OPTIONS) $${KEYS:+--keys "$$KEYS"} $${OUT:+--out "$$OUT"} \
+	  $${ROSTER:+--roster "$$ROSTER"} \
 	  $${WORKERS:+--workers "$$WORKERS"} $${REGRADE:+--regrade} \
 	  $${WORKSHEET:+--worksheet "$$WORKSHEET"} $${CANVAS:+--canvas "$$CANVAS"} \
 	  $${SCHEDULER:+--scheduler "$$SCHEDULER"} -- "$$SUBMISSIONS"

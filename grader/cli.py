@@ -57,6 +57,7 @@ _verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence
 @commands.command()
 @click.argument("path", type=click.Path(path_type=Path))
 @options.assignment
+@options.keys
 @options.distros
 @options.sandbox
 @click.option("--name", help="The student's name in the report (default: the folder's).")
@@ -67,6 +68,7 @@ _verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence
 def grade(
     path: Path,
     assignment: str,
+    keys: Path | None,
     distro: str,
     sandbox: str,
     name: str | None,
@@ -79,7 +81,9 @@ def grade(
     from grader.ordering import make_orders  # noqa: PLC0415 - --help must not pay for it
 
     with errors_in(lang):
-        orders = make_orders(path, assignment, distro, sandbox, limits, name=name, lang=lang)
+        orders = make_orders(
+            path, assignment, distro, sandbox, limits, name=name, keys=keys, lang=lang
+        )
         return _mark(orders, out, verbose=verbose, show_hidden=True)
 
 

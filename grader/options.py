@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 assignment = click.option(
@@ -10,6 +12,12 @@ assignment = click.option(
     show_default=True,
     metavar="ID|FILE",
     help="The assignment: its id, or the path of an assignment.yaml.",
+)
+keys = click.option(
+    "--keys",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="The assignment's folder of the instructor: hidden.yaml, solution, mutants.yaml (default: "
+    "the grader's own keys/ID).",
 )
 sandbox = click.option(
     "--sandbox",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from grader.assignment import Assignment
 from grader.assignment import load_assignment
 from grader.errors import UsageError
 from grader.limits import UNITS
@@ -16,6 +17,8 @@ from grader.runner import Order
 from grader.sandbox.choose import check_name
 
 COURSE = "GRADER_COURSE"
+KEYS = Path(__file__).resolve().parent / "keys"
+HIDDEN = "hidden.yaml"
 
 
 def make_orders(
@@ -27,18 +30,19 @@ def make_orders(
     *,
     name: str | None = None,
     own_code: bool = False,
+    keys: Path | None = None,
     lang: str | None = None,
 ) -> list[Order]:
-    """Check every word of the command line before anything is run."""
+    """Check every word of the command line before anything is run.
+
+    `keys` is the instructor's folder of the assignment (default: the grader's own, if any).
+    """
     check_name(sandbox)
     distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
     if not distros:
         raise UsageError(say("no distro was named"), remedy=say("For example: --distro jazzy"))
     given = _limit_values(limits)
-    file, hidden = assignment_files(assignment)
-    if own_code:
-        hidden = None
-    wanted = load_assignment(file, hidden=hidden, known_limits=tuple(UNITS))
+    wanted = visible_part(assignment) if own_code else with_hidden(assignment, keys)
     bounds = Limits().override(wanted.limits).override(given)
     return [
         Order(
@@ -74,12 +78,45 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
     return values
 
 
-def assignment_files(assignment: str) -> tuple[Path, Path | None]:
-    """Return the assignment's file and its hidden checks, if this side has any."""
-    if "/" in assignment or assignment.endswith((".yaml", ".yml")):
-        return Path(assignment), None
-    here = Path(__file__).resolve().parent
-    course = _course(here)
+def visible_part(assignment: str) -> Assignment:
+    """Return an assignment (its id, or its file's path) as students have it."""
+    return load_assignment(assignment_file(assignment), known_limits=tuple(UNITS))
+
+
+def with_hidden(assignment: str, keys: Path | None = None) -> Assignment:
+    """Return an assignment with the hidden checks of the instructor's folder.
+
+    Raises UsageError where it announces hidden checks and that folder has none.
+    """
+    file = assignment_file(assignment)
+    folder = keys or (None if _is_file(assignment) else KEYS / assignment)
+    if keys is not None and not keys.is_dir():
+        raise UsageError(say("there is no folder {path}", path=str(keys)))
+    hidden = folder / HIDDEN if folder is not None else None
+    there = hidden is not None and hidden.is_file()
+    loaded = load_assignment(file, hidden=hidden if there else None, known_limits=tuple(UNITS))
+    if loaded.hidden_checks and not there:
+        raise UsageError(
+            say(
+                "hidden_checks is {count} in {file}, but there is no {name}",
+                file=str(file),
+                count=loaded.hidden_checks,
+                name=str(hidden or HIDDEN),
+            ),
+            remedy=say("Name the folder that has {name} with --keys.", name=HIDDEN),
+        )
+    return loaded
+
+
+def _is_file(assignment: str) -> bool:
+    return "/" in assignment or assignment.endswith((".yaml", ".yml"))
+
+
+def assignment_file(assignment: str) -> Path:
+    """Return the file of an assignment: its id's in the course folder, or the path itself."""
+    if _is_file(assignment):
+        return Path(assignment)
+    course = _course(Path(__file__).resolve().parent)
     file = course / assignment / "assignment.yaml"
     if not file.is_file():
         known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
@@ -96,8 +133,7 @@ def assignment_files(assignment: str) -> tuple[Path, Path | None]:
                 variable=COURSE,
             ),
         )
-    hidden = here / "keys" / assignment / "hidden.yaml"
-    return file, hidden if hidden.is_file() else None
+    return file
 
 
 def _course(here: Path) -> Path:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import io
+import json
+import zipfile
 from pathlib import Path
 
 import pytest
 
+from grader.gradebook.gradescope_zip import gradescope_zip
 from tests import stage
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
@@ -118,6 +122,70 @@ def test_a_self_check_says_how_many_checks_are_hidden(course: Path, package: Pat
     done = stage.run(stage.grader("check", package, "--assignment", course))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "2 hidden checks" in done.stdout
+
+
+@pytest.fixture
+def keys(course: Path, tmp_path: Path) -> Path:
+    """An instructor's folder: what the node prints is asked for there, and announced here."""
+    text = course.read_text().replace("hidden_checks: 0", "hidden_checks: 1")
+    checks = "checks:\n  - {id: package.found, points: 1}\n"
+    course.write_text(text[: text.index("\nchecks:") + 1] + checks)
+    folder = tmp_path / "keys"
+    folder.mkdir()
+    (folder / "hidden.yaml").write_text("checks: [{id: run.output, points: 2}]\n")
+    return folder
+
+
+def test_hidden_checks_are_asked_from_the_instructors_folder(
+    course: Path, package: Path, keys: Path, tmp_path: Path
+) -> None:
+    words = ("grade", package, "--assignment", course, "--keys", keys, "--out", tmp_path / "o")
+    done = stage.run(stage.grader(*words))
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "3 / 3" in done.stdout
+    (file,) = (tmp_path / "o").rglob("report.json")
+    checks = json.loads(file.read_text())["checks"]
+    assert [(c["id"], c["visibility"]) for c in checks] == [
+        ("package.found", "visible"),
+        ("run.output", "hidden"),
+    ]
+
+
+@pytest.mark.parametrize("command", ["grade", "grade-all", "validate", "gradescope-zip"])
+def test_without_that_folder_the_announced_checks_are_missed(
+    course: Path, package: Path, keys: Path, tmp_path: Path, command: str
+) -> None:
+    (keys / "hidden.yaml").unlink()
+    words = {
+        "grade": (package, "--assignment", course),
+        "grade-all": (package.parent, "--assignment", course, "--out", tmp_path / "o"),
+        "validate": (course, "--keys", keys),
+        "gradescope-zip": (tmp_path / "a.zip", "--assignment", course),
+    }[command]
+    done = stage.run(stage.grader(command, *words))
+    assert done.returncode == 2, done.stderr
+    assert "hidden_checks is 1" in done.stderr
+    assert "--keys" in done.stderr
+    assert not (tmp_path / "a.zip").exists()
+
+
+def test_gradescopes_archive_has_the_hidden_checks(course: Path, keys: Path) -> None:
+    data = gradescope_zip(assignment=str(course), keys=keys)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        assert archive.read("keys/hidden.yaml") == (keys / "hidden.yaml").read_bytes()
+        assert "--keys keys" in archive.read("run_autograder").decode()
+
+
+def test_validate_asks_the_hidden_checks_too(
+    course: Path, package: Path, keys: Path, tmp_path: Path
+) -> None:
+    (keys / "solution").mkdir()
+    package.rename(keys / "solution" / "turtle_counter")
+    out = tmp_path / "m.json"
+    words = ("validate", course, "--keys", keys, "--static", "--only", "drop*", "--json", out)
+    done = stage.run(stage.grader(*words))
+    assert done.returncode in (0, 1), done.stderr
+    assert json.loads(out.read_text())["checks"] == ["package.found", "run.output"]
 
 
 def test_hello_time_is_worth_a_hundred() -> None:

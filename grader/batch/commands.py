@@ -21,6 +21,7 @@ _ledger = click.option(
 @click.command("grade-all")
 @click.argument("path", type=click.Path(path_type=Path))
 @options.assignment
+@options.keys
 @options.one_distro
 @options.sandbox
 @options.limits
@@ -60,6 +61,7 @@ _ledger = click.option(
 def grade_all(
     path: Path,
     assignment: str,
+    keys: Path | None,
     distro: str,
     sandbox: str,
     limits: tuple[str, ...],
@@ -93,7 +95,7 @@ def grade_all(
     from grader.ordering import make_orders  # noqa: PLC0415
 
     with errors_in(lang):
-        orders = make_orders(path, assignment, distro, sandbox, limits, lang=lang)
+        orders = make_orders(path, assignment, distro, sandbox, limits, keys=keys, lang=lang)
     if len(orders) > 1:
         raise UsageError("a class is marked on one distro", remedy="Give --out one for each.")
     out = out or Path("reports") / (path.resolve().stem or "class")
@@ -130,6 +132,7 @@ def grade_all(
 @click.option("--list", "list_all", is_flag=True, help="List the corrections that hold.")
 @click.option("--force", is_flag=True, help="Also points below 0 or beyond what it is worth.")
 @options.assignment
+@options.keys
 @_ledger
 @click.option(
     "--out", type=click.Path(path_type=Path, file_okay=False), help="The class' --out folder."
@@ -143,6 +146,7 @@ def override(
     list_all: bool,
     force: bool,
     assignment: str,
+    keys: Path | None,
     ledger: Path | None,
     out: Path | None,
 ) -> int:
@@ -151,13 +155,11 @@ def override(
     The correction outlives reruns and regrades; the next `grader grade-all` writes it into every
     output. Without --check it corrects the total.
     """
-    from grader.assignment import load_assignment  # noqa: PLC0415
     from grader.batch import override as corrections  # noqa: PLC0415
     from grader.batch.ledger import Ledger  # noqa: PLC0415
-    from grader.ordering import assignment_files  # noqa: PLC0415
+    from grader.ordering import with_hidden  # noqa: PLC0415
 
-    file, hidden = assignment_files(assignment)
-    wanted = load_assignment(file, hidden=hidden)
+    wanted = with_hidden(assignment, keys)
     place = corrections.find_ledger(ledger, out, Path.cwd())
     with Ledger(place, makes=False) as opened:
         if list_all:

@@ -28,11 +28,17 @@ _sandbox = click.option(
 @click.command("gradescope")
 @click.argument("autograder", type=click.Path(path_type=Path), default=Path("/autograder"))
 @options.assignment
+@options.keys
 @options.one_distro
 @_sandbox
 @options.lang
 def gradescope(
-    autograder: Path, assignment: str, distro: str, sandbox: str, lang: str | None
+    autograder: Path,
+    assignment: str,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    lang: str | None,
 ) -> int:
     """Mark the submission in Gradescope's container, results.json always up to date.
 
@@ -40,16 +46,26 @@ def gradescope(
     """
     from grader.gradebook.gradescope_run import run  # noqa: PLC0415 - --help must not pay for it
 
-    return run(autograder, assignment=assignment, distro=distro, sandbox=sandbox, lang=lang)
+    return run(
+        autograder, assignment=assignment, keys=keys, distro=distro, sandbox=sandbox, lang=lang
+    )
 
 
 @click.command("gradescope-zip")
 @click.argument("out", type=click.Path(path_type=Path), default=Path("autograder.zip"))
 @options.assignment
+@options.keys
 @options.one_distro
 @_sandbox
 @options.lang
-def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str, lang: str | None) -> int:
+def gradescope_zip(
+    out: Path,
+    assignment: str,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    lang: str | None,
+) -> int:
     """Make the autograder archive that is uploaded to Gradescope. It holds the solution.
 
     --lang is the language in which students will read their results.
@@ -64,6 +80,7 @@ def gradescope_zip(out: Path, assignment: str, distro: str, sandbox: str, lang: 
     name = find_distro(distro).name
     made = archive.gradescope_zip(
         assignment=assignment,
+        keys=keys,
         distro=name,
         sandbox=sandbox,
         lang=lang or chosen_language(os.environ),

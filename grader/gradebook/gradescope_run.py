@@ -107,6 +107,7 @@ def run(
     autograder: Path,
     *,
     assignment: str = "hello_time",
+    keys: Path | None = None,
     distro: str = "jazzy",
     sandbox: str = "account",
     lang: str | None = None,
@@ -119,7 +120,7 @@ def run(
     results = autograder / "results"
     metadata = read_metadata(autograder / METADATA)
     try:
-        order = order_for(autograder, metadata, assignment, distro, sandbox, lang=lang)
+        order = order_for(autograder, metadata, assignment, distro, sandbox, keys=keys, lang=lang)
     except GraderError as error:
         click.echo(f"grader: {error}", err=True)
         _write_problem(results, lang or chosen_language(os.environ))
@@ -165,12 +166,15 @@ def order_for(
     distro: str,
     sandbox: str,
     *,
+    keys: Path | None = None,
     lang: str | None = None,
 ) -> Order:
     """Return what is to be marked, by what Gradescope says of it."""
     submission = autograder / "submission"
     name = student_name(metadata)
-    order = make_orders(submission, assignment, distro, sandbox, (), name=name, lang=lang)[0]
+    order = make_orders(
+        submission, assignment, distro, sandbox, (), name=name, keys=keys, lang=lang
+    )[0]
     # what was uploaded file by file has lost its exec bits on the way, a clone has not
     cloned = metadata.get("submission_method") in CLONED
     return replace(order, modes_kept=cloned)

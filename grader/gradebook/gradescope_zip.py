@@ -18,6 +18,8 @@ from grader.errors import UsageError
 from grader.locale.message import say
 from grader.locale.speaker import SOURCE
 from grader.locale.speaker import Speaker
+from grader.ordering import HIDDEN
+from grader.ordering import with_hidden
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = (
@@ -31,7 +33,7 @@ PARTS = (
     "tests/requirements.txt",  # bootstrap.py tells environments apart by both locks
 )
 LEFT_OUT = ("__pycache__", ".git", ".mypy_cache", ".ruff_cache", "build", "install", "log")
-OWN_ASSIGNMENT = "assignment"
+OWN_ASSIGNMENT, OWN_KEYS = "assignment", "keys"
 WHEN = (1980, 1, 1, 0, 0, 0)  # the archive of the same files is the same, byte for byte
 FILE, PROGRAM = 0o100644, 0o100755
 
@@ -73,12 +75,15 @@ exit "$status"
 def gradescope_zip(
     *,
     assignment: str = "hello_time",
+    keys: Path | None = None,
     distro: str = "jazzy",
     sandbox: str = "account",
     lang: str = SOURCE,
     root: Path = ROOT,
 ) -> bytes:
     """Return the archive; `assignment` is an id or the path of an assignment.yaml.
+
+    `keys` is the instructor's folder of it, of which the hidden checks go in.
 
     What students read is in the language `lang`.
     `root` is the checkout that goes in. SurroundingsError if it is none (the grader was installed
@@ -96,7 +101,11 @@ def gradescope_zip(
         named = f"{OWN_ASSIGNMENT}/{Path(assignment).name}"
     elif f"lab/course/{assignment}/assignment.yaml" not in files:
         raise UsageError(f"there is no assignment '{assignment}' in {root / 'lab/course'}")
+    with_hidden(assignment, keys)  # what is wrong is told here, and not at Gradescope
     words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
+    if keys is not None and (keys / HIDDEN).is_file():
+        files[f"{OWN_KEYS}/{HIDDEN}"] = ((keys / HIDDEN).read_bytes(), FILE)
+        words += ["--keys", OWN_KEYS]
     files["setup.sh"] = (SETUP.format(distro=shlex.quote(distro)).encode(), PROGRAM)
     run = RUN.format(words=shlex.join(words), problem=shlex.quote(_problem(lang)))
     files["run_autograder"] = (run.encode(), PROGRAM)

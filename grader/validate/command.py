@@ -12,7 +12,7 @@ from pathlib import Path
 from grader.checks.all import CHECKS
 from grader.errors import UsageError
 from grader.mistakes.catalogue import CATALOGUE
-from grader.ordering import assignment_files
+from grader.ordering import assignment_file
 from grader.runner import Order
 from grader.submission import Submission
 from grader.validate.automatic import generate
@@ -32,7 +32,6 @@ from grader.validate.tree import Tree
 from grader.validate.tree import digest
 from grader.validate.tree import read_tree
 
-KEYS = Path(__file__).resolve().parents[1] / "keys"
 TELLS_EACH = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"
 
@@ -104,8 +103,7 @@ def collect(wish: Wish, original: Tree) -> list[Mutant]:
 
 def starter_of(assignment: str) -> Path | None:
     """Return what students of an assignment (an id, or the path of its file) begin with."""
-    file, _ = assignment_files(assignment)
-    starter = file.parent / "starter"
+    starter = assignment_file(assignment).parent / "starter"
     return starter if starter.is_dir() else None
 
 

@@ -20,11 +20,7 @@ from grader import options
     type=click.Path(path_type=Path, dir_okay=False),
     help="Write the matrix to this file as well.",
 )
-@click.option(
-    "--keys",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="The folder with the solution and mutants.yaml (default: the grader's own).",
-)
+@options.keys
 @options.one_distro
 @options.sandbox
 @options.limits
@@ -43,16 +39,17 @@ def validate(
 
     Exit status: 0 everything is as expected, 1 something is not.
     """
+    from grader.ordering import KEYS  # noqa: PLC0415
     from grader.ordering import make_orders  # noqa: PLC0415
     from grader.validate import command  # noqa: PLC0415
     from grader.validate import matrix  # noqa: PLC0415
 
-    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, lang="en")
+    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, keys=keys, lang="en")
     if others:
         raise click.UsageError("validate marks on one distro: name one")
     wish = command.Wish(
         order=order,
-        keys=keys or command.KEYS / order.assignment.id,
+        keys=keys or KEYS / order.assignment.id,
         starter=command.starter_of(assignment),
         static=static,
         workers=workers or 0,

@@ -154,10 +154,11 @@ def summary(matrix: Matrix) -> str:
 
 
 def as_json(matrix: Matrix) -> str:
-    """Return the matrix as JSON: `rows` in the table's order, times in seconds."""
+    """Return the matrix as JSON: `checks` and `rows` in the table's order, times in seconds."""
     content = {
         "schema": 1,
         "assignment": matrix.assignment,
+        "checks": matrix.checks,
         "as_expected": not matrix.faults,
         "figures": matrix.figures(),
         "never_failed": matrix.never_failed,

@@ -201,8 +201,8 @@ def test_a_fault_of_the_grader_keeps_what_was_found(
 
 
 def test_a_missing_submission_and_a_wrong_assignment_have_results(tmp_path: Path) -> None:
-    for words in ({}, {"assignment": "hello_tme"}):
-        assert gradescope_run.run(tmp_path, sandbox="bubblewrap", **words) != 0
+    for assignment in ("hello_time", "hello_tme"):
+        assert gradescope_run.run(tmp_path, sandbox="bubblewrap", assignment=assignment) != 0
         found = json.loads((tmp_path / "results/results.json").read_text())
         jsonschema.validate(found, GRADESCOPE)
         assert "not your package" in found["output"]

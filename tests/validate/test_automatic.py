@@ -7,9 +7,9 @@ import ast
 import pytest
 
 from grader.assignment import load_assignment
+from grader.ordering import KEYS
 from grader.validate import in_source
 from grader.validate.automatic import generate
-from grader.validate.command import KEYS
 from grader.validate.spots import Code
 from grader.validate.tree import digest
 from grader.validate.tree import read_tree

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from grader.ordering import KEYS
 from grader.sandbox.processes import adopt_orphans
-from grader.validate.command import KEYS
 from tests import stage
 
 HELLO = KEYS / "hello_time"
