@@ -383,10 +383,14 @@ def test_megabytes_of_results_take_a_moment_and_are_taken_for_nothing_else(
     dumper = type("Dumper", (yaml.SafeDumper,), {"ignore_aliases": lambda self, data: True})
     content = yaml.dump(metadata, Dumper=dumper, sort_keys=False).encode()
     assert len(content) > 2_000_000
+    fifth = dict(list(metadata.items())[: len(metadata) // 5])
+    begin = time.process_time()
+    yaml.safe_load(yaml.dump(fifth, Dumper=dumper, sort_keys=False))
+    a_fifth_as_yaml = time.process_time() - begin
     files = {f"submission_{n}/setup.py": b"" for n in range(1, 41)}
     begin = time.process_time()
     found = downloaded(tmp_path, {"submission_metadata.yml": content, **files}, "folder")
-    assert time.process_time() - begin < 0.5
+    assert time.process_time() - begin < a_fifth_as_yaml
     assert sorted(int(key) for key in by_key(found)) == list(range(1, 41))
     for key, (work,) in by_key(found).items():
         assert work.submitted is not None
