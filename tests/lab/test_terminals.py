@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import secrets
 from pathlib import Path
 
 import pexpect
@@ -14,7 +15,9 @@ from tests.lab.screen import command
 from tests.lab.screen import environment
 from tests.lab.screen import new_domain
 from tests.lab.visits import SLOW
+from tests.lab.visits import has_the_terminal
 from tests.lab.visits import start
+from tests.lab.visits import until
 
 NODE = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('talker'))"
 SEEN = "timeout 60 bash -c 'until ros2 node list | grep -x /talker; do :; done'"
@@ -47,19 +50,23 @@ def test_ctrl_c_reaches_what_runs_and_leaves_the_lab_open(kind: Kind, tmp_path: 
         start(lab, "sleep 1000")
         lab.interrupt()
         assert lab.status() == 130
-        lab.interrupt()  # at an empty prompt
-        assert lab.type("echo still here").strip() == "still here"
+        lab.screen.sendintr()  # at an empty prompt
+        lab.screen.sendline()  # with it readline wakes where Ctrl+C came just before it slept
+        lab.screen.sendline("echo still $((40 + 2))")
+        lab.screen.expect_exact("still 42")
         assert lab.leave() == 0
 
 
 def test_ctrl_z_stops_a_command_and_fg_takes_it_up_again(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
-        start(lab, "sleep 1000")
+        mark = f"sleep 90{secrets.randbelow(10**6)}"
+        start(lab, mark)
+        until(lambda: has_the_terminal(mark))
         lab.screen.sendcontrol("z")
         assert "Stopped" in lab.wait_for_prompt()
         assert "Stopped" in lab.type("jobs")
         lab.screen.sendline("fg")
-        lab.screen.expect("sleep 1000.*\n")
+        until(lambda: has_the_terminal(mark))
         lab.interrupt()
         assert lab.status() == 130
 
@@ -84,7 +91,8 @@ def test_tab_completes_commands_verbs_and_packages(kind: Kind, tmp_path: Path) -
         ):
             lab.screen.send(typed)
             lab.screen.expect_exact(rest)
-            lab.interrupt()
+            # no Ctrl+C: readline misses a signal that comes between drawing a line and reading on
+            lab.screen.sendcontrol("u")
 
 
 def test_a_second_terminal_sees_the_nodes_of_the_first(kind: Kind, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import subprocess
 import time
 from collections.abc import Callable
@@ -41,6 +42,20 @@ def start(lab: Lab, mark: str) -> None:
 def alive(mark: str) -> list[str]:
     """Return the running programs with this command line, in whichever lab."""
     return [line for line in stage.alive(mark) if line.startswith(mark)]
+
+
+def has_the_terminal(mark: str) -> bool:
+    """Whether a program with this command line sleeps in the foreground of its terminal."""
+    for entry in Path("/proc").iterdir():
+        with contextlib.suppress(OSError, ValueError):
+            line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            # proc(5): after the name come state, parent, group, session, terminal, its group
+            state, _, group, _, _, foreground = (
+                (entry / "stat").read_text().rpartition(")")[2].split()[:6]
+            )
+            if line.startswith(mark) and state == "S" and group == foreground:
+                return True
+    return False
 
 
 def until(condition: Callable[[], bool]) -> None:
