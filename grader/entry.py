@@ -10,6 +10,8 @@ from types import FrameType
 import click
 
 from grader.errors import GraderError
+from grader.locale.command_line import language_of
+from grader.locale.command_line import said_in
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import chosen_language
@@ -28,6 +30,12 @@ def run(command: click.Command, name: str, argv: list[str] | None) -> int:
     """Run a command line and return its exit status: DESIGN's contract."""
     signal.signal(signal.SIGTERM, _terminated)
     signal.signal(signal.SIGHUP, _terminated)
+    words = sys.argv[1:] if argv is None else argv
+    with said_in(language_of(words), command):
+        return _run(command, name, words)
+
+
+def _run(command: click.Command, name: str, argv: list[str]) -> int:
     try:
         status = command.main(args=argv, prog_name=name, standalone_mode=False)
         return status if isinstance(status, int) else 0

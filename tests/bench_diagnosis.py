@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+from grader import asking
 from grader import runner
 from grader.fix.plan import patch_for
 from grader.mistakes.diagnose import diagnose
@@ -55,7 +56,7 @@ def main() -> int:
         for package in BROKEN[:: asked.every]:
             watch = Stopwatch()
             with (
-                mock.patch.object(runner, "diagnose", watch.on(diagnose)),
+                mock.patch.object(asking, "diagnose", watch.on(diagnose)),
                 mock.patch.object(runner, "patch_for", watch.on(patch_for)),
             ):
                 mark(write(package, Path(folder)))

@@ -25,7 +25,6 @@ class Speaker:
 
     def __init__(self, lang: str) -> None:
         self.lang = lang if lang in LANGUAGES else SOURCE
-        self._catalogue = _catalogue(self.lang)
 
     def __call__(self, text: str) -> str:
         """Return a text in the language; what is no `Message` (a name, code) stays as it is."""
@@ -34,8 +33,13 @@ class Speaker:
         return text.told(self._translate) if self.lang != SOURCE else str(text)
 
     def _translate(self, template: str) -> str:
-        # (the empty msgid is the catalogue's own head)
-        return self._catalogue.gettext(template) if template else ""
+        return translated(template, self.lang)
+
+
+def translated(template: str, lang: str) -> str:
+    """Return a template in a language, not filled; English where it has no translation."""
+    # (the empty msgid is the catalogue's own head)
+    return _catalogue(lang).gettext(template) if template else ""
 
 
 @functools.lru_cache(maxsize=len(LANGUAGES))

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from grader import options
 from grader.assignment import load_assignment
-from grader.errors import GraderError
+from grader.entry import run
 from grader.errors import UsageError
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
@@ -36,17 +36,7 @@ WIDEST = 96  # columns; longer lines are hard to read
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status."""
-    try:
-        command.main(args=list(argv or ()), prog_name="guide", standalone_mode=False)
-    except click.ClickException as error:
-        error.show()
-        return 2
-    except GraderError as error:
-        click.echo(f"guide: {error}", err=True)
-        return error.exit_status
-    except (KeyboardInterrupt, click.Abort):
-        return 130
-    return 0
+    return run(command, "guide", list(argv or ()))
 
 
 @click.command(context_settings={"help_option_names": ["-h", "--help"]})

@@ -6,10 +6,15 @@ import ast
 import re
 import string
 from collections.abc import Iterator
+from pathlib import Path
 
+import click
 import pytest
+from babel.messages.extract import extract_from_file
 
 from grader.locale import update
+from grader.locale.command_line import CLICK
+from grader.locale.command_line import CLICK_COUNTED
 from grader.locale.speaker import LANGUAGES
 from tests.stage import ROOT
 
@@ -38,6 +43,13 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
         assert message is not None, f"{place}: {template!r}: run python -m grader.locale.update"
         assert message.string, f"{place}: {template!r} has no translation"
         assert placeholders(str(message.string)) == placeholders(template), template
+    for one, many in CLICK_COUNTED:
+        message = catalog.get(one)
+        assert message is not None, one
+        forms = tuple(message.string or ())
+        # click fills both forms with the same values
+        known = {*placeholders(one), *placeholders(many)}
+        assert all(form and set(placeholders(form)) <= known for form in forms), one
 
 
 def marked() -> Iterator[str]:
@@ -72,6 +84,18 @@ def test_korean_texts_are_korean() -> None:
             assert re.search("[가-힣]", str(message.string)), message.id
 
 
+def test_what_click_says_is_what_click_says() -> None:
+    """A new click may word it otherwise: the translation would be of nothing."""
+    folder = Path(click.__file__).parent
+    keywords: dict[str, tuple[int, ...] | None] = {"_": None, "ngettext": (1, 2)}
+    said = {
+        found
+        for path in folder.glob("*.py")
+        for _, found, _, _ in extract_from_file("python", path, keywords=keywords)
+    }
+    assert {*CLICK, *CLICK_COUNTED} <= said
+
+
 def test_korean_sentences_are_in_the_formal_polite_style() -> None:
     plain = re.compile(r"(?<![니마])다(?:[.)]|$)|(?:하라|해라|[하세되]요)(?:[.)]|$)")
     for message in update.read("ko"):
@@ -89,4 +113,4 @@ def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang
 
 def test_there_are_no_texts_left_over() -> None:
     known = {template for template, _ in update.templates()}
-    assert {str(m.id) for m in update.read("ko") if m.id} == known
+    assert {m.id for m in update.read("ko") if m.id} == {*known, *CLICK_COUNTED}

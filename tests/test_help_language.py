@@ -1,0 +1,99 @@
+"""What a student's commands say of themselves, and of wrong words, in the reader's language."""
+
+from __future__ import annotations
+
+import gettext
+import os
+import re
+import sys
+
+import click
+import pytest
+
+from grader.cli import commands
+from grader.locale.command_line import language_of
+from grader.locale.command_line import said_in
+from tests import stage
+
+KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""}
+ENGLISH = {**KOREAN, "LANG": "C.UTF-8"}
+HANGUL = re.compile("[가-힣]")
+PROSE = re.compile(r"(?:\b[a-z]{2,}\b +){3}[a-z]{2,}\b")
+HELPS = [
+    ("grader", "check"),
+    ("grader", "fix"),
+    ("grader", "explain"),
+    ("lab",),
+    ("lab.guide",),
+]
+
+
+def said(*words: str, env: dict[str, str]) -> tuple[int, str]:
+    done = stage.run([sys.executable, "-m", *words], env=env)
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("words", HELPS, ids=" ".join)
+def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, ...]) -> None:
+    status, english = said(*words, "--help", env=ENGLISH)
+    assert status == 0
+    assert not HANGUL.search(english)
+    status, korean = said(*words, "--help", env=KOREAN)
+    assert status == 0
+    assert not PROSE.search(korean), korean
+    options = re.compile(r"^ +(-\S.*?)(?:  |$)", re.MULTILINE)
+    assert options.findall(korean) == options.findall(english)
+    assert said(*words, "--lang", "ko", "--help", env=ENGLISH) == (0, korean)
+    assert said(*words, "--lang=en", "--help", env=KOREAN) == (0, english)
+
+
+@pytest.mark.parametrize(
+    ("words", "wrong"),
+    [
+        (("check", "--bogus"), "--bogus"),
+        (("check", "a", "b"), "(b)"),
+        (("fix", "--lang", "fr"), "'fr'"),
+        (("fix", "--distro"), "--distro"),
+        (("chek",), "chek"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else " ".join(value),
+)
+def test_wrong_words_are_told_in_the_readers_language(words: tuple[str, ...], wrong: str) -> None:
+    status, told = said("grader", *words, env=KOREAN)
+    assert status == 2
+    last = told.splitlines()[-1]
+    assert wrong in last
+    assert last.startswith("오류: ")
+    assert not PROSE.search(told), told
+
+
+@pytest.mark.parametrize(
+    ("words", "wanted"),
+    [
+        (("check", "--lang", "ko"), "ko"),
+        (("check", "--lang=ko", "x"), "ko"),
+        (("check", "--lang", "fr"), "en"),
+        (("check", "--lang"), "en"),
+        (("lab", "--", "--lang", "ko"), "en"),  # the command's, in the lab
+        ((), "en"),
+    ],
+)
+def test_the_language_of_a_command_line(
+    words: tuple[str, ...], wanted: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in ENGLISH.items():
+        monkeypatch.setenv(name, value)
+    assert language_of(words) == wanted
+
+
+def test_it_speaks_as_long_as_it_lasts() -> None:
+    def state() -> tuple[str, str | None, str, str | None]:
+        help_text = commands.commands["check"].help
+        usage = click.Context(commands).get_usage()
+        return gettext.textdomain(), os.environ.get("LANGUAGE"), usage, help_text
+
+    before = state()
+    with pytest.raises(KeyError), said_in("ko", commands):
+        assert all(now != then for now, then in zip(state(), before))
+        raise KeyError
+    assert state() == before
