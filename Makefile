@@ -26,6 +26,7 @@ help:  ## Show this help
 	@echo "Variables: STUDENT=path PACKAGE=path ASSIGNMENT=hello_time DISTRO=jazzy[,kilted]"
 	@echo "           SANDBOX=auto NAME=student OUT=reports PYTHON=python3"
 	@echo "           WORKSPACE=~/ros2_ws BASE=ros|wheels (see docs/images.md for networks)"
+	@echo "           KEYS=folder (solution and hidden checks of your own assignment)"
 	@echo "           SUBMISSIONS=path ROSTER=csv WORKSHEET=csv CANVAS=csv WORKERS=n REGRADE=1"
 	@echo "           SCHEDULER=tcp://host:8786 (see docs/classes.md, docs/cluster.md)"
 

@@ -17,6 +17,7 @@ from grader.batch.commands import COMMANDS as CLASS_COMMANDS
 from grader.entry import run
 from grader.fix.commands import COMMANDS as FIX_COMMANDS
 from grader.gradebook.commands import COMMANDS as GRADEBOOK_COMMANDS
+from grader.locale.message import msg
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import errors_in
@@ -34,14 +35,17 @@ def main(argv: list[str] | None = None) -> int:
     return run(commands, "grader", argv)
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.group(
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    help=msg(
+        "Marks ROS 2 packages and says why.\n\n"
+        "Exit status: 0 every check passed, 1 something failed, 2 wrong usage, 3 the grader's own "
+        "surroundings failed, 130 interrupted."
+    ),
+)
 @click.version_option(grader.__version__, "-V", "--version", prog_name="grader")
 def commands() -> None:
-    """Marks ROS 2 packages and says why.
-
-    Exit status: 0 every check passed, 1 something failed, 2 wrong usage, 3 the grader's own
-    surroundings failed, 130 interrupted.
-    """
+    """All commands."""
 
 
 _out = click.option(
@@ -51,7 +55,9 @@ _out = click.option(
     show_default=True,
     help="The folder that reports are written to.",
 )
-_verbose = click.option("-v", "--verbose", is_flag=True, help="Show the evidence of every check.")
+_verbose = click.option(
+    "-v", "--verbose", is_flag=True, help=msg("Show the evidence of every check.")
+)
 
 
 @commands.command()
@@ -87,7 +93,14 @@ def grade(
         return _mark(orders, out, verbose=verbose, show_hidden=True)
 
 
-@commands.command()
+@commands.command(
+    help=msg(
+        "Check your own package before handing it in: the same verdict, with the visible checks.\n\n"
+        "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
+        "folder). It is your own code: where no sandbox is to be had it runs without one, and says "
+        "so."
+    )
+)
 @click.argument("path", type=click.Path(path_type=Path), required=False)
 @options.assignment
 @options.distros
@@ -104,11 +117,7 @@ def check(
     lang: str | None,
     verbose: bool,
 ) -> int:
-    """Check your own package before handing it in: the same verdict, with the visible checks.
-
-    PATH is your package or workspace (default: the package in ~/ros2_ws, else the current
-    folder). It is your own code: where no sandbox is to be had it runs without one, and says so.
-    """
+    """Mark a student's own package, without the hidden checks."""
     from grader.ordering import make_orders  # noqa: PLC0415
     from grader.ordering import own_place  # noqa: PLC0415
 

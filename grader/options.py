@@ -6,12 +6,14 @@ from pathlib import Path
 
 import click
 
+from grader.locale.message import msg
+
 assignment = click.option(
     "--assignment",
     default="hello_time",
     show_default=True,
     metavar="ID|FILE",
-    help="The assignment: its id, or the path of an assignment.yaml.",
+    help=msg("The assignment: its id, or the path of an assignment.yaml."),
 )
 keys = click.option(
     "--keys",
@@ -23,26 +25,28 @@ sandbox = click.option(
     "--sandbox",
     default="auto",
     show_default=True,
-    help="Where the student's code runs: auto, docker, bubblewrap, account or none.",
+    help=msg("Where the student's code runs: auto, docker, bubblewrap, account or none."),
 )
 one_distro = click.option(
-    "--distro", default="jazzy", show_default=True, help="The ROS 2 distro to mark on."
+    "--distro", default="jazzy", show_default=True, help=msg("The ROS 2 distro to mark on.")
 )
 limits = click.option(
     "--limit",
     "limits",
     multiple=True,
     metavar="NAME=VALUE",
-    help="Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated.",
+    help=msg(
+        "Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated."
+    ),
 )
 distros = click.option(
     "--distro",
     default="jazzy",
     show_default=True,
-    help="The ROS 2 distro to mark on; several with commas between them.",
+    help=msg("The ROS 2 distro to mark on; several with commas between them."),
 )
 lang = click.option(
     "--lang",
     type=click.Choice(["en", "ko"]),
-    help="The language of the texts (default: what LC_ALL, LANG and LANGUAGE ask for).",
+    help=msg("The language of the texts (default: what LC_ALL, LANG and LANGUAGE ask for)."),
 )

@@ -13,6 +13,7 @@ import click
 import grader
 from grader import options
 from grader.entry import run
+from grader.locale.message import msg
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import chosen_language
 from grader.locale.speaker import errors_in
@@ -23,19 +24,30 @@ def main(argv: list[str] | None = None) -> int:
     return run(command, "lab", argv)
 
 
-@click.command(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.command(
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    help=msg(
+        "Open a ROS 2 terminal with your workspace in it; with a COMMAND, run that there instead.\n\n"
+        "The workspace is a folder of this machine and stays when the lab is closed. A second lab "
+        "on the same workspace is a second terminal."
+    ),
+)
 @click.version_option(grader.__version__, "-V", "--version", prog_name="lab")
-@click.option("--distro", default="jazzy", show_default=True, help="The ROS 2 distro of the lab.")
+@click.option(
+    "--distro", default="jazzy", show_default=True, help=msg("The ROS 2 distro of the lab.")
+)
 @click.option(
     "--workspace",
     type=click.Path(path_type=Path),
-    help="Where the workspace is on this machine; made if it is not there. [default: ~/ros2_ws]",
+    help=msg(
+        "Where the workspace is on this machine; made if it is not there. [default: ~/ros2_ws]"
+    ),
 )
 @click.option(
     "--sandbox",
     default="auto",
     show_default=True,
-    help="What the lab is made of: auto, docker or bubblewrap.",
+    help=msg("What the lab is made of: auto, docker or bubblewrap."),
 )
 @options.lang
 @click.argument("words", nargs=-1, type=click.UNPROCESSED, metavar="[-- COMMAND...]")
@@ -46,11 +58,7 @@ def command(
     lang: str | None,
     words: tuple[str, ...],
 ) -> int:
-    """Open a ROS 2 terminal with your workspace in it; with a COMMAND, run that there instead.
-
-    The workspace is a folder of this machine and stays when the lab is closed. A second lab on the
-    same workspace is a second terminal.
-    """
+    """Open the lab on this terminal."""
     from grader.ros.distro import find_distro  # noqa: PLC0415 - --help must not pay for it
     from lab.choose import choose  # noqa: PLC0415
     from lab.visit import Visit  # noqa: PLC0415

@@ -8,24 +8,32 @@ import click
 
 from grader import options
 from grader.errors import UsageError
+from grader.locale.message import msg
 from grader.locale.message import say
 from grader.locale.speaker import errors_in
 
 
-@click.command()
+@click.command(
+    help=msg(
+        "Mend your own package where only one mend is possible, as a diff that is shown first.\n\n"
+        "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
+        "folder). Exit status: 0 nothing is wrong any more, 1 something is left that cannot be "
+        "mended by itself (it is named)."
+    )
+)
 @click.argument("path", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--dry-run/--apply",
     "dry_run",
     default=True,
-    help="Show the change as a diff (the default), or write it; the old files are kept.",
+    help=msg("Show the change as a diff (the default), or write it; the old files are kept."),
 )
 @options.assignment
 @options.one_distro
 @options.sandbox
-@click.option("--check", "only", default="", metavar="ID", help="Mend this check only.")
+@click.option("--check", "only", default="", metavar="ID", help=msg("Mend this check only."))
 @click.option(
-    "--no-run", is_flag=True, help="Look at the files only: build nothing and run nothing."
+    "--no-run", is_flag=True, help=msg("Look at the files only: build nothing and run nothing.")
 )
 @options.limits
 @options.lang
@@ -40,12 +48,7 @@ def fix(
     limits: tuple[str, ...],
     lang: str | None,
 ) -> int:
-    """Mend your own package where only one mend is possible, as a diff that is shown first.
-
-    PATH is your package or workspace (default: the package in ~/ros2_ws, else the current folder).
-    Exit status: 0 nothing is wrong any more, 1 something is left that cannot be mended by itself
-    (it is named).
-    """
+    """Mend a student's own package."""
     from grader.fix.command import Wish  # noqa: PLC0415
     from grader.fix.command import fix as mend  # noqa: PLC0415
     from grader.ordering import make_orders  # noqa: PLC0415

@@ -56,15 +56,6 @@ CLICK_COUNTED = (  # those of it that have a plural
 )
 
 
-def texts_of(command: click.Command) -> Iterator[str]:
-    """Yield what the help of a command says of it and of its options."""
-    if command.help:
-        yield inspect.cleandoc(command.help)
-    for option in command.params:
-        if isinstance(option, click.Option) and option.help:
-            yield option.help
-
-
 @contextmanager
 def said_in(lang: str, command: click.Command) -> Iterator[None]:
     """Let a command, and those below it, speak a language as long as this lasts."""

@@ -19,12 +19,8 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po
 from babel.messages.pofile import write_po
 
-import lab.cli
-import lab.guide.cli
-from grader import cli
 from grader.checks.all import CHECKS
 from grader.locale.command_line import CLICK_COUNTED
-from grader.locale.command_line import texts_of
 from grader.locale.speaker import DOMAIN
 from grader.locale.speaker import FOLDER
 from grader.locale.speaker import LANGUAGES
@@ -36,13 +32,6 @@ KEYWORDS = {"say": None, "msg": None}
 TEMPLATE = "jinja2.ext:babel_extract"
 MARKS = "from grader.locale.message import "
 COUNTED = "grader/locale/command_line.py"
-# whose help a student reads; the others' is English
-STUDENTS = (
-    cli.commands,
-    *(cli.commands.commands[name] for name in ("check", "fix", "explain")),
-    lab.cli.command,
-    lab.guide.cli.command,
-)
 MADE = datetime(2026, 1, 1, tzinfo=timezone.utc)  # the same at every run: only texts make a change
 
 
@@ -59,9 +48,6 @@ def templates() -> Iterator[tuple[str, str]]:
             yield str(found), _place(path)
     for check in CHECKS.values():
         yield check.title, "grader/checks/all.py"
-    for command in STUDENTS:
-        for text in texts_of(command):
-            yield text, f"{str(command.callback.__module__).replace('.', '/')}.py"
 
 
 def _place(path: Path) -> str:

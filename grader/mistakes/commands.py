@@ -8,17 +8,21 @@ import sys
 import click
 
 from grader import options
+from grader.locale.message import msg
 from grader.locale.speaker import chosen_language
 
 
-@click.command()
+@click.command(
+    help=msg(
+        "Explain a mistake of the catalogue, or what a terminal shows (-: read from standard "
+        "input).\n\n"
+        "For example: ros2 run my_robot_controller test_node 2>&1 | grader explain -"
+    )
+)
 @click.argument("mistake", metavar="[MISTAKE-ID | -]", required=False)
 @options.lang
 def explain(mistake: str | None, lang: str | None) -> int:
-    """Explain a mistake of the catalogue, or what a terminal shows (-: read from standard input).
-
-    For example: ros2 run my_robot_controller test_node 2>&1 | grader explain -
-    """
+    """Explain an entry of the catalogue, or a terminal's text."""
     from grader.mistakes import explain as texts  # noqa: PLC0415
 
     lang = lang or chosen_language(os.environ)

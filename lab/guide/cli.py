@@ -17,6 +17,7 @@ from grader import options
 from grader.assignment import load_assignment
 from grader.entry import run
 from grader.errors import UsageError
+from grader.locale.message import msg
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import chosen_language
@@ -39,21 +40,25 @@ def main(argv: Sequence[str] | None = None) -> int:
     return run(command, "guide", list(argv or ()))
 
 
-@click.command(context_settings={"help_option_names": ["-h", "--help"]})
+@click.command(
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help=msg(
+        "Show what to do next; N shows step N, `list` all steps with what is done, `all` the "
+        "lesson.\n\n"
+        "What is done is told from the files in your workspace, and from this terminal."
+    ),
+)
 @click.option(
     "--workspace",
     type=click.Path(path_type=Path),
     default=Path("~/ros2_ws"),
     show_default=True,
-    help="The workspace to look at.",
+    help=msg("The workspace to look at."),
 )
 @options.lang
 @click.argument("what", required=False, metavar="[N|list|all]")
 def command(workspace: Path, lang: str | None, what: str | None) -> None:
-    """Show what to do next; N shows step N, `list` all steps with what is done, `all` the lesson.
-
-    What is done is told from the files in your workspace, and from this terminal.
-    """
+    """Print a step of the lesson."""
     speak = Speaker(lang or chosen_language(os.environ))
     distro = os.environ.get("ROS_DISTRO") or "jazzy"
     lesson = read_lesson(lesson_file(COURSE / "hello_time", speak.lang), distro=distro)
