@@ -7,6 +7,8 @@ disk, and what it runs is this grader, the same source on both sides.
 from __future__ import annotations
 
 import asyncio
+import concurrent.futures
+import contextlib
 import json
 import logging
 import time
@@ -15,7 +17,9 @@ from collections import deque
 from collections.abc import Callable
 from collections.abc import Generator
 from collections.abc import Iterable
+from collections.abc import Iterator
 from collections.abc import Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 from typing import Any
 
@@ -30,6 +34,7 @@ from grader.batch.work import Answer
 from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Task
+from grader.errors import GraderError
 from grader.errors import SurroundingsError
 
 if TYPE_CHECKING:
@@ -39,6 +44,7 @@ if TYPE_CHECKING:
 CONNECT_SECONDS = 20.0
 CHECK_SECONDS = 600.0  # a worker may have to make its ROS prefix first
 LOOK_SECONDS = 5.0  # between two looks at which workers there are
+LOST = (asyncio.CancelledError, concurrent.futures.CancelledError, OSError)
 ALONE_SECONDS = 60.0  # without any worker, after which the run ends
 
 
@@ -61,7 +67,12 @@ class Cluster:
         self.sandbox = ""
 
     def __enter__(self) -> Cluster:
-        self._look()
+        try:
+            with self._scheduler_there():
+                self._look()
+        except BaseException:
+            self._client.close()
+            raise
         usable = Counter(c.surroundings for c in self._checked.values() if not c.problem)
         if not usable:
             self._client.close()
@@ -94,21 +105,27 @@ class Cluster:
         running: dict[Future[str], Trial] = {}
         try:
             while True:
-                again.extend(self._stranded(running))
-                for trial in self._next(waiting, again, len(running), started):
-                    running[self._submit(trial)] = trial
+                with self._scheduler_there():
+                    again.extend(self._stranded(running))
+                    room = self._room() - len(running)
+                for trial in _next(waiting, again, room, started):
+                    with self._scheduler_there():
+                        running[self._submit(trial)] = trial
                 if not running:
                     return
-                for future in self._wait(list(running)):
+                with self._scheduler_there():
+                    answers = [(future, _heard(future)) for future in self._wait(list(running))]
+                for future, answer in answers:
                     trial = running.pop(future)
-                    finished = trial.hear(_heard(future))
+                    finished = trial.hear(answer)
                     if finished is None:
                         again.append(trial)
                     else:
                         yield finished
         finally:
-            if not self._is_lost():
-                self._client.cancel(list(running))
+            if self._client.status == "running":
+                with contextlib.suppress(*LOST):
+                    self._client.cancel(list(running))
 
     def _wait(self, futures: list[Future[str]]) -> list[Future[str]]:
         """Return those that are done; none where it takes long, so that workers are looked at."""
@@ -118,10 +135,7 @@ class Cluster:
             with self._client.as_current():
                 done = wait(futures, timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED").done
         except asyncio.TimeoutError:  # another one than Python's own before 3.11
-            return []
-        except (asyncio.CancelledError, OSError):
-            self._need_scheduler()
-            return []
+            done = set()
         self._need_scheduler()  # where it is gone, everything counts as done
         return list(done)
 
@@ -133,43 +147,41 @@ class Cluster:
             self._client.cancel(gone)
         return [running.pop(future) for future in gone]
 
-    def _is_lost(self) -> bool:
-        return self._client.status not in ("running", "connecting")
+    @contextmanager
+    def _scheduler_there(self) -> Iterator[None]:
+        """Turn what Dask raises where the scheduler is gone into SurroundingsError.
+
+        (Its client cancels every future, and looks for the scheduler for a while on its own.)
+        """
+        try:
+            yield
+        except GraderError:
+            raise
+        except LOST:
+            raise self._gone() from None
+        except Exception:
+            if self._client.status != "running":
+                raise self._gone() from None
+            raise
 
     def _need_scheduler(self) -> None:
-        if self._is_lost() or not self._client.scheduler_info().get("id"):
-            raise SurroundingsError(
-                f"the scheduler {self._scheduler} is gone",
-                remedy="What was marked is kept. Start it and run the same command again.",
-            )
+        if self._client.status != "running" or not self._client.scheduler_info().get("id"):
+            raise self._gone()
+
+    def _gone(self) -> SurroundingsError:
+        return SurroundingsError(
+            f"the scheduler {self._scheduler} is gone",
+            remedy="What was marked is kept. Start it and run the same command again.",
+        )
 
     def prove(self) -> None:
         """Have every worker checked anew; SurroundingsError where none can be used any more."""
         self._checked.clear()
-        self._look()
+        with self._scheduler_there():
+            self._look()
         if not self._usable():
             problems = dict.fromkeys(c.problem for c in self._checked.values() if c.problem)
             raise SurroundingsError("no worker can mark any more: " + "\n".join(problems))
-
-    def _next(
-        self,
-        waiting: Iterable[Task],
-        again: deque[Trial],
-        running: int,
-        started: Callable[[Task], None],
-    ) -> Iterable[Trial]:
-        """Yield as many as the workers have room for, and one more each to go on with."""
-        slots = self._room()
-        while running < slots:
-            if again:
-                yield again.popleft()
-            else:
-                task = next(iter(waiting), None)
-                if task is None:
-                    return
-                started(task)
-                yield Trial(task)
-            running += 1
 
     def _submit(self, trial: Trial) -> Future[str]:
         trial.tries += 1
@@ -186,7 +198,10 @@ class Cluster:
         return future
 
     def _room(self) -> int:
-        """Return for how many submissions there is room; waits a while where no worker is left."""
+        """Return for how many there is room, one more for each worker to go on with.
+
+        Waits a while where no worker is left.
+        """
         deadline = time.monotonic() + ALONE_SECONDS
         while True:
             self._need_scheduler()
@@ -252,7 +267,8 @@ def _connect(scheduler: str) -> Client:
             "Dask is not installed, and --scheduler needs it",
             remedy="pip install 'distributed' into the grader's environment (docs/cluster.md).",
         ) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it says, we say in words
+    for name in ("distributed", "distributed.client"):  # what they say, we say in words
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         return Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, ValueError) as error:
@@ -260,6 +276,21 @@ def _connect(scheduler: str) -> Client:
             f"the scheduler {scheduler} does not answer: {error}",
             remedy="Start one with `dask scheduler`, and name it as it says: tcp://host:8786.",
         ) from None
+
+
+def _next(
+    waiting: Iterable[Task], again: deque[Trial], room: int, started: Callable[[Task], None]
+) -> Iterator[Trial]:
+    """Yield as many as there is room for, those that are tried again first."""
+    for _ in range(room):
+        if again:
+            yield again.popleft()
+        else:
+            task = next(iter(waiting), None)
+            if task is None:
+                return
+            started(task)
+            yield Trial(task)
 
 
 def _heard(future: Future[str]) -> Answer:

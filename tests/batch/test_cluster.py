@@ -12,6 +12,8 @@ from contextlib import ExitStack
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from threading import Timer
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -28,6 +30,9 @@ from tests.batch.works import JOB
 from tests.batch.works import tasks
 from tests.stage import ROOT
 from tests.stage import grader
+
+if TYPE_CHECKING:
+    from distributed import Future
 
 pytestmark = [pytest.mark.prefix, pytest.mark.full]
 
@@ -105,6 +110,27 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
                 os.kill(first, signal.SIGKILL)
     expected = {f"{name}-{n}": 100 if name == "solution" else 50 for n, name in enumerate(names)}
     assert _scores(found) == expected
+
+
+def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
+    ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
+    with ExitStack() as stack:
+        scheduler, address = stack.enter_context(process(*words, ready="Scheduler at:"))
+        worker = ("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+        stack.enter_context(process(*worker, ready="Registered to:"))
+        cluster = stack.enter_context(Cluster(address, JOB, say=print))
+        wait = cluster._wait
+
+        def waits(futures: list[Future[str]]) -> list[Future[str]]:
+            # (a verdict takes seconds: this is in the middle of the wait for it)
+            Timer(0.2, os.kill, (scheduler, signal.SIGKILL)).start()
+            return wait(futures)
+
+        monkeypatch.setattr(cluster, "_wait", waits)
+        with pytest.raises(SurroundingsError, match="is gone"):
+            list(cluster.run(tasks(tmp_path, ["solution"]), started=_unheard))
 
 
 def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
