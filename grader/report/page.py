@@ -147,7 +147,7 @@ class Page:
             max(cell_len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
             for n in range(1, len(heads))
         ]
-        names = max(cell_len(cells[0][0]) for cells in rows) + 2
+        names = max(cell_len(text) for text in [heads[0], *(cells[0][0] for cells in rows)]) + 2
         names = min(names, max(self._width - max(others), 12))
         start = 1
         while start < len(heads):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.report.page import Page
 from grader.report.terminal import render_report
 from tests.report.samples import COMMAND
 from tests.report.samples import TITLES
@@ -267,3 +268,13 @@ def test_the_page_depends_on_its_arguments_alone(
     }.items():  # fmt: skip
         monkeypatch.setenv(name, value)
     assert [render_report(marked, styled=styled) for styled in (False, True)] == before
+
+
+def test_a_heading_over_short_names_stays_on_one_line() -> None:
+    page = Page(width=80, styled=False)
+    page.grid(["student", "points"], [[("ann", ""), ("3", "")], [("bo", ""), ("12", "")]])
+    assert [line.split() for line in str(page).splitlines()] == [
+        ["student", "points"],
+        ["ann", "3"],
+        ["bo", "12"],
+    ]
