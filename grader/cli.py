@@ -36,7 +36,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 @click.group(
-    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    context_settings=options.CONTEXT,
     help=msg(
         "Marks ROS 2 packages and says why.\n\n"
         "Exit status: 0 every check passed, 1 something failed, 2 wrong usage, 3 the grader's own "

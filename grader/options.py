@@ -8,6 +8,7 @@ import click
 
 from grader.locale.message import msg
 
+CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 assignment = click.option(
     "--assignment",
     default="hello_time",

@@ -17,7 +17,8 @@ from grader.runner import Order
 from grader.sandbox.choose import check_name
 
 COURSE = "GRADER_COURSE"
-KEYS = Path(__file__).resolve().parent / "keys"
+HERE = Path(__file__).resolve().parent
+KEYS = HERE / "keys"
 HIDDEN = "hidden.yaml"
 
 
@@ -89,7 +90,7 @@ def with_hidden(assignment: str, keys: Path | None = None) -> Assignment:
     Raises UsageError where it announces hidden checks and that folder has none.
     """
     file = assignment_file(assignment)
-    folder = keys or (None if _is_file(assignment) else KEYS / assignment)
+    folder = keys or (None if names_a_file(assignment) else KEYS / assignment)
     if keys is not None and not keys.is_dir():
         raise UsageError(say("there is no folder {path}", path=str(keys)))
     hidden = folder / HIDDEN if folder is not None else None
@@ -108,15 +109,16 @@ def with_hidden(assignment: str, keys: Path | None = None) -> Assignment:
     return loaded
 
 
-def _is_file(assignment: str) -> bool:
+def names_a_file(assignment: str) -> bool:
+    """Whether an --assignment is the path of a file, and not an id."""
     return "/" in assignment or assignment.endswith((".yaml", ".yml"))
 
 
 def assignment_file(assignment: str) -> Path:
     """Return the file of an assignment: its id's in the course folder, or the path itself."""
-    if _is_file(assignment):
+    if names_a_file(assignment):
         return Path(assignment)
-    course = _course(Path(__file__).resolve().parent)
+    course = _course()
     file = course / assignment / "assignment.yaml"
     if not file.is_file():
         known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
@@ -136,11 +138,11 @@ def assignment_file(assignment: str) -> Path:
     return file
 
 
-def _course(here: Path) -> Path:
+def _course() -> Path:
     """Return the course folder: $GRADER_COURSE, this checkout's, or the installed package's."""
     own = os.environ.get(COURSE)
     if own:
         return Path(own)
-    shares = [parent / "share" / "ros2_teaching_lab" / "course" for parent in here.parents]
-    places = [here.parent / "lab" / "course", *shares]
+    shares = [parent / "share" / "ros2_teaching_lab" / "course" for parent in HERE.parents]
+    places = [HERE.parent / "lab" / "course", *shares]
     return next((place for place in places if place.is_dir()), places[0])

@@ -25,7 +25,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 @click.command(
-    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    context_settings=options.CONTEXT,
     help=msg(
         "Open a ROS 2 terminal with your workspace in it; with a COMMAND, run that there instead.\n\n"
         "The workspace is a folder of this machine and stays when the lab is closed. A second lab "

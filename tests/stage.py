@@ -14,6 +14,7 @@ from pathlib import Path
 
 from grader.ros.cache import cache_root
 from grader.ros.prefix import base_interpreter
+from grader.sandbox.processes import stat_fields
 
 ROOT = Path(__file__).resolve().parent.parent
 USER = 54_321
@@ -99,7 +100,7 @@ def wait_until_asleep(pid: int) -> None:
     (Python looks for signals before it calls sleep, pause or read, and none of them returns for a
     signal that comes between the two: on a busy machine Ctrl+C is lost there, about once in 300.)
     """
-    while Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "S":
+    while stat_fields(pid)[0] != "S":
         os.sched_yield()
 
 
@@ -109,7 +110,7 @@ def descendants() -> dict[int, str]:
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
-                state, parent = (entry / "stat").read_text().rpartition(")")[2].split()[:2]
+                state, parent = stat_fields(int(entry.name))[:2]
             except OSError:
                 continue
             if state != "Z":

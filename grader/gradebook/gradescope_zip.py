@@ -19,6 +19,7 @@ from grader.locale.message import say
 from grader.locale.speaker import SOURCE
 from grader.locale.speaker import Speaker
 from grader.ordering import HIDDEN
+from grader.ordering import names_a_file
 from grader.ordering import with_hidden
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -96,7 +97,7 @@ def gradescope_zip(
         )
     files = dict(_files(root))
     named = assignment
-    if "/" in assignment or assignment.endswith((".yaml", ".yml")):
+    if names_a_file(assignment):
         files |= _own_assignment(Path(assignment))
         named = f"{OWN_ASSIGNMENT}/{Path(assignment).name}"
     elif f"lab/course/{assignment}/assignment.yaml" not in files:

@@ -36,6 +36,7 @@ from grader.sandbox.cgroups import open_group
 from grader.sandbox.local import LocalSandbox
 from grader.sandbox.local import need
 from grader.sandbox.processes import adopt_orphans
+from grader.sandbox.processes import children_of
 from grader.sandbox.processes import collect_orphans
 
 PROFILE = "/etc/grader/fastdds.xml"
@@ -239,8 +240,7 @@ class Bubblewrap(LocalSandbox):
         assert holder.stdin is not None
         while holder.poll() is None:
             try:
-                children = Path(f"/proc/{self._held_pid}/task/{self._held_pid}/children")
-                for pid in [self._held_pid, *children.read_text().split()]:
+                for pid in [self._held_pid, *children_of(self._held_pid)]:
                     if Path(f"/proc/{pid}/exe").readlink().name != "bwrap":
                         return
             except OSError:

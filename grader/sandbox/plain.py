@@ -36,6 +36,7 @@ from grader.sandbox.processes import adopt_orphans
 from grader.sandbox.processes import descendants
 from grader.sandbox.processes import processes
 from grader.sandbox.processes import reap
+from grader.sandbox.processes import stat_fields
 
 MARK = "GRADER_RUN"
 # there is no network namespace here: the profile itself keeps the nodes on this machine
@@ -168,7 +169,7 @@ class Bare(LocalSandbox):
                 continue
             try:
                 marked = mark in Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
-                state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+                state = stat_fields(pid)[0]
             except OSError:
                 continue
             if marked and (state != "Z" or pid in children):

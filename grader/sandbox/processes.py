@@ -28,15 +28,27 @@ def processes() -> Iterator[int]:
             yield int(entry.name)
 
 
+def stat_fields(pid: int) -> list[str]:
+    """Return the fields of a process' stat after its name: state, parent, group, session, …
+
+    Raises OSError where it is gone.
+    """
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+
+
+def children_of(pid: int) -> list[int]:
+    """Return the ids of what a process' first thread has started; OSError where it is gone."""
+    return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
 def descendants(root: int) -> set[int]:
     """Return the ids of the processes below one."""
     parents: dict[int, int] = {}
     for pid in processes():
         try:
-            stat_line = Path(f"/proc/{pid}/stat").read_text()
+            parents[pid] = int(stat_fields(pid)[1])
         except OSError:
             continue
-        parents[pid] = int(stat_line.rpartition(")")[2].split()[1])
     found: set[int] = set()
     todo = {root}
     while todo:
@@ -49,8 +61,7 @@ def reap(pids: Iterable[int]) -> None:
     """Collect those of these processes that have ended and are ours to collect."""
     for pid in pids:
         try:
-            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-            if state == "Z":
+            if stat_fields(pid)[0] == "Z":
                 os.waitpid(pid, os.WNOHANG)
         except OSError:
             continue
@@ -63,11 +74,11 @@ def kill_with_children(pid: int) -> None:
     """
     with contextlib.suppress(OSError):
         os.kill(pid, signal.SIGSTOP)
-        while Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "TtZX":
+        while stat_fields(pid)[0] not in "TtZX":
             os.sched_yield()
-        for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
+        for child in children_of(pid):
             with contextlib.suppress(OSError):
-                os.kill(int(word), signal.SIGKILL)
+                os.kill(child, signal.SIGKILL)
     with contextlib.suppress(OSError):
         os.kill(pid, signal.SIGKILL)
 

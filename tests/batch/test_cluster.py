@@ -64,10 +64,21 @@ def process(
             os.killpg(started.pid, signal.SIGKILL)
 
 
+SCHEDULER = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
+
+
+@contextmanager
+def scheduler_and_worker() -> Iterator[tuple[int, str]]:
+    """Start both; yield the scheduler's process id and its address."""
+    with process(*SCHEDULER, ready="Scheduler at:") as (scheduler, address):
+        worker = ("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+        with process(*worker, ready="Registered to:"):
+            yield scheduler, address
+
+
 @pytest.fixture
 def scheduler() -> Iterator[str]:
-    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
-    with process(*words, ready="Scheduler at:") as (_, address):
+    with process(*SCHEDULER, ready="Scheduler at:") as (_, address):
         yield address
 
 
@@ -115,12 +126,10 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
 def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
-    with ExitStack() as stack:
-        scheduler, address = stack.enter_context(process(*words, ready="Scheduler at:"))
-        worker = ("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
-        stack.enter_context(process(*worker, ready="Registered to:"))
-        cluster = stack.enter_context(Cluster(address, JOB, say=print))
+    with (
+        scheduler_and_worker() as (scheduler, address),
+        Cluster(address, JOB, say=print) as cluster,
+    ):
         wait = cluster._wait
 
         def waits(futures: list[Future[str]]) -> list[Future[str]]:
@@ -134,12 +143,8 @@ def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
 
 
 def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
-    words = ("dask_scheduler", "--port", "0", "--no-dashboard", "--host", "127.0.0.1")
     folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"] * 3)
-    with ExitStack() as stack:
-        scheduler, address = stack.enter_context(process(*words, ready="Scheduler at:"))
-        worker = ("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
-        stack.enter_context(process(*worker, ready="Registered to:"))
+    with scheduler_and_worker() as (scheduler, address):
         command = grader("grade-all", folder, "--out", tmp_path / "out", "--scheduler", address)
         with subprocess.Popen(
             [*command, "--quiet"], cwd=ROOT, stderr=subprocess.PIPE, text=True

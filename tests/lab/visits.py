@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from grader.sandbox.processes import stat_fields
 from tests import stage
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab
@@ -50,9 +51,7 @@ def has_the_terminal(mark: str) -> bool:
         with contextlib.suppress(OSError, ValueError):
             line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
             # proc(5): after the name come state, parent, group, session, terminal, its group
-            state, _, group, _, _, foreground = (
-                (entry / "stat").read_text().rpartition(")")[2].split()[:6]
-            )
+            state, _, group, _, _, foreground = stat_fields(int(entry.name))[:6]
             if line.startswith(mark) and state == "S" and group == foreground:
                 return True
     return False

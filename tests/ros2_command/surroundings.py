@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
+from grader.sandbox.processes import stat_fields
+
 PACKAGE = Path(__file__).parents[2] / "grader" / "ros" / "ros2_command"
 
 # The executables that the recordings were made with; `hang` is line 11 of its module there
@@ -194,15 +196,9 @@ def without_places(traceback: str) -> str:
 def running(process: int) -> bool:
     """Tell whether a process lives, zombies not counted."""
     try:
-        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+        return stat_fields(process)[0] != "Z"
     except FileNotFoundError:
         return False
-    return state != "Z"
-
-
-def children(process: int) -> list[int]:
-    path = Path(f"/proc/{process}/task/{process}/children")
-    return [int(word) for word in path.read_text().split()]
 
 
 def umask_of_a_student() -> int:

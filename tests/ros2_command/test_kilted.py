@@ -11,10 +11,10 @@ import sys
 import pexpect
 import pytest
 
+from grader.sandbox.processes import children_of
 from tests.stage import wait_until_asleep
 
 from .surroundings import Surroundings
-from .surroundings import children
 from .surroundings import files
 
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
@@ -73,7 +73,7 @@ def test_a_node_that_sigint_ends_gives_254(kilted: Surroundings) -> None:
         timeout=30,
     )
     terminal.expect_exact("hanging")
-    for process in (terminal.pid, *children(terminal.pid)):
+    for process in (terminal.pid, *children_of(terminal.pid)):
         wait_until_asleep(process)
     os.kill(terminal.pid, signal.SIGINT)
     terminal.expect(pexpect.EOF)

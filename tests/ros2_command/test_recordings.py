@@ -15,10 +15,10 @@ from typing import Any
 import pexpect
 import pytest
 
+from grader.sandbox.processes import children_of
 from tests.stage import wait_until_asleep
 
 from .surroundings import Surroundings
-from .surroundings import children
 from .surroundings import files
 from .surroundings import running
 from .surroundings import without_places
@@ -93,7 +93,7 @@ def test_ctrl_c_on_the_terminal_ends_as_recorded(jazzy: Surroundings, name: str)
     ros2 = str(jazzy.prefix / "bin" / "ros2")
     with on_a_terminal(jazzy, ros2, "run", "my_robot_controller", executable) as terminal:
         terminal.expect_exact({"wait": "waiting", "hang": "hanging"}[executable] + "\r\n")
-        (node,) = children(terminal.pid)
+        (node,) = children_of(terminal.pid)
         wait_until_asleep(node)
         terminal.sendintr()
         terminal.expect(pexpect.EOF)
@@ -121,8 +121,8 @@ def test_a_signal_to_ros2_alone_does_as_recorded(jazzy: Surroundings, name: str)
     line = "ros2 run my_robot_controller hang; echo status $?; read line"
     with on_a_terminal(jazzy, "/bin/sh", "-c", line) as terminal:
         terminal.expect_exact("hanging\r\n")
-        (ros2,) = children(terminal.pid)
-        (node,) = children(ros2)
+        (ros2,) = children_of(terminal.pid)
+        (node,) = children_of(ros2)
         wait_until_asleep(ros2)
         os.kill(ros2, number)
         if case["ros2_alive"]:
