@@ -73,9 +73,9 @@ def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> 
 def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
     mark = f"sleep 94{secrets.randbelow(10**6)}"
     with Bare(ros_jazzy, Limits()) as opened:
-        outcome = opened.run(
-            ["bash", "-c", f"setsid {mark} > /dev/null 2>&1 < /dev/null & pwd"], seconds=10
-        )
+        # it says up when it has left the group, which ends with the command
+        escaped = f"setsid sh -c 'echo up; exec {mark} > /dev/null 2>&1 < /dev/null'"
+        outcome = opened.run(["bash", "-c", f"read < <({escaped}); pwd"], seconds=10)
         folder = Path(opened.workspace).parent.parent
         assert outcome.output.decode().strip() == opened.workspace
         assert stage.alive(mark) != []
