@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from dataclasses import field
 from dataclasses import replace
+from datetime import datetime
 
 from grader.batch.model import HandedIn
 from grader.batch.model import Student
@@ -52,13 +53,21 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
             continue
         notes = (BY_NAME,) if key in match.by_name else ()
         student = _fuller(group[0].student, roster.students[row])
-        found[row] = [replace(one, student=student, notes=(*one.notes, *notes)) for one in group]
+        known = [replace(one, student=student, notes=(*one.notes, *notes)) for one in group]
+        found[row] = _timed(known, roster.submitted_by(row))
     taken = set(by_key)
     missing = tuple(
         _apart(student, taken) for row, student in enumerate(roster.students) if row not in found
     )
     joined = [one for row in sorted(found) for one in found[row]]
     return Joined((*joined, *_in_order(strangers)), missing, roster.notes)
+
+
+def _timed(group: list[HandedIn], at: datetime | None) -> list[HandedIn]:
+    """Return a student's only submission with the roster's time, unless it has one of its own."""
+    if at is None or len(group) > 1 or group[0].submitted is not None:
+        return group
+    return [replace(group[0], submitted=at)]
 
 
 def _in_order(groups: Iterable[list[HandedIn]]) -> Iterator[HandedIn]:

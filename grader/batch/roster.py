@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Callable
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 
 from grader.batch.model import Student
@@ -15,6 +16,7 @@ from grader.batch.roster_columns import Columns
 from grader.batch.roster_columns import Kind
 from grader.batch.roster_columns import columns_of
 from grader.batch.roster_columns import participant
+from grader.batch.systems.gradescope_yaml import instant
 from grader.errors import UsageError
 from grader.gradebook.sheet import Sheet
 from grader.intake.notes import shown
@@ -32,11 +34,19 @@ AS_CSV = "Save it in the spreadsheet as 'CSV UTF-8'."
 
 @dataclass(frozen=True)
 class Roster:
-    """A class' students in the order of their file; `kind` tells whose numbers the keys are."""
+    """A class' students in the order of their file; `kind` tells whose numbers the keys are.
+
+    `submitted` is when each of them handed in, as the course's system says (UTC; None: it does not).
+    """
 
     students: tuple[Student, ...]
     kind: Kind
     notes: tuple[str, ...] = ()
+    submitted: tuple[datetime | None, ...] = ()
+
+    def submitted_by(self, row: int) -> datetime | None:
+        """Return when the student of a row handed in, None if the file does not say."""
+        return self.submitted[row] if self.submitted else None
 
 
 def read_roster(path: Path) -> Roster:
@@ -65,7 +75,12 @@ def read_roster(path: Path) -> Roster:
     notes += _left_out(name, [line(row) for row, student in rows if student is None])
     if not people:
         raise UsageError(f"{name}:{line(0)}: there is no student below the header")
-    return Roster(tuple(student for _, student in people), columns.kind, tuple(notes))
+    return Roster(
+        tuple(student for _, student in people),
+        columns.kind,
+        tuple(notes),
+        tuple(_submitted(sheet, row, columns) for row, _ in people),
+    )
 
 
 def _content(path: Path, name: str) -> bytes:
@@ -148,6 +163,12 @@ def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
         id_number=number,
         section=cell("section"),
     )
+
+
+def _submitted(sheet: Sheet, row: int, columns: Columns) -> datetime | None:
+    """Return the time of submission in a row; None for an empty cell and for what is no time."""
+    stamps = (instant(sheet.value(row, index)) for index in columns.of("submitted"))
+    return next((stamp for stamp in stamps if stamp is not None), None)
 
 
 def _in_order(name: str) -> str:

@@ -32,6 +32,7 @@ NAMES: Mapping[str, tuple[str, ...]] = {
         *("sis id", "matriculation number", "matrikelnummer", "id-nummer", "id", "number"),
     ),
     "section": ("section", "sections", "section name", "group", "groups", "class", "gruppe"),
+    "submitted": ("submission timestamp",),  # of Classroom's "Download grades"
 }
 KNOWN = tuple(name for names in NAMES.values() for name in names)
 PARTICIPANT = re.compile(r"[^\W\d_][^\d]*?\s*(\d+)")  # a word in any language, then the number
@@ -91,8 +92,9 @@ def _kind(sheet: Sheet, header: list[str]) -> tuple[Kind, int | None]:
             return "moodle", index
     if header[:1] == ["student"] and "id" in header and "section" in header:
         return "canvas", header.index("id")
-    if "identifier" in header and "github username" in header:
-        return "github_classroom", header.index("identifier")
+    for name in ("identifier", "roster identifier"):  # of the roster, and of the grades
+        if name in header and "github username" in header:
+            return "github_classroom", header.index(name)
     if "sid" in header and "email" in header:
         return "gradescope", None
     return "plain", None

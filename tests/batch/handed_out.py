@@ -134,14 +134,12 @@ def git(folder: Path, *words: str, at: str = "2026-03-04T10:20:30+01:00") -> str
     return done.stdout.strip()
 
 
-def repository(folder: Path, *, at: str = "2026-03-04T10:20:30+01:00", depth: int = 1) -> Path:
-    """Make a repository with a package in it, committed so often, each an hour after the last."""
+def repository(folder: Path, *, at: str = "2026-03-04T10:20:30+01:00") -> Path:
+    """Make a repository with a package in it, committed at an instant of the student's choice."""
     write(folder, package())
     git(folder, "init", "-q", "-b", "main")
-    for n in range(depth):
-        (folder / "setup.cfg").write_text(f"# {n}\n")
-        git(folder, "add", "-A")
-        git(folder, "commit", "-q", "-m", f"step {n}", at=at)
+    git(folder, "add", "-A")
+    git(folder, "commit", "-q", "-m", "my package", at=at)
     return folder
 
 

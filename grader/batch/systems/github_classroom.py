@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import takewhile
 from pathlib import Path
 
 from grader.batch.model import HandedIn
 from grader.batch.model import Student
-from grader.batch.systems.git_commit import NoCommitError
-from grader.batch.systems.git_commit import commit_time
 from grader.batch.systems.layout import Item
 from grader.batch.systems.layout import Layout
 from grader.batch.systems.layout import Read
@@ -17,9 +14,9 @@ from grader.batch.systems.layout import Reading
 from grader.batch.systems.words import plain
 
 SUBMISSIONS = "-submissions"  # what `gh classroom clone` puts behind the assignment's name
-BY_COMMIT = (
-    "the time of a submission is that of its last commit, by the clock of the student's computer "
-    "(Classroom's own page shows when it was pushed)"
+NO_TIMES = (
+    "a clone does not tell when it was handed in (the student's own computer sets the time of a "
+    "commit): only the CSV of Classroom's 'Download grades' tells it, given as --roster"
 )
 
 
@@ -31,7 +28,7 @@ def recognise(layout: Layout) -> bool:
 
 
 def read(layout: Layout, reading: Reading) -> Read:
-    """Return each repository, with the time of its last commit."""
+    """Return each repository. Nothing in a clone is a time of submission that can be trusted."""
     repositories = _repositories(layout)
     prefix = _prefix(layout, repositories)
     found = []
@@ -42,17 +39,9 @@ def read(layout: Layout, reading: Reading) -> Read:
             continue
         username = plain(item.name).removeprefix(prefix)
         student = Student(key=plain(item.name), name=username, username=username)
-        found.append(_with_time(HandedIn(student, layout.path / item.name)))
-    reading.notes.say(BY_COMMIT)
+        found.append(HandedIn(student, layout.path / item.name))
+    reading.notes.say(NO_TIMES)
     return Read(found, rest)
-
-
-def _with_time(handed_in: HandedIn) -> HandedIn:
-    try:
-        return replace(handed_in, submitted=commit_time(handed_in.path))
-    except NoCommitError as error:
-        note = f"no time of submission: the last commit cannot be read ({error})"
-        return replace(handed_in, notes=(note,))
 
 
 def _repositories(layout: Layout) -> list[Item]:
