@@ -115,6 +115,15 @@ def test_a_lock_pins_every_package_with_a_hash() -> None:
         assert all("==" in line and "--hash=sha256:" in line for line in packages)
 
 
+def test_a_distros_row_has_its_documentation_and_its_fast_dds_variable() -> None:
+    """(Fast DDS 3, from kilted on, fails if the older variable is set.)"""
+    old = {name for name, row in distros().items() if row.dds_profile.startswith("FASTRTPS_")}
+    assert old == {"humble", "jazzy"}
+    for name, row in distros().items():
+        assert row.documentation == f"https://docs.ros.org/en/{name}"
+        assert row.dds_profile.endswith("_DEFAULT_PROFILES_FILE")
+
+
 def test_a_distro_without_wheels_is_refused_with_what_to_do() -> None:
     with pytest.raises(SurroundingsError, match="no ROS wheels for humble"):
         prefix_path(find_distro("humble"))

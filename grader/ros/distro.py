@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -17,12 +18,17 @@ if sys.version_info >= (3, 11):
 else:  # pragma: no cover - the same reader under its old name
     import tomli as tomllib
 
+DEFAULT = "jazzy"
 HERE = Path(__file__).resolve().parent
 
 
 @dataclass(frozen=True)
 class Distro:
-    """One release. `lock` is the lock file of its wheels prefix, None where PyPI has no wheels."""
+    """One release. `lock` is the lock file of its wheels prefix, None where PyPI has no wheels.
+
+    `documentation` is the address of its pages, `dds_profile` the variable that names a profile of
+    Fast DDS.
+    """
 
     name: str
     ubuntu: str
@@ -30,6 +36,8 @@ class Distro:
     python: str
     setuptools: str
     image: str
+    documentation: str
+    dds_profile: str
     end_of_life: str = ""
     digest: str = ""
     rclpy: str = ""
@@ -51,6 +59,11 @@ def distros() -> dict[str, Distro]:
         lock = HERE / "locks" / wheels["lock"] if wheels else None
         known[name] = Distro(name=name, rclpy=wheels.get("rclpy", ""), lock=lock, **row)
     return known
+
+
+def sourced(environment: Mapping[str, str]) -> Distro:
+    """Return the distro that a terminal has sourced; the default one if it is none that is known."""
+    return distros().get(environment.get("ROS_DISTRO", ""), distros()[DEFAULT])
 
 
 def find_distro(name: str) -> Distro:

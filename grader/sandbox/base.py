@@ -206,15 +206,9 @@ class Sandbox(ABC):
             "TERM": "xterm-256color",
             "ROS_DOMAIN_ID": "0",
             "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
-            self._profile_variable: self.profile_path(role),
+            self.ros.distro.dds_profile: self.profile_path(role),
         }
         return base | self.extra_environment()
-
-    @property
-    def _profile_variable(self) -> str:
-        """Fast DDS 3 (kilted on) has another name for it, and fails if both are set."""
-        old = self.ros.distro.name in ("humble", "jazzy")
-        return "FASTRTPS_DEFAULT_PROFILES_FILE" if old else "FASTDDS_DEFAULT_PROFILES_FILE"
 
     def extra_environment(self) -> dict[str, str]:
         """Return what this kind of sandbox adds to (or changes in) the list."""

@@ -62,12 +62,20 @@ def test_compose_builds_and_runs_the_lab_of_each_distro(name: str) -> None:
     assert lab["image"] == f"some:lab-{name}"
     assert lab["build"]["args"]["DISTRO"] == name
     assert lab["build"]["target"] == "lab"
-    assert lab["volumes"] == ["/tmp/ws:/home/student/ros2_ws:rw"]
+    course = f"{stage.ROOT}/lab/course:/opt/ros2_teaching_lab/course:ro"
+    assert lab["volumes"] == ["/tmp/ws:/home/student/ros2_ws:rw", course]
+
+
+def test_compose_opens_the_lab_for_another_courses_lesson() -> None:
+    lab = service({"GRADER_COURSE": "/tmp/my course", "GRADER_ASSIGNMENT": "ticking"})
+    assert lab["volumes"][1] == "/tmp/my course:/opt/ros2_teaching_lab/course:ro"
+    assert lab["environment"]["GRADER_COURSE"] == "/opt/ros2_teaching_lab/course"
+    assert lab["environment"]["GRADER_ASSIGNMENT"] == "ticking"
 
 
 def test_compose_keeps_the_workspace_in_the_home_folder_unless_told() -> None:
     lab = service({"HOME": "/home/ann", "WORKSPACE": ""})
-    assert lab["volumes"] == ["/home/ann/ros2_ws:/home/student/ros2_ws:rw"]
+    assert lab["volumes"][0] == "/home/ann/ros2_ws:/home/student/ros2_ws:rw"
 
 
 def test_compose_gives_the_lab_no_rights() -> None:
@@ -135,7 +143,8 @@ def test_the_bake_file_is_what_distros_toml_says() -> None:
 def test_a_row_of_distros_toml_is_all_that_a_new_distro_needs(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    row = Distro("maritime", "28.04", "future", "3.15", "90.0", "ros:maritime-ros-base")
+    words = ("28.04", "future", "3.15", "90.0", "ros:maritime-ros-base", "https://x/maritime")
+    row = Distro("maritime", *words, "FASTDDS_DEFAULT_PROFILES_FILE")
     monkeypatch.setattr(image_files, "distros", lambda: {"maritime": row})
     targets = json.loads(image_files.bake_file())["target"]
     assert set(targets) == {"grade-maritime", "lab-maritime"}
