@@ -8,7 +8,7 @@ SHELL := /bin/sh
 # A variable's raw text goes to the recipes through the environment, never through make or a shell.
 VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
   PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS SCHEDULER \
-  APPLY KEYS
+  APPLY KEYS GRADER_COURSE GRADER_ASSIGNMENT
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
@@ -23,10 +23,11 @@ help:  ## Show this help
 	@echo
 	@sed -n 's/^\([a-z-]*\):.*##/  make \1\t/p' Makefile | expand -t 18
 	@echo
-	@echo "Variables: STUDENT=path PACKAGE=path ASSIGNMENT=hello_time DISTRO=jazzy[,kilted]"
+	@echo "Variables: STUDENT=path PACKAGE=path ASSIGNMENT=id|file DISTRO=jazzy[,kilted]"
 	@echo "           SANDBOX=auto NAME=student OUT=reports PYTHON=python3"
 	@echo "           WORKSPACE=~/ros2_ws BASE=ros|wheels (see docs/images.md for networks)"
 	@echo "           KEYS=folder (solution and hidden checks of your own assignment)"
+	@echo "           GRADER_COURSE=folder (the lessons of another course: docs/assignments.md)"
 	@echo "           SUBMISSIONS=path ROSTER=csv WORKSHEET=csv CANVAS=csv WORKERS=n REGRADE=1"
 	@echo "           SCHEDULER=tcp://host:8786 (see docs/classes.md, docs/cluster.md)"
 
@@ -36,8 +37,7 @@ setup:  ## Make the grader's environment and the ROS prefix, once (DISTRO=jazzy)
 
 lab:  ## Enter a ROS 2 terminal with the course's guide (DISTRO=jazzy WORKSPACE=~/ros2_ws)
 	@$(BOOTSTRAP)
-	@.venv/bin/python -m lab $${DISTRO:+--distro "$$DISTRO"} $${WORKSPACE:+--workspace "$$WORKSPACE"} \
-	  $${SANDBOX:+--sandbox "$$SANDBOX"}
+	@.venv/bin/python -m lab $(OPTIONS) $${WORKSPACE:+--workspace "$$WORKSPACE"}
 
 images:  ## Build the Docker images of a distro and list them with their sizes (DISTRO=jazzy BASE=ros)
 	@$(BOOTSTRAP)
@@ -70,10 +70,10 @@ fix:  ## Show how your own package can be mended, or mend it: make fix [PACKAGE=
 	@$(BOOTSTRAP)
 	@$(GRADER) fix $(OPTIONS) $${APPLY:+--apply} $${PACKAGE:+-- "$$PACKAGE"}
 
-validate:  ## Test an assignment: does it mark what it claims to? (ASSIGNMENT=hello_time KEYS=folder)
+validate:  ## Test an assignment: does it mark what it claims to? (ASSIGNMENT=id KEYS=folder)
 	@$(BOOTSTRAP)
 	@$(GRADER) validate $${DISTRO:+--distro "$$DISTRO"} $${SANDBOX:+--sandbox "$$SANDBOX"} \
-	  $${KEYS:+--keys "$$KEYS"} -- "$${ASSIGNMENT:-hello_time}"
+	  $${KEYS:+--keys "$$KEYS"} $${ASSIGNMENT:+-- "$$ASSIGNMENT"}
 
 test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests

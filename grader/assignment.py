@@ -23,7 +23,7 @@ class _Part(BaseModel):
 class Output(_Part):
     """The counting output: `text` holds `{n}` once; `period` in seconds of ROS time."""
 
-    text: str = "Hello time: {n}"
+    text: str
     start: int = 0
     step: int = 1
     period: float = Field(default=1.0, gt=0, allow_inf_nan=False)
@@ -60,6 +60,11 @@ class Assignment(_Part):
     checks: tuple[CheckUse, ...]
     policy: Policy = Field(default_factory=Policy)
     sha256: str = ""
+
+    @property
+    def function(self) -> str:
+        """The function that the entry point leads to."""
+        return self.target.partition(":")[2]
 
     @property
     def max_score(self) -> float:

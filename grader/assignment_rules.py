@@ -36,7 +36,7 @@ NAMES: dict[str, Pair] = {
     "executable": (r"[A-Za-z_][A-Za-z0-9_.-]*", "letters, digits, _, - and ., a letter first"),
     "node_file": (
         r"[A-Za-z_][A-Za-z0-9_]*\.py",
-        "the bare name of a Python module's file, such as my_first_node.py",
+        "the bare name of a Python module's file, such as my_node.py",
     ),
     "target": (
         r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*",

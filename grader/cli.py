@@ -73,7 +73,7 @@ _verbose = click.option(
 @_verbose
 def grade(
     path: Path,
-    assignment: str,
+    assignment: str | None,
     keys: Path | None,
     distro: str,
     sandbox: str,
@@ -110,7 +110,7 @@ def grade(
 @_verbose
 def check(
     path: Path | None,
-    assignment: str,
+    assignment: str | None,
     distro: str,
     sandbox: str,
     limits: tuple[str, ...],

@@ -11,10 +11,10 @@ from grader.locale.message import msg
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 assignment = click.option(
     "--assignment",
-    default="hello_time",
-    show_default=True,
     metavar="ID|FILE",
-    help=msg("The assignment: its id, or the path of an assignment.yaml."),
+    help=msg(
+        "The assignment: its id, or the path of an assignment.yaml (default: the course's only one)."
+    ),
 )
 keys = click.option(
     "--keys",

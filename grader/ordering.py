@@ -8,6 +8,8 @@ from pathlib import Path
 from grader.assignment import Assignment
 from grader.assignment import load_assignment
 from grader.errors import UsageError
+from grader.lessons import assignment_file
+from grader.lessons import own_keys
 from grader.limits import UNITS
 from grader.limits import Limits
 from grader.locale.message import say
@@ -16,15 +18,12 @@ from grader.ros.distro import find_distro
 from grader.runner import Order
 from grader.sandbox.choose import check_name
 
-COURSE = "GRADER_COURSE"
-HERE = Path(__file__).resolve().parent
-KEYS = HERE / "keys"
 HIDDEN = "hidden.yaml"
 
 
 def make_orders(
     path: Path,
-    assignment: str,
+    assignment: str | None,
     distro: str,
     sandbox: str,
     limits: tuple[str, ...],
@@ -36,7 +35,8 @@ def make_orders(
 ) -> list[Order]:
     """Check every word of the command line before anything is run.
 
-    `keys` is the instructor's folder of the assignment (default: the grader's own, if any).
+    `assignment` is an id, a file's path, or None for the one that is meant (`lessons.chosen`);
+    `keys` the instructor's folder of it (default: the grader's own, if any).
     """
     check_name(sandbox)
     distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
@@ -79,18 +79,18 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
     return values
 
 
-def visible_part(assignment: str) -> Assignment:
-    """Return an assignment (its id, or its file's path) as students have it."""
+def visible_part(assignment: str | None) -> Assignment:
+    """Return an assignment as students have it: of its id or its file's path, or the one meant."""
     return load_assignment(assignment_file(assignment), known_limits=tuple(UNITS))
 
 
-def with_hidden(assignment: str, keys: Path | None = None) -> Assignment:
+def with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
     """Return an assignment with the hidden checks of the instructor's folder.
 
     Raises UsageError where it announces hidden checks and that folder has none.
     """
     file = assignment_file(assignment)
-    folder = keys or (None if names_a_file(assignment) else KEYS / assignment)
+    folder = keys or own_keys(file)
     if keys is not None and not keys.is_dir():
         raise UsageError(say("there is no folder {path}", path=str(keys)))
     hidden = folder / HIDDEN if folder is not None else None
@@ -107,42 +107,3 @@ def with_hidden(assignment: str, keys: Path | None = None) -> Assignment:
             remedy=say("Name the folder that has {name} with --keys.", name=HIDDEN),
         )
     return loaded
-
-
-def names_a_file(assignment: str) -> bool:
-    """Whether an --assignment is the path of a file, and not an id."""
-    return "/" in assignment or assignment.endswith((".yaml", ".yml"))
-
-
-def assignment_file(assignment: str) -> Path:
-    """Return the file of an assignment: its id's in the course folder, or the path itself."""
-    if names_a_file(assignment):
-        return Path(assignment)
-    course = _course()
-    file = course / assignment / "assignment.yaml"
-    if not file.is_file():
-        known = sorted(p.parent.name for p in course.glob("*/assignment.yaml"))
-        raise UsageError(
-            say(
-                "there is no assignment '{assignment}' in {course}",
-                assignment=assignment,
-                course=str(course),
-            ),
-            remedy=say(
-                "Assignments: {names}; or give a file's path. ${variable} names another course "
-                "folder.",
-                names=", ".join(known) or "-",
-                variable=COURSE,
-            ),
-        )
-    return file
-
-
-def _course() -> Path:
-    """Return the course folder: $GRADER_COURSE, this checkout's, or the installed package's."""
-    own = os.environ.get(COURSE)
-    if own:
-        return Path(own)
-    shares = [parent / "share" / "ros2_teaching_lab" / "course" for parent in HERE.parents]
-    places = [HERE.parent / "lab" / "course", *shares]
-    return next((place for place in places if place.is_dir()), places[0])

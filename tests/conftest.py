@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from grader import lessons
 from grader.limits import Limits
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
@@ -24,6 +25,9 @@ pytest_plugins = ["tests.site.fixtures"]
 signal.signal(signal.SIGINT, signal.default_int_handler)
 # texts are compared in English, whatever the language of the one who runs the tests
 os.environ["LC_ALL"] = "C.UTF-8"
+# and it is our own course that is asked for
+for _name in (lessons.COURSE, lessons.LESSON):
+    os.environ.pop(_name, None)
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from grader.validate.tree import Replace
 from tests import stage
+from tests import weather
 from tests.test_cli import solution
 
 HOSTILE = [
@@ -65,7 +67,10 @@ def test_a_hostile_name_is_data(name: str, tmp_path: Path) -> None:
     assert not (tmp_path / "HACKED").exists()
 
 
-@pytest.mark.parametrize("variable", ["ASSIGNMENT", "DISTRO", "SANDBOX", "PACKAGE", "NAME"])
+@pytest.mark.parametrize(
+    "variable",
+    ["ASSIGNMENT", "DISTRO", "SANDBOX", "PACKAGE", "NAME", "GRADER_COURSE", "GRADER_ASSIGNMENT"],
+)
 def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     target = "check" if variable == "PACKAGE" else "grade"
@@ -81,6 +86,17 @@ def test_the_variables_of_an_assignments_own_test_are_data(variable: str, tmp_pa
     assert status == 2
     assert "Traceback" not in said
     assert not (tmp_path / "HACKED").exists()
+
+
+def test_another_courses_lesson_is_taken_through_make(tmp_path: Path) -> None:
+    course = weather.write_course(tmp_path, "winds")
+    package = weather.write_package(tmp_path, Replace(weather.SETUP, weather.ENTRY, ""))
+    words = ("fix", f"PACKAGE={package}", f"GRADER_COURSE={course}")
+    status, _, said = make(*words)
+    assert status == 2
+    assert "readings, winds" in said
+    _, shown, _ = make(*words, "ASSIGNMENT=winds")
+    assert weather.ENTRY in shown
 
 
 def test_a_package_is_mended_through_make(tmp_path: Path) -> None:

@@ -60,7 +60,7 @@ _ledger = click.option(
 @click.option("-q", "--quiet", is_flag=True, help="Do not print a line a student.")
 def grade_all(
     path: Path,
-    assignment: str,
+    assignment: str | None,
     keys: Path | None,
     distro: str,
     sandbox: str,
@@ -145,7 +145,7 @@ def override(
     remove: bool,
     list_all: bool,
     force: bool,
-    assignment: str,
+    assignment: str | None,
     keys: Path | None,
     ledger: Path | None,
     out: Path | None,

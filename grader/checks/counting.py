@@ -9,6 +9,7 @@ from grader.checks.faults import line_of
 from grader.checks.faults import node_file
 from grader.checks.faults import resource
 from grader.checks.faults import traceback_of
+from grader.checks.faults import words
 from grader.checks.registry import Blocked
 from grader.checks.registry import Failed
 from grader.checks.registry import Passed
@@ -46,7 +47,7 @@ def output(evidence: Evidence) -> Passed:
             actual=_difference(wanted.line(0), events[0].text),
             where=line_of(evidence, events[0].record),
             params={"text": events[0].text[:200]},
-            words={"line": wanted.line(0)},
+            words=words(evidence),
         )
     mistake, text = _count_fault(evidence, numbers)
     if mistake:
@@ -55,7 +56,7 @@ def output(evidence: Evidence) -> Passed:
             expected=expected,
             actual=joined(text, shown, by=": "),
             where=line_of(evidence, events[0].record),
-            words={"start": wanted.start, "step": wanted.step},
+            words=words(evidence),
         )
     _must_go_on(evidence, expected)
     advice = []
@@ -83,6 +84,7 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
         expected=expected,
         actual=say("no line came at all"),
         where=node_file(evidence),
+        words=words(evidence),
     )
 
 

@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 from grader.checks.build import limit_name
 from grader.checks.build import python_error
 from grader.checks.registry import Failed
+from grader.locale.message import Value
 from grader.locale.message import say
+from grader.mistakes.node_files import file_with_node
+from grader.mistakes.wanted import words_of
 from grader.report.model import Where
 
 if TYPE_CHECKING:
@@ -40,6 +43,12 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
     if not mine:
         return error, None
     return error, Where(file=mine[-1][0], line=int(mine[-1][1]))
+
+
+def words(evidence: Evidence) -> dict[str, Value]:
+    """Return what the assignment and the node's source fill into a mistake's texts."""
+    within = file_with_node(evidence)
+    return words_of(evidence.assignment, within.source if within is not None else None)
 
 
 def flood(evidence: Evidence, expected: str) -> Failed:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @check("entry_point.mapping", depends=["package.found"])
 def mapping(evidence: Evidence) -> Passed:
-    """setup.py maps the executable's name to the node's main function."""
+    """setup.py maps the executable's name to the function that starts the node."""
     said = mapping_from_source(evidence)
     if said is not None:
         return said

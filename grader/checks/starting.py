@@ -9,6 +9,7 @@ from grader.checks.faults import flood
 from grader.checks.faults import node_file
 from grader.checks.faults import resource
 from grader.checks.faults import traceback_of
+from grader.checks.faults import words
 from grader.checks.registry import Blocked
 from grader.checks.registry import Failed
 from grader.checks.registry import Inconclusive
@@ -71,6 +72,7 @@ def _ended(evidence: Evidence) -> Outcome:
         expected=say("the node runs until Ctrl+C"),
         actual=say("it ended by itself at once, with status {status}", status=str(run.status)),
         where=node_file(evidence),
+        words=words(evidence),
     )
 
 
@@ -80,6 +82,7 @@ def _no_node(evidence: Evidence, actual: str) -> Failed:
         expected=say("a node {name} on the ROS graph", name=evidence.assignment.node_name),
         actual=actual,
         where=node_file(evidence),
+        words=words(evidence),
     )
 
 
@@ -123,6 +126,7 @@ def interrupt(evidence: Evidence) -> Passed:
             expected=expected,
             actual=say("it was still there and had to be killed"),
             where=node_file(evidence),
+            words=words(evidence),
         )
     last = run.transcript.rstrip()[-3000:]
     actual = say(
@@ -136,7 +140,8 @@ def interrupt(evidence: Evidence) -> Passed:
     if run.status is not None and run.status > SIGNALLED:
         crashed = say(
             "The program crashed in ROS's own clean-up after Ctrl+C: do not leave a thread "
-            "spinning when main ends."
+            "spinning when {function} ends.",
+            function=evidence.assignment.function,
         )
         return Passed(actual=actual, advice=[crashed])
     if "rcl_shutdown already called" in last:

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from grader.checks.faults import line_of
+from grader.checks.faults import words
 from grader.checks.registry import Blocked
 from grader.checks.registry import Failed
 from grader.checks.registry import Inconclusive
@@ -42,6 +43,7 @@ def period(evidence: Evidence) -> Passed:
             expected=expected,
             actual=say("a line came before any time had passed"),
             where=line_of(evidence, watch.before_start[0].record),
+            words=words(evidence),
         )
     on_time = [event for event in events if event.due is not None]
     stopped = len(on_time) > 1 and abs((watch.period or wanted.period) - wanted.period) < 0.001
@@ -103,12 +105,12 @@ def _wall_period(evidence: Evidence, expected: str) -> Passed:
 
 
 def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
-    watch, wanted = evidence.run.watch, evidence.assignment.output
+    watch = evidence.run.watch
     return Failed(
         "run.wrong_period",
         expected=expected,
         actual=actual,
         where=line_of(evidence, watch.counted[0].record),
         params={"period": round(seconds, 3)},
-        words={"wanted": repr(wanted.period)},
+        words=words(evidence),
     )

@@ -40,7 +40,7 @@ from grader.locale.speaker import errors_in
 def fix(
     path: Path | None,
     dry_run: bool,
-    assignment: str,
+    assignment: str | None,
     distro: str,
     sandbox: str,
     only: str,
@@ -59,7 +59,7 @@ def fix(
         if path is None and not dry_run and place != Path.home() / "ros2_ws":
             raise UsageError(
                 say("it was not said which package is to be changed"),
-                remedy=say("For example: grader fix --apply path/to/my_robot_controller"),
+                remedy=say("For example: grader fix --apply path/to/my_package"),
             )
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if len(orders) > 1:

@@ -21,7 +21,7 @@ ALIKE = 0.7
 
 
 def f_prefix(case: Case) -> Files | None:
-    """Put the f in front of a text with {self.counter_} in it."""
+    """Put the f in front of a text with {self.…} in it."""
     code = read_node(case)
     call = code.log_call if code else None
     if code is None or call is None:

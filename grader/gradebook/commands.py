@@ -34,7 +34,7 @@ _sandbox = click.option(
 @options.lang
 def gradescope(
     autograder: Path,
-    assignment: str,
+    assignment: str | None,
     keys: Path | None,
     distro: str,
     sandbox: str,
@@ -60,7 +60,7 @@ def gradescope(
 @options.lang
 def gradescope_zip(
     out: Path,
-    assignment: str,
+    assignment: str | None,
     keys: Path | None,
     distro: str,
     sandbox: str,

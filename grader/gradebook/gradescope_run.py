@@ -106,7 +106,7 @@ class ResultsFile:
 def run(
     autograder: Path,
     *,
-    assignment: str = "hello_time",
+    assignment: str | None = None,
     keys: Path | None = None,
     distro: str = "jazzy",
     sandbox: str = "account",
@@ -162,7 +162,7 @@ def student_name(metadata: dict[str, Any]) -> str | None:
 def order_for(
     autograder: Path,
     metadata: dict[str, Any],
-    assignment: str,
+    assignment: str | None,
     distro: str,
     sandbox: str,
     *,

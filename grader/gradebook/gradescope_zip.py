@@ -15,11 +15,11 @@ from pathlib import Path
 
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
+from grader.lessons import assignment_file
 from grader.locale.message import say
 from grader.locale.speaker import SOURCE
 from grader.locale.speaker import Speaker
 from grader.ordering import HIDDEN
-from grader.ordering import names_a_file
 from grader.ordering import with_hidden
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -75,14 +75,14 @@ exit "$status"
 
 def gradescope_zip(
     *,
-    assignment: str = "hello_time",
+    assignment: str | None = None,
     keys: Path | None = None,
     distro: str = "jazzy",
     sandbox: str = "account",
     lang: str = SOURCE,
     root: Path = ROOT,
 ) -> bytes:
-    """Return the archive; `assignment` is an id or the path of an assignment.yaml.
+    """Return the archive; `assignment` is an id, the path of an assignment.yaml, or the one meant.
 
     `keys` is the instructor's folder of it, of which the hidden checks go in.
 
@@ -96,12 +96,11 @@ def gradescope_zip(
             remedy="Call grader gradescope-zip from the checkout.",
         )
     files = dict(_files(root))
-    named = assignment
-    if names_a_file(assignment):
-        files |= _own_assignment(Path(assignment))
-        named = f"{OWN_ASSIGNMENT}/{Path(assignment).name}"
-    elif f"lab/course/{assignment}/assignment.yaml" not in files:
-        raise UsageError(f"there is no assignment '{assignment}' in {root / 'lab/course'}")
+    file = assignment_file(assignment)
+    named = file.parent.name
+    if file.resolve() != (root / "lab/course" / named / file.name).resolve():
+        files |= _own_assignment(file)
+        named = f"{OWN_ASSIGNMENT}/{file.name}"
     with_hidden(assignment, keys)  # what is wrong is told here, and not at Gradescope
     words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
     if keys is not None and (keys / HIDDEN).is_file():

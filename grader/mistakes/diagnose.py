@@ -62,17 +62,9 @@ def _root(symptom: str, failed: Failed, evidence: Evidence) -> Finding | None:
     within = file_with_main(evidence) if symptom in OF_MAIN else file_with_node(evidence)
     if within is None:
         return None
-    wanted = evidence.assignment.output
-    suspect = Suspect(
-        within.source,
-        within.path,
-        evidence.assignment.node_name,
-        wanted.period,
-        wanted.start,
-        wanted.step,
-    )
+    suspect = Suspect(within.source, within.path, evidence.assignment)
     if symptom == "run.wrong_text":
-        return _text(failed, suspect, wanted.line(wanted.start))
+        return _text(failed, suspect)
     if symptom == "run.wrong_node_name" and within.source.super_init is not None:
         failed.where = Where(file=within.path, line=within.source.super_init.lineno)
     if symptom == "run.wrong_period" and within.source.timers:
@@ -85,16 +77,7 @@ def _raised(error: str, where: Where | None, evidence: Evidence) -> Finding | No
     within = file_at(evidence, where.file if where else node_path(evidence))
     if within is None:
         return None
-    assignment = evidence.assignment
-    raised = Raised(
-        error,
-        within.path,
-        where,
-        within.source,
-        assignment.node_name,
-        assignment.output.period,
-    )
-    return recognise(raised)
+    return recognise(Raised(error, within.path, where, within.source, evidence.assignment))
 
 
 def _not_installed(error: str, evidence: Evidence) -> Finding | None:
@@ -109,18 +92,17 @@ def _not_installed(error: str, evidence: Evidence) -> Finding | None:
     return Finding(kind="setup.not_packaged", where=Where(file="setup.py"))
 
 
-def _text(failed: Failed, suspect: Suspect, wanted: str) -> Finding | None:
+def _text(failed: Failed, suspect: Suspect) -> Finding | None:
     """Tell a text with the wrong number in it from another text."""
     text = str(failed.mistakes[0].params.get("text", ""))
     line = failed.where.line if failed.where else None
-    before = re.sub(r"\d+$", "", wanted)
+    head, tail = suspect.output.text.split("{n}")
     if re.search(r"\{[\w.]{1,80}\}", text):
         return suspect.finding("f_prefix", line)
-    if text.strip() == before.strip():
+    if text.split() == f"{head}{tail}".split():
         return suspect.finding("text_without_number", line)
-    if text.startswith(before) and re.fullmatch(r"[+-]?\d+\.\d+|0\d+|\d+e\d+", text[len(before) :]):
-        return suspect.finding("number_format", line)
-    return None
+    number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
+    return suspect.finding("number_format", line) if re.fullmatch(number, text) else None
 
 
 def _explain(failed: Failed, found: Finding) -> None:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TextIO
 
+from grader.assignment import Assignment
 from grader.errors import UsageError
 from grader.intake.notes import shown
 from grader.locale.message import Message
+from grader.locale.message import Value
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import errors_in
@@ -14,18 +18,40 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 from grader.mistakes.likeness import meant
 from grader.mistakes.likeness import nearest
+from grader.mistakes.links import address
 from grader.mistakes.recognise import filled
 from grader.mistakes.recognise import seen_in
+from grader.mistakes.wanted import EXAMPLE
+from grader.mistakes.wanted import words_of
 from grader.report.page import Page
 from grader.report.plain import encodable
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
+from grader.ros.distro import Distro
 
 MOST_BYTES = 1_000_000
 MOST_ROOTS = 3  # mistakes explained at once; more than that nobody reads
 
 
-def print_entry(mistake: str, *, file: TextIO, lang: str) -> None:
+@dataclass(frozen=True)
+class Reader:
+    """For whom it is: the language, the distro whose documentation is linked, and the lesson.
+
+    Without a lesson the texts show the names of what only a lesson tells, such as <period>.
+    """
+
+    lang: str
+    distro: Distro
+    assignment: Assignment | None = None
+
+    @property
+    def words(self) -> dict[str, Value]:
+        """What the texts take from the lesson and the distro."""
+        known = EXAMPLE if self.assignment is None else words_of(self.assignment)
+        return {**known, "distro": self.distro.name}
+
+
+def print_entry(mistake: str, *, file: TextIO, reader: Reader) -> None:
     """Print one entry; UsageError, with the nearest id, if there is none."""
     kind = CATALOGUE.get(mistake)
     if kind is None:
@@ -33,16 +59,16 @@ def print_entry(mistake: str, *, file: TextIO, lang: str) -> None:
         close = slugs.get(mistake) or nearest(mistake, CATALOGUE)
         none = say("there is no mistake '{id}' in the catalogue", id=shown(mistake))
         remedy = say("`grader explain` alone lists them all.")
-        with errors_in(lang):
+        with errors_in(reader.lang):
             raise UsageError(none + meant(close), remedy=remedy)
-    page = _page(file, lang)
-    _entry(page, kind, {})
+    page = _page(file, reader)
+    _entry(page, kind, {}, reader)
     _write(file, page)
 
 
-def print_recognised(text: str, *, file: TextIO, lang: str) -> bool:
+def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
     """Print the entries that a text shows, root first; return whether there are any."""
-    page = _page(file, lang)
+    page = _page(file, reader)
     found = seen_in(text)
     if not found:
         page.line(say("No mistake of the catalogue shows in this text."))
@@ -50,7 +76,7 @@ def print_recognised(text: str, *, file: TextIO, lang: str) -> bool:
         if number:
             page.gap()
         page.quote([shown(seen.line)])
-        _entry(page, seen.kind, seen.params)
+        _entry(page, seen.kind, seen.params, reader)
     if len(found) > MOST_ROOTS:
         page.gap()
         names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
@@ -59,23 +85,24 @@ def print_recognised(text: str, *, file: TextIO, lang: str) -> bool:
     return bool(found)
 
 
-def print_list(*, file: TextIO, lang: str) -> None:
+def print_list(*, file: TextIO, reader: Reader) -> None:
     """Print the ids and titles of all entries."""
-    page = _page(file, lang)
+    page = _page(file, reader)
     for kind in CATALOGUE.values():
         page.line((kind.id, "bold"), ": ", Message(kind.title))
     _write(file, page)
 
 
-def _entry(page: Page, kind: Kind, params: dict[str, str]) -> None:
+def _entry(page: Page, kind: Kind, params: Mapping[str, str], reader: Reader) -> None:
+    known = {**reader.words, **params}
     page.line((kind.id, "bold"), ": ", Message(kind.title))
-    page.field(say("why"), kind.rationale(filled(kind.why, params)))
-    page.field(say("fix"), kind.mend(filled(kind.fix, params)), "bold")
-    page.code(say("docs"), [kind.link])
+    page.field(say("why"), kind.rationale(filled(kind.why, known)))
+    page.field(say("fix"), kind.mend(filled(kind.fix, known)), "bold")
+    page.code(say("docs"), [address(kind.link, reader.distro)])
 
 
-def _page(file: TextIO, lang: str) -> Page:
-    return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(lang))
+def _page(file: TextIO, reader: Reader) -> Page:
+    return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(reader.lang))
 
 
 def _write(file: TextIO, page: Page) -> None:

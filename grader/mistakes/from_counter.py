@@ -6,10 +6,9 @@ import ast
 from dataclasses import dataclass
 
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import Function
-from grader.mistakes.node_source import NodeSource
 from grader.mistakes.node_source import dotted
 from grader.mistakes.suspect import Suspect
+from grader.mistakes.wanted import logged_counter
 
 
 @dataclass(frozen=True)
@@ -26,7 +25,7 @@ def _counter(suspect: Suspect) -> Counter | None:
     callback = suspect.source.callback
     if callback is None:
         return None
-    names = _logged_names(suspect.source, callback)
+    names = logged_counter(suspect.source, callback)
     if not names:
         return None
     lines, name = names
@@ -38,22 +37,6 @@ def _counter(suspect: Suspect) -> Counter | None:
         [n for n in plain if any(dotted(target) == name for target in n.targets)],
         lines,
     )
-
-
-def _logged_names(source: NodeSource, callback: Function) -> tuple[int, str] | None:
-    """Return the line of the first log call and the attribute of self that it shows."""
-    for call in [*source.logs(callback), *source.prints(callback)]:
-        for node in ast.walk(call):
-            name = dotted(node) if isinstance(node, ast.Attribute) else ""
-            if name.startswith("self.") and name.count(".") == 1 and "get_logger" not in name:
-                return call.lineno, name
-    # (the text is put together on a line before: what is counted up is the counter)
-    for call in [*source.logs(callback), *source.prints(callback)]:
-        for node in ast.walk(callback):
-            name = dotted(node.target) if isinstance(node, ast.AugAssign) else ""
-            if name.startswith("self."):
-                return call.lineno, name
-    return None
 
 
 def _plus_reversed(suspect: Suspect, counter: Counter) -> Finding | None:
@@ -90,11 +73,13 @@ def wrong_step(suspect: Suspect) -> Finding | None:
         return found
     if len(counter.added) > 1:
         line = counter.added[1].lineno
-        return suspect.finding("adds_twice", line, name=counter.name, step=suspect.step)
+        return suspect.finding("adds_twice", line, name=counter.name, step=suspect.output.step)
     for node in counter.added:
         added = isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
-        if not added or getattr(node.value, "value", 1) != suspect.step:
-            return suspect.finding("other_step", node.lineno, name=counter.name, step=suspect.step)
+        if not added or getattr(node.value, "value", 1) != suspect.output.step:
+            return suspect.finding(
+                "other_step", node.lineno, name=counter.name, step=suspect.output.step
+            )
     return None
 
 
@@ -109,6 +94,6 @@ def wrong_start(suspect: Suspect) -> Finding | None:
     for node in ast.walk(init) if init else ():
         if isinstance(node, ast.Assign) and any(dotted(t) == counter.name for t in node.targets):
             return suspect.finding(
-                "starts_elsewhere", node.lineno, name=counter.name, start=suspect.start
+                "starts_elsewhere", node.lineno, name=counter.name, start=suspect.output.start
             )
     return None

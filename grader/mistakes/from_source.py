@@ -44,7 +44,7 @@ def no_spin(suspect: Suspect) -> Finding | None:
         named = node.value if isinstance(node, ast.Expr) else None
         if isinstance(named, ast.Attribute) and named.attr == "spin":
             return suspect.finding("spin_not_called", named.lineno)
-    return suspect.finding("spin_missing", source.main.lineno if source.main else None)
+    return suspect.finding("spin_missing", suspect.line_of_function)
 
 
 def _no_node(suspect: Suspect) -> Finding | None:
@@ -53,14 +53,14 @@ def _no_node(suspect: Suspect) -> Finding | None:
         return suspect.finding("no_ros", 1)
     made = source.makes_node() or any(n.endswith("create_node") for _, n in source.calls)
     if source.node_class is not None and not made:
-        return suspect.finding("main_empty", source.main.lineno if source.main else None)
+        return suspect.finding("main_empty", suspect.line_of_function)
     return None
 
 
 def no_node(suspect: Suspect) -> Finding | None:
     """Look for why a program runs and makes no node."""
     found = _no_node(suspect)
-    main, node_class = suspect.source.main, suspect.source.node_class
+    main, node_class = suspect.function, suspect.source.node_class
     if found is not None or main is None:
         return found
     made = node_class.name if node_class else ""
@@ -85,7 +85,7 @@ def no_lines(suspect: Suspect) -> Finding | None:
     for call, name in source.calls:
         if name.endswith(".cancel"):
             return suspect.finding("timer_cancelled", call.lineno)
-    if timer.seconds is not None and timer.seconds >= LONG > suspect.period:
+    if timer.seconds is not None and timer.seconds >= LONG > suspect.output.period:
         return suspect.finding("period_milliseconds", timer.line, written=f"{timer.seconds:g}")
     logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
     if timer.method and timer.method not in source.methods and logging:
@@ -158,7 +158,11 @@ def wrong_period(suspect: Suspect) -> Finding | None:
     """Look for what keeps the lines apart, where the timer's own period is right."""
     slept = longest_sleep(suspect.source)
     timers = [timer.seconds for timer in suspect.source.timers]
-    if slept is None or slept[1] <= suspect.period or timers not in ([suspect.period], [None]):
+    if (
+        slept is None
+        or slept[1] <= suspect.output.period
+        or timers not in ([suspect.output.period], [None])
+    ):
         return None
     return suspect.finding("sleeps_in_callback", slept[0].lineno, seconds=slept[1])
 

@@ -15,6 +15,7 @@ from grader.mistakes.likeness import nearest
 from grader.mistakes.node_source import LOG_METHODS
 from grader.mistakes.node_source import dotted
 from grader.mistakes.raised import Raised
+from grader.mistakes.wanted import CLASS
 
 MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
 NODE_METHODS = (
@@ -67,7 +68,7 @@ def _no_name(raised: Raised, match: re.Match[str]) -> Finding:
 def _not_a_node(raised: Raised, match: re.Match[str]) -> Finding:
     del match
     found = raised.source.node_class
-    name, line = (found.name, found.lineno) if found else ("MyFirstNode", None)
+    name, line = (found.name, found.lineno) if found else (CLASS, None)
     return raised.finding("not_a_node", line=line, name=name)
 
 
@@ -100,18 +101,21 @@ def _undefined(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding("name_unknown", name=name, close=close)
 
 
-def _no_main(raised: Raised, match: re.Match[str]) -> Finding:
-    del match
-    close = nearest("main", raised.source.functions)
+def _no_main(raised: Raised, match: re.Match[str]) -> Finding | None:
+    function = raised.assignment.function
+    if match["function"] != function:
+        return None
+    close = nearest(function, raised.source.functions)
     if close:
         line = raised.source.functions[close].lineno
-        return raised.finding("main_misspelt", line=line, name=close, close="main")
+        return raised.finding("main_misspelt", line=line, name=close, close=function)
     return raised.finding("main_missing")
 
 
-def _main_wants(raised: Raised, match: re.Match[str]) -> Finding:
-    del match
-    main = raised.source.main
+def _main_wants(raised: Raised, match: re.Match[str]) -> Finding | None:
+    if match["function"] != raised.assignment.function:
+        return None
+    main = raised.source.functions.get(raised.assignment.function)
     return raised.finding("main_wants_args", line=main.lineno if main else None)
 
 
@@ -154,7 +158,7 @@ def _other_attribute(raised: Raised, match: re.Match[str]) -> Finding:
 
 def _concatenated(raised: Raised, match: re.Match[str]) -> Finding:
     del match
-    name = "self.counter_"
+    name = str(raised.words["counter"])
     for node in ast.walk(raised.source.tree):
         if isinstance(node, ast.BinOp) and raised.line in range(
             node.lineno, (node.end_lineno or node.lineno) + 1
@@ -186,8 +190,8 @@ RECOGNISERS: tuple[tuple[str, Recognise], ...] = (
     (r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'",
      _no_name_in_module),
     (r"NameError: (?:free variable|name) '(?P<name>\w{1,120})'", _undefined),
-    (r"AttributeError: module '[\w.]{1,200}' has no attribute 'main'", _no_main),
-    (r"main\(\) missing \d{1,3} required positional", _main_wants),
+    (r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'", _no_main),
+    (r"(?<![\w.])(?P<function>\w{1,120})\(\) missing \d{1,3} required positional", _main_wants),
     (r"context manager protocol|AttributeError: __enter__", _always("context_manager")),
     (r"'(?:function|method)' object has no attribute '(?:info|debug|warn|warning|error|fatal)'",
      _always("logger_not_called")),

@@ -1,8 +1,13 @@
-"""Pages of the ROS 2 documentation (and what it rests on) that entries of the catalogue lead to."""
+"""Pages of the ROS 2 documentation (and what it rests on) that entries of the catalogue lead to.
+
+Each distro has its own documentation: `{docs}` stands for its address, which `address` fills in.
+"""
 
 from __future__ import annotations
 
-DOCS = "https://docs.ros.org/en/jazzy"
+from grader.ros.distro import Distro
+
+DOCS = "{docs}"
 _CLIENT = f"{DOCS}/Tutorials/Beginner-Client-Libraries"
 _CLI = f"{DOCS}/Tutorials/Beginner-CLI-Tools"
 
@@ -26,3 +31,8 @@ PYTHON_ERRORS = "https://docs.python.org/3/tutorial/errors.html"
 PYTHON_CLASSES = "https://docs.python.org/3/tutorial/classes.html"
 PYTHON_STRINGS = "https://docs.python.org/3/tutorial/inputoutput.html"
 PYTHON_SYNTAX = "https://docs.python.org/3/tutorial/errors.html#syntax-errors"
+
+
+def address(link: str, distro: Distro) -> str:
+    """Return the address of a page in the documentation of a distro."""
+    return link.format(docs=distro.documentation)

@@ -1,4 +1,4 @@
-"""What the source of a node says of its class, timers, callbacks, log lines and main.
+"""What the source of a node says of its class, timers, callbacks, log lines and functions.
 
 Read from the syntax tree (the file is never run); a file that Python cannot read has no facts.
 """
@@ -129,11 +129,6 @@ class NodeSource:
     def functions(self) -> dict[str, Function]:
         """The functions at the file's outermost level."""
         return {node.name: node for node in self.tree.body if isinstance(node, Function)}
-
-    @property
-    def main(self) -> Function | None:
-        """The function main."""
-        return self.functions.get("main")
 
     @cached_property
     def parents(self) -> dict[ast.AST, ast.AST]:

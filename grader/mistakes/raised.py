@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from grader.assignment import Assignment
+from grader.locale.message import Value
 from grader.mistakes.kind import Finding
 from grader.mistakes.node_source import NodeSource
+from grader.mistakes.wanted import words_of
 from grader.report.model import Where
 
 
@@ -21,8 +24,7 @@ class Raised:
     file: str
     where: Where | None
     source: NodeSource
-    node_name: str
-    period: float
+    assignment: Assignment
 
     @property
     def line(self) -> int | None:
@@ -40,9 +42,7 @@ class Raised:
         """Return a mistake of the stage `node`, on a line of the node's file."""
         given = {**(params or {}), **more}
         words = {
-            "node_name": self.node_name,
-            "period": repr(self.period),
-            "callback": self.callback,
+            **self.words,
             "close": "",
             "name": "",
             **given,
@@ -54,8 +54,6 @@ class Raised:
         return Finding(kind=f"node.{slug}", params=given, words=words, variant=variant, where=where)
 
     @property
-    def callback(self) -> str:
-        """The name of the callback, as the source has it."""
-        found = self.source.callback
-        named = [timer.method for timer in self.source.timers if timer.method]
-        return found.name if found else (named or ["timer_callback"])[0]
+    def words(self) -> dict[str, Value]:
+        """What the assignment and the source fill into a text."""
+        return words_of(self.assignment, self.source)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import string
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 
@@ -51,7 +52,7 @@ def _line_around(text: str, start: int, end: int) -> str:
     return text[before : after if after >= 0 else len(text)].strip()
 
 
-def filled(template: str, params: dict[str, str]) -> dict[str, Value]:
+def filled(template: str, params: Mapping[str, Value]) -> dict[str, Value]:
     """Return a value for every placeholder of a template: what is not known is its name in <>."""
     names = [name for _, name, _, _ in string.Formatter().parse(template) if name]
-    return {name: params.get(name) or f"<{name}>" for name in names}
+    return {name: params.get(name, f"<{name}>") for name in names}

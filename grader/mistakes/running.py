@@ -10,7 +10,7 @@ from grader.mistakes.kind import Kind
 SPIN = msg(
     "rclpy.spin(node) is what keeps a node alive: it waits, and calls your callbacks when due."
 )
-COUNT = msg("The counter starts once, in __init__, and grows by one in each callback.")
+COUNT = msg("The counter starts once, in __init__, and grows by {step} in each callback.")
 RECORD = msg(
     "A record of the logger carries level, time and the node's name, and goes to /rosout, "
     "where other programs can read it; print() only writes text on this terminal."
@@ -26,11 +26,12 @@ KINDS = (
          msg("Mend the line shown; then colcon build is not needed again (--symlink-install), just "
              "run it again."), links.PYTHON_ERRORS),
     _run("exits_at_once", "spin", msg("the node ends by itself at once"), SPIN,
-         msg("Call rclpy.spin(node) in main, after making the node (not spin_once)."),
+         msg("Call rclpy.spin(node) in {function}, after making the node (not spin_once)."),
          links.EXECUTORS),
     _run("no_node", "start", msg("no node comes up"),
          msg("A node comes into being when its class (a Node) is made, after rclpy.init()."),
-         msg("See that main makes the node, and that nothing before it waits (input(), a loop)."),
+         msg("See that {function} makes the node, and that nothing before it waits (input(), a "
+             "loop)."),
          links.NODES),
     _run("wrong_node_name", "class", msg("the node has another name"),
          msg("The name under which ros2 node list, topics and logs show a node is the one given to "
@@ -48,18 +49,18 @@ KINDS = (
     _run("twice", "timer", msg("more than one line comes at a time"), COUNT,
          msg("Make one timer only, and log once in its callback.")),
     _run("constant_counter", "counter", msg("the number never changes"), COUNT,
-         msg("Add self.counter_ += 1 to the callback, and set it to 0 only in __init__.")),
+         msg("Add {counter} += {step} to the callback, and set it to {start} only in __init__.")),
     _run("wrong_start", "counter", msg("the count starts at another number"), COUNT,
          msg("Set the counter to {start} in __init__, and add to it after logging.")),
-    _run("wrong_step", "counter", msg("the count does not go up by one each time"), COUNT,
+    _run("wrong_step", "counter", msg("the count goes up by another number"), COUNT,
          msg("Add {step} to the counter once in each callback, and nowhere else.")),
     _run("no_lines", "timer", msg("no line comes"),
-         msg("Lines come from the timer's callback: create_timer(1.0, self.timer_callback) in "
+         msg("Lines come from the timer's callback: create_timer({period}, self.{callback}) in "
              "__init__, with the callback's name and no brackets behind it."),
          msg("Make the timer in __init__ and log in its callback.")),
     _run("by_hand", "timer", msg("a line comes before any time has passed"),
          msg("The timer calls the callback when its time has come. A call by hand "
-             "(self.timer_callback() in __init__) is one too many."),
+             "(self.{callback}() in __init__) is one too many."),
          msg("Take the call out; give create_timer the callback's name and let it call.")),
     Kind(
         id="run.ended_early",
@@ -74,7 +75,7 @@ KINDS = (
     _run("stops", "timer", msg("the lines stop coming"), SPIN,
          msg("Let the timer run on: no limit on the count, no exit in the callback.")),
     _run("wrong_period", "timer", msg("the lines come at other instants"), PERIOD,
-         msg("Write create_timer({wanted}, self.timer_callback), once.")),
+         msg("Write create_timer({period}, self.{callback}), once.")),
     _run("print_not_logger", "logger", msg("the lines do not go through the logger"), RECORD, LOG,
          links.LOGGING),
     _run("faked_log", "logger", msg("a line has the form of a log record that ROS never logged"),
@@ -86,7 +87,7 @@ KINDS = (
     _run("ignores_interrupt", "shutdown", msg("the node goes on after Ctrl+C"),
          msg("Ctrl+C sends SIGINT; Python turns it into KeyboardInterrupt, which ends rclpy.spin. "
              "Catching it and going on, or ignoring the signal, leaves the node behind."),
-         msg("Catch KeyboardInterrupt around rclpy.spin only, and let main end after it."),
+         msg("Catch KeyboardInterrupt around rclpy.spin only, and let {function} end after it."),
          links.EXECUTORS),
     _run("error_at_stop", "shutdown", msg("the node ends with an error of its own after Ctrl+C"),
          msg("What runs after rclpy.spin is your clean-up; an error there hides the end."),

@@ -1,4 +1,4 @@
-"""The catalogue: why a node does not come to life (imports, main, its class)."""
+"""The catalogue: why a node does not come to life (imports, the entry point's function, its class)."""
 
 from __future__ import annotations
 
@@ -13,6 +13,10 @@ INIT = msg(
 SUPER = msg("Write super().__init__('{node_name}') as the first line of __init__.")
 CLOSE = msg("Write {close} instead of {name}.")
 NAMED = ("import_misspelt", "import_name")
+LOOKED_FOR = msg(
+    "The entry point ends in :{function}, so Python looks for a function {function} in the module, "
+    "at its outermost level."
+)
 NODES_MADE = msg("rclpy.init() connects the program with ROS; no node can be made before it.")
 
 _node = Family("node", links.FIRST_NODE)
@@ -20,7 +24,7 @@ KINDS = (
     _node("no_ros", "start", msg("The file does not use rclpy at all"),
           msg("A program is a ROS node only if it makes one: other programs, ros2 node list and "
               "/rosout see nothing of a loop that prints."),
-          msg("Write a class that inherits Node, make a timer in it, and spin it in main."),
+          msg("Write a class that inherits Node, make a timer in it, and spin it in {function}."),
           links.NODES),
     _node("import_node", "start", msg("Node is imported from rclpy and not from rclpy.node"),
           msg("The class Node lives in the module rclpy.node; rclpy itself has no Node."),
@@ -41,24 +45,22 @@ KINDS = (
     _node("import_missing", "start", msg("A name is used that is not imported"),
           msg("Python knows only names that the file imports or defines."),
           msg("Add the import at the top of the file: {statement}")),
-    _node("main_missing", "start", msg("There is no function main"),
-          msg("The entry point ends in :main, so Python looks for a function main in the module, "
-              "at its outermost level."),
-          msg("Define it: def main(args=None):"), links.DEVELOPING,
-          seen=r"AttributeError: module '[\w.]{1,200}' has no attribute 'main'"),
-    _node("main_misspelt", "start", msg("The function main has another name"),
-          msg("The entry point ends in :main, so Python looks for a function main in the module, "
-              "at its outermost level."),
-          msg("Rename {name} to main (also where it is called)."), links.DEVELOPING),
-    _node("main_wants_args", "start", msg("main needs an argument that nobody gives it"),
-          msg("The executable calls main() without arguments."),
-          msg("Give the argument a default: def main(args=None):"),
-          seen=r"TypeError: main\(\) missing \d{1,3} required positional argument"),
-    _node("main_empty", "start", msg("main does not make the node"),
-          msg("The executable calls main() and ends with it; a class alone does nothing."),
-          msg("In main: rclpy.init(args=args), then node = YourClass(), then rclpy.spin(node)."),
+    _node("main_missing", "start", msg("The entry point's function is not in the module"), LOOKED_FOR,
+          msg("Define it: def {function}(args=None):"), links.DEVELOPING,
+          seen=r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>main)'"),
+    _node("main_misspelt", "start", msg("The entry point's function has another name"), LOOKED_FOR,
+          msg("Rename {name} to {function} (also where it is called)."), links.DEVELOPING),
+    _node("main_wants_args", "start",
+          msg("The entry point's function needs an argument that nobody gives it"),
+          msg("The executable calls {function}() without arguments."),
+          msg("Give the argument a default: def {function}(args=None):"),
+          seen=r"TypeError: (?P<function>main)\(\) missing \d{1,3} required positional argument"),
+    _node("main_empty", "start", msg("The entry point's function does not make the node"),
+          msg("The executable calls {function}() and ends with it; a class alone does nothing."),
+          msg("In {function}: rclpy.init(args=args), then node = YourClass(), then "
+              "rclpy.spin(node)."),
           links.NODES),
-    _node("waits_first", "start", msg("main waits before the node is made"),
+    _node("waits_first", "start", msg("The program waits before the node is made"),
           msg("Until input(), sleep() or a loop is done, nothing after it happens, and there is no "
               "node."),
           msg("Take {name} out; what is to happen again and again belongs into a timer's "
@@ -68,13 +70,13 @@ KINDS = (
               "another text the line below is never reached. (ros2 run does not need it.)"),
           msg("Write: if __name__ == '__main__':")),
     _node("init_missing", "start", msg("rclpy.init() is not called"), NODES_MADE,
-          msg("Write rclpy.init(args=args) as the first line of main."), links.RCLPY,
+          msg("Write rclpy.init(args=args) as the first line of {function}."), links.RCLPY,
           seen=r"NotInitializedException"),
     _node("init_late", "start", msg("rclpy.init() is called after the node is made"), NODES_MADE,
-          msg("Move rclpy.init(args=args) to the first line of main."), links.RCLPY),
+          msg("Move rclpy.init(args=args) to the first line of {function}."), links.RCLPY),
     _node("init_twice", "start", msg("rclpy.init() is called twice"),
           msg("rclpy.init() connects the program with ROS; it is an error to do so again."),
-          msg("Keep one rclpy.init(args=args), the first line of main."), links.RCLPY,
+          msg("Keep one rclpy.init(args=args), the first line of {function}."), links.RCLPY,
           seen=r"RuntimeError: Context\.init\(\) must only be called once"),
     _node("class_not_called", "start", msg("The brackets are missing behind the class"),
           msg("The name of a class alone makes no object; only its call does."),

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from grader.assignment import Assignment
+from grader.assignment import Output
 from grader.mistakes.kind import Finding
+from grader.mistakes.node_source import Function
 from grader.mistakes.node_source import NodeSource
+from grader.mistakes.wanted import words_of
 from grader.report.model import Where
 
 
@@ -15,18 +19,27 @@ class Suspect:
 
     source: NodeSource
     file: str
-    node_name: str
-    period: float
-    start: int
-    step: int
+    assignment: Assignment
+
+    @property
+    def output(self) -> Output:
+        """The output that the assignment asks for."""
+        return self.assignment.output
+
+    @property
+    def function(self) -> Function | None:
+        """The function that the entry point leads to, if the source has it."""
+        return self.source.functions.get(self.assignment.function)
+
+    @property
+    def line_of_function(self) -> int | None:
+        """The line on which it begins."""
+        return self.function.lineno if self.function is not None else None
 
     def finding(self, slug: str, line: int | None = None, **params: str | int | float) -> Finding:
         """Return a mistake of the stage `node` on a line of the file."""
-        callback = self.source.callback
         words = {
-            "period": repr(self.period),
-            "callback": callback.name if callback else "timer_callback",
-            "node_name": self.node_name,
+            **words_of(self.assignment, self.source),
             "node": "node",
             "name": "",
             "close": "",

@@ -23,7 +23,7 @@ KINDS = (
     _lab("ros_not_sourced", msg("ROS is not sourced in this terminal"),
          msg("The ros2 command is found only after ROS's own setup file was sourced in this "
              "terminal."),
-         msg("source /opt/ros/$ROS_DISTRO/setup.bash (for example /opt/ros/jazzy/setup.bash)"),
+         msg("source /opt/ros/{distro}/setup.bash"),
          links.ENVIRONMENT, seen=r"ros2: (?:command )?not found"),
     _lab("wrong_folder", msg("The workspace's setup file is not in this folder"),
          msg("install/ is made by colcon build in the folder in which it was called: it is there "
@@ -38,7 +38,7 @@ KINDS = (
     _lab("no_rclpy", msg("Python cannot find rclpy"),
          msg("rclpy is part of ROS: Python sees it only in a terminal in which ROS was sourced, and "
              "only the system's own Python does (not that of conda, a venv or an editor's button)."),
-         msg("source /opt/ros/$ROS_DISTRO/setup.bash, and start the node with ros2 run."),
+         msg("source /opt/ros/{distro}/setup.bash, and start the node with ros2 run."),
          links.ENVIRONMENT, seen=r"ModuleNotFoundError: No module named 'rclpy'"),
     _lab("overlay_not_sourced", msg("The package is not found in this terminal"), FRESH,
          msg("cd ~/ros2_ws && source install/local_setup.bash (in every new terminal). If that "
@@ -89,8 +89,7 @@ KINDS = (
     _lab("package_name", msg("The package's name is not as ROS wants it"),
          msg("Names of packages have small letters, digits and underscores, and begin with a "
              "letter; a dash cannot be in the name of a Python module."),
-         msg("Delete the folder and make the package again with a name such as "
-             "my_robot_controller."),
+         msg("Delete the folder and make the package again with a name such as my_package."),
          links.PACKAGE_NAMES, seen=r"does not follow (?:the )?naming conventions"),
     _lab("nested_package", msg("A package lies inside another one"),
          msg("colcon stops at the first package.xml on its way down: the inner package is never "

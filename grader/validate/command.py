@@ -12,7 +12,6 @@ from pathlib import Path
 from grader.checks.all import CHECKS
 from grader.errors import UsageError
 from grader.mistakes.catalogue import CATALOGUE
-from grader.ordering import assignment_file
 from grader.runner import Order
 from grader.submission import Submission
 from grader.validate.automatic import generate
@@ -101,9 +100,9 @@ def collect(wish: Wish, original: Tree) -> list[Mutant]:
     return [*written.mutants, *explained]
 
 
-def starter_of(assignment: str) -> Path | None:
-    """Return what students of an assignment (an id, or the path of its file) begin with."""
-    starter = assignment_file(assignment).parent / "starter"
+def starter_of(file: Path) -> Path | None:
+    """Return what students of an assignment (its file) begin with."""
+    starter = file.parent / "starter"
     return starter if starter.is_dir() else None
 
 

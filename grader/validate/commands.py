@@ -7,10 +7,11 @@ from pathlib import Path
 import click
 
 from grader import options
+from grader.errors import UsageError
 
 
 @click.command()
-@click.argument("assignment", metavar="ASSIGNMENT")
+@click.argument("assignment", metavar="[ASSIGNMENT]", required=False)
 @click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
 @click.option("--workers", type=click.IntRange(min=1), help="How many are marked at once.")
 @click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
@@ -25,7 +26,7 @@ from grader import options
 @options.sandbox
 @options.limits
 def validate(
-    assignment: str,
+    assignment: str | None,
     static: bool,
     workers: int | None,
     only: str,
@@ -37,20 +38,30 @@ def validate(
 ) -> int:
     """Mark an assignment's own solution, starter and mutants: does it mark what it claims to?
 
+    ASSIGNMENT is its id, or the path of an assignment.yaml (default: the course's only one).
+
     Exit status: 0 everything is as expected, 1 something is not.
     """
-    from grader.ordering import KEYS  # noqa: PLC0415
+    from grader.lessons import assignment_file  # noqa: PLC0415
+    from grader.lessons import own_keys  # noqa: PLC0415
     from grader.ordering import make_orders  # noqa: PLC0415
     from grader.validate import command  # noqa: PLC0415
     from grader.validate import matrix  # noqa: PLC0415
 
+    file = assignment_file(assignment)
     order, *others = make_orders(Path(), assignment, distro, sandbox, limits, keys=keys, lang="en")
     if others:
         raise click.UsageError("validate marks on one distro: name one")
+    folder = keys or own_keys(file)
+    if folder is None:
+        raise UsageError(
+            f"it is not said where the solution of {order.assignment.id} is",
+            remedy="Name the instructor's folder of the assignment with --keys (make: KEYS=…).",
+        )
     wish = command.Wish(
         order=order,
-        keys=keys or KEYS / order.assignment.id,
-        starter=command.starter_of(assignment),
+        keys=folder,
+        starter=command.starter_of(file),
         static=static,
         workers=workers or 0,
         only=only,

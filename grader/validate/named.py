@@ -6,7 +6,7 @@
         check: source.exec_bit
         mistake: source.not_executable
         edits:
-          - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}
+          - {chmod: my_package/my_node.py, mode: "0644"}
     equivalent:
       - {mutant: "name of an automatic mutant", why: "why it is right all the same"}
 

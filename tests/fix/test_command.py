@@ -127,7 +127,7 @@ def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
         ([root, "--check", "package.marke"], "did you mean 'package.marker'?"),
         ([root, "--assignment", "hello_tme"], "hello_time"),
         ([root, "--distro", "jazzy,kilted"], "one distro"),
-        ([], "path/to/my_robot_controller"),
+        ([], "path/to/my_package"),
     ):
         done = stage.run(
             stage.grader("fix", "--apply", "--no-run", *words),

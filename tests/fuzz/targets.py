@@ -123,13 +123,13 @@ def terminal(found: bytes) -> None:
     error, _ = python_error(shown.transcript, "my_first_node.py")
     source = read_node(RIGHT[NODE])
     assert source is not None
-    recognise(Raised(error, NODE, None, source, ASSIGNMENT.node_name, 1.0))
+    recognise(Raised(error, NODE, None, source, ASSIGNMENT))
 
 
 def diagnosis(found: bytes) -> None:
     source = read_node(found)
     if source is not None:
-        suspect = Suspect(source, NODE, ASSIGNMENT.node_name, 1.0, 0, 1)
+        suspect = Suspect(source, NODE, ASSIGNMENT)
         for look in LOOKS.values():
             told = look(suspect)
             assert told is None or told.kind in CATALOGUE

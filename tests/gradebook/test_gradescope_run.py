@@ -31,6 +31,7 @@ from grader.runner import grade
 from grader.submission import take_in
 from grader.validate.tree import Replace
 from tests import stage
+from tests import weather
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.gradebook.schemas import GRADESCOPE
@@ -250,6 +251,19 @@ def test_an_assignment_of_the_instructor_s_own_goes_in(tmp_path: Path) -> None:
     with zipfile.ZipFile(BytesIO(gradescope_zip(assignment=str(own)))) as archive:
         assert archive.read("assignment/own assignment.yaml") == own.read_bytes()
         assert b"--assignment 'assignment/own assignment.yaml'" in archive.read("run_autograder")
+
+
+def test_another_courses_assignment_goes_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    course = weather.write_course(tmp_path)
+    monkeypatch.setenv("GRADER_COURSE", str(course))
+    for assignment in (None, "readings"):
+        with zipfile.ZipFile(BytesIO(gradescope_zip(assignment=assignment))) as archive:
+            own = (course / "readings" / "assignment.yaml").read_bytes()
+            assert archive.read("assignment/assignment.yaml") == own
+            said = archive.read("run_autograder")
+            assert b"--assignment assignment/assignment.yaml" in said
 
 
 def test_an_archive_of_nothing_is_refused(tmp_path: Path) -> None:

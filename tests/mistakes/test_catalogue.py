@@ -14,7 +14,9 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.catalogue import RANK
 from grader.mistakes.from_source import LOOKS
 from grader.mistakes.kind import Kind
+from grader.mistakes.links import address
 from grader.mistakes.recognise import filled
+from grader.ros.distro import distros
 from tests.corpus.broken import BROKEN
 from tests.corpus.hostile import HOSTILE
 
@@ -92,9 +94,12 @@ def test_an_entry_can_be_read_in_every_language(kind: Kind) -> None:
 
 @pytest.mark.parametrize("kind", entries())
 def test_an_entry_leads_to_the_documentation(kind: Kind) -> None:
-    parts = urlsplit(kind.link)
-    assert parts.scheme == "https"
-    assert parts.hostname in HOSTS
+    for distro in distros().values():
+        parts = urlsplit(address(kind.link, distro))
+        assert parts.scheme == "https"
+        assert parts.hostname in HOSTS
+        of_a_release = parts.hostname == "docs.ros.org"
+        assert not of_a_release or parts.path.startswith(f"/en/{distro.name}/")
 
 
 def test_a_cause_comes_before_what_it_causes() -> None:

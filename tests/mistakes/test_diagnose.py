@@ -18,11 +18,13 @@ from grader.locale.message import say
 from grader.mistakes.diagnose import diagnose
 from grader.mistakes.from_source import LOOKS
 from grader.mistakes.node_source import MOST_BYTES
+from grader.mistakes.wanted import words_of
 from grader.report.model import CheckResult
 from grader.report.model import Where
 from grader.running import Run
 from grader.submission import Submission
 from tests.corpus.build import SOLUTION
+from tests.static_bench import ASSIGNMENT
 from tests.static_bench import NODE
 from tests.static_bench import Bench
 
@@ -58,19 +60,13 @@ def evidence(bench: Bench, source: str, transcript: str = "") -> Evidence:
 
 
 def failed(mistake: str) -> Failed:
-    words: dict[str, str | int | float] = {
-        "line": "Hello time: 0",
-        "start": 0,
-        "step": 1,
-        "wanted": "1.0",
-    }
     return Failed(
         mistake,
         expected="a line",
         actual="no line",
         where=Where(file=NODE),
         params={"text": "Hello time: {self.counter_}"} if mistake == "run.wrong_text" else {},
-        words=words,
+        words={**words_of(ASSIGNMENT), "wanted": ASSIGNMENT.node_name},
     )
 
 

@@ -21,6 +21,7 @@ from grader.mistakes.suspect import Suspect
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE
+from tests.static_bench import ASSIGNMENT
 
 FILE = "my_robot_controller/my_first_node.py"
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
@@ -55,14 +56,14 @@ OTHERWISE = textwrap.dedent(
 def look(symptom: str, text: str) -> Finding | None:
     source = read_node(text.encode())
     assert source is not None
-    return LOOKS[symptom](Suspect(source, FILE, "my_first_node", 1.0, 0, 1))
+    return LOOKS[symptom](Suspect(source, FILE, ASSIGNMENT))
 
 
 def raised(error: str, text: str, line: int | None) -> Finding | None:
     source = read_node(text.encode())
     assert source is not None
     where = Where(file=FILE, line=line) if line else None
-    return recognise(Raised(error, FILE, where, source, "my_first_node", 1.0))
+    return recognise(Raised(error, FILE, where, source, ASSIGNMENT))
 
 
 def line_of(text: str, part: str) -> int:
@@ -227,11 +228,11 @@ def test_whatever_the_source_nothing_breaks(data: st.DataObject) -> None:
     if source is None:
         return
     for find in LOOKS.values():
-        found = find(Suspect(source, FILE, "my_first_node", 1.0, 0, 1))
+        found = find(Suspect(source, FILE, ASSIGNMENT))
         assert found is None or found.kind in CATALOGUE
     errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]
     error = data.draw(st.sampled_from(errors) | st.text(max_size=80))
-    found = recognise(Raised(error, FILE, Where(file=FILE, line=3), source, "n", 1.0))
+    found = recognise(Raised(error, FILE, Where(file=FILE, line=3), source, ASSIGNMENT))
     assert found is None or found.kind in CATALOGUE
 
 

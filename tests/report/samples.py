@@ -19,7 +19,7 @@ TITLES = {
     "source.exec_bit": ("The node's file is executable", 10),
     "source.shebang": ("The node's file begins with a shebang", 5),
     "build.colcon": ("colcon builds the package", 10),
-    "entry_point.mapping": ("setup.py maps test_node to the node's main function", 15),
+    "entry_point.mapping": ("setup.py maps test_node to the function that starts the node", 15),
     "entry_point.executable": ("ros2 run finds the executable", 5),
     "run.starts": ("The node starts and keeps running", 5),
     "run.node_name": ("The node is called my_first_node", 5),

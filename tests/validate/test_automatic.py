@@ -7,7 +7,7 @@ import ast
 import pytest
 
 from grader.assignment import load_assignment
-from grader.ordering import KEYS
+from grader.lessons import KEYS
 from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code
