@@ -109,6 +109,7 @@ class BubblewrapLab:
     def _mounts(self, visit: Visit) -> Iterator[str]:
         pythons = {p for p in self._pythons() if not p.is_relative_to("/usr")}
         places = [self._ros.inside, WORKSPACE, f"{ROOM}/lab", self._cached, *SCRATCH]
+        places.append(visit.lesson.place)
         for folder in parents(*places, *FILES, *SETTINGS, *map(str, pythons)):
             if not folder.startswith("/usr"):
                 yield from ("--perms", "0755", "--dir", folder)
@@ -124,15 +125,17 @@ class BubblewrapLab:
         yield from ("--perms", "0777", "--tmpfs", HOME)
         yield from ("--bind", str(visit.workspace.path), WORKSPACE)
         yield from ("--ro-bind", str(self._ros.path), self._ros.inside)
-        yield from self._course()
+        yield from self._course(visit)
 
-    def _course(self) -> Iterator[str]:
+    def _course(self, visit: Visit) -> Iterator[str]:
         """Yield the mounts of the lab's own programs, which `guide` and `check` are."""
         for name, place in (("lab", ROOT / "lab"), ("grader", ROOT / "grader")):
             yield from ("--ro-bind", str(place), f"{ROOM}/{name}")
         yield from ("--ro-bind", sys.prefix, f"{ROOM}/.venv")
         keys = f"{ROOM}/grader/keys"
         yield from ("--tmpfs", keys, "--remount-ro", keys)  # the solutions stay outside
+        if visit.lesson.folder is not None:
+            yield from ("--ro-bind", str(visit.lesson.folder), visit.lesson.place)
         if self._ros.kind == "wheels":
             # `check` looks for the prefix where the grader keeps what it has made
             yield from ("--symlink", self._ros.inside, self._cached)

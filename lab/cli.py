@@ -49,28 +49,31 @@ def main(argv: list[str] | None = None) -> int:
     show_default=True,
     help=msg("What the lab is made of: auto, docker or bubblewrap."),
 )
+@options.assignment
 @options.lang
 @click.argument("words", nargs=-1, type=click.UNPROCESSED, metavar="[-- COMMAND...]")
 def command(
     distro: str,
     workspace: Path | None,
     sandbox: str,
+    assignment: str | None,
     lang: str | None,
     words: tuple[str, ...],
 ) -> int:
     """Open the lab on this terminal."""
     from grader.ros.distro import find_distro  # noqa: PLC0415 - --help must not pay for it
     from lab.choose import choose  # noqa: PLC0415
+    from lab.lesson import lesson_meant  # noqa: PLC0415
     from lab.visit import Visit  # noqa: PLC0415
     from lab.workspace import prepare  # noqa: PLC0415
 
     speak = Speaker(lang or chosen_language(os.environ))
     with errors_in(speak.lang):
         found = find_distro(distro)
+        lesson = lesson_meant(assignment)
         enter = choose(sandbox, found, tell=lambda text: _tell(speak(text)))
-        status = enter(
-            Visit(distro=found, workspace=prepare(workspace), command=words, lang=speak.lang)
-        )
+        visit = Visit(found, prepare(workspace), lesson, command=words, lang=speak.lang)
+        status = enter(visit)
     interactive = not words and sys.stdin.isatty()
     return 0 if interactive else status  # what a shell's last command said is no fault of the lab
 

@@ -1,5 +1,5 @@
-"""The lab in a Docker container: one container for one workspace and distro, and as many terminals
-in it as are opened. It ends with the last of them (`lab/keeper.py`).
+"""The lab in a Docker container: one container for one workspace, distro and course, and as many
+terminals in it as are opened. It ends with the last of them (`lab/keeper.py`).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import secrets
 import sys
 import tarfile
 import time
+from collections.abc import Iterator
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -127,7 +128,7 @@ class ContainerLab:
                 network_mode="bridge",
                 shm_size=SHARED_MEMORY,
                 tmpfs={HOME: f"exec,mode=0755,uid={owner.uid},gid={owner.gid}"},
-                mounts=[Mount(WORKSPACE, str(visit.workspace.path), type="bind")],
+                mounts=list(_mounts(visit)),
             )
         except APIError as error:
             if error.status_code == 409:  # the name is taken
@@ -214,9 +215,19 @@ def _user(visit: Visit) -> str:
     return f"{visit.workspace.owner.uid}:{visit.workspace.owner.gid}"
 
 
+def _mounts(visit: Visit) -> Iterator[Mount]:
+    yield Mount(WORKSPACE, str(visit.workspace.path), type="bind")
+    if visit.lesson.folder is not None:
+        lesson = str(visit.lesson.folder)
+        yield Mount(visit.lesson.place, lesson, type="bind", read_only=True)
+
+
 def _hash(visit: Visit) -> str:
+    """Return what tells labs apart: what is mounted in a container cannot be changed any more."""
     owner = visit.workspace.owner
     text = f"{visit.workspace.path}\0{owner.uid}\0{owner.gid}"
+    if visit.lesson.folder is not None:
+        text += f"\0{visit.lesson.folder}"
     return hashlib.sha256(os.fsencode(text)).hexdigest()[:16]
 
 

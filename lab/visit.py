@@ -11,6 +11,7 @@ from grader.locale.speaker import SOURCE
 from grader.ros.distro import Distro
 from grader.sandbox.base import HOME
 from grader.sandbox.base import PATH
+from lab.lesson import OpenedLesson
 from lab.workspace import Student
 from lab.workspace import Workspace
 
@@ -33,6 +34,7 @@ class Visit:
 
     distro: Distro
     workspace: Workspace
+    lesson: OpenedLesson
     command: tuple[str, ...] = ()
     lang: str = SOURCE
 
@@ -62,6 +64,7 @@ class Visit:
             "ROS_DISTRO": self.distro.name,
             "LAB_WORKSPACE": str(self.workspace.path),
             OWN: self.lang,
+            **self.lesson.environment,
         }
         return own | {name: caller[name] for name in KEPT if caller.get(name)}
 

@@ -17,11 +17,13 @@ from grader import options
 from grader.assignment import load_assignment
 from grader.entry import run
 from grader.errors import UsageError
+from grader.lessons import assignment_file
 from grader.locale.message import msg
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import chosen_language
 from grader.locale.speaker import errors_in
+from grader.ros.distro import DEFAULT
 from lab.guide.lesson import Lesson
 from lab.guide.lesson import Step
 from lab.guide.lesson import lesson_file
@@ -30,7 +32,6 @@ from lab.guide.progress import Place
 from lab.guide.progress import current
 from lab.guide.progress import progress
 
-COURSE = Path(__file__).resolve().parent.parent / "course"
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
 WIDEST = 96  # columns; longer lines are hard to read
 
@@ -55,16 +56,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     show_default=True,
     help=msg("The workspace to look at."),
 )
+@options.assignment
 @options.lang
 @click.argument("what", required=False, metavar="[N|list|all]")
-def command(workspace: Path, lang: str | None, what: str | None) -> None:
+def command(workspace: Path, assignment: str | None, lang: str | None, what: str | None) -> None:
     """Print a step of the lesson."""
     speak = Speaker(lang or chosen_language(os.environ))
-    distro = os.environ.get("ROS_DISTRO") or "jazzy"
-    lesson = read_lesson(lesson_file(COURSE / "hello_time", speak.lang), distro=distro)
-    wanted = load_assignment(COURSE / "hello_time" / "assignment.yaml")
-    found = progress(Place(workspace.expanduser(), wanted, os.environ))
+    distro = os.environ.get("ROS_DISTRO") or DEFAULT
     with errors_in(speak.lang):
+        file = assignment_file(assignment)
+        wanted = load_assignment(file)
+        lesson = read_lesson(lesson_file(file.parent, speak.lang), distro=distro)
+        found = progress(Place(workspace.expanduser(), wanted, os.environ), lesson.steps)
         _show(what, _console(), lesson, [speak(action) for action in found], speak)
 
 
@@ -85,27 +88,34 @@ def _show(
         for step in lesson.steps:
             _show_step(console, step, lesson, speak)
     else:
-        step = lesson.steps[(_number(what, lesson) if what else current(found)) - 1]
-        _show_step(console, step, lesson, speak)
+        place = _place(what, lesson) if what else current(found)
+        _show_step(console, lesson.steps[place - 1], lesson, speak)
         if what is None:
-            _show_next(console, found[step.number - 1], speak)
+            _show_next(console, found[place - 1], speak)
 
 
-def _number(word: str, lesson: Lesson) -> int:
-    if word.isdecimal() and 1 <= int(word) <= len(lesson.steps):
-        return int(word)
+def _place(word: str, lesson: Lesson) -> int:
+    """Return the place (from 1) of the step with a number."""
+    if word.isdecimal():
+        for place, step in enumerate(lesson.steps, start=1):
+            if step.number == int(word):
+                return place
     raise UsageError(
         say("there is no step '{word}'", word=word),
-        remedy=say("guide 1 to guide {last}, guide list, or guide all.", last=len(lesson.steps)),
+        remedy=say(
+            "guide {first} to guide {last}, guide list, or guide all.",
+            first=lesson.steps[0].number,
+            last=lesson.steps[-1].number,
+        ),
     )
 
 
 def _show_list(console: Console, lesson: Lesson, found: Sequence[str], speak: Speaker) -> None:
     here = current(found)
-    for step in lesson.steps:
-        done = not found[step.number - 1]
-        mark = "x" if done else ">" if step.number == here else " "
-        style = "green" if done else "bold" if step.number == here else ""
+    for place, step in enumerate(lesson.steps, start=1):
+        done = not found[place - 1] and (bool(step.done) or place < here)
+        mark = "x" if done else ">" if place == here else " "
+        style = "green" if done else "bold" if place == here else ""
         console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
     _show_next(console, found[here - 1], speak)
 
@@ -141,4 +151,4 @@ def _show_markdown(console: Console, text: str) -> None:
 
 def _show_next(console: Console, action: str, speak: Speaker) -> None:
     label = speak(say("Next: "))
-    console.print(Text.assemble((label, "bold green"), action), soft_wrap=True)
+    console.print(Text.assemble((label, "bold green"), action or "check"), soft_wrap=True)

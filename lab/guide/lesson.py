@@ -1,4 +1,8 @@
-"""The lesson as its steps; each is a section `## N. Title` of lesson.md."""
+"""The lesson as its steps; each is a section `## N. Title` of lesson.md.
+
+The line below the heading may say how the guide tells that the step is done:
+`<!-- done: package -->`, by a name of `lab.guide.progress.STEPS`. Markdown does not show it.
+"""
 
 from __future__ import annotations
 
@@ -6,17 +10,26 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from grader.errors import UsageError
+from grader.locale.message import say
+from grader.ros.distro import distros
+
+TEXT = "lesson.md"
 HEADING = re.compile(r"^## (\d+)\. (.+)$", re.MULTILINE)
-WRITTEN_FOR = "/opt/ros/jazzy"
+DONE = re.compile(r"\A\s*<!-- done: ([^>\n]{1,80}?) -->\s*")
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `text` is Markdown, without the heading."""
+    """One step: `text` is Markdown, without the heading; `done` names what tells that it is done.
+
+    An empty `done`: nothing tells (a step to read or to think about).
+    """
 
     number: int
     title: str
     text: str
+    done: str = ""
 
 
 @dataclass(frozen=True)
@@ -27,16 +40,43 @@ class Lesson:
     steps: tuple[Step, ...]
 
 
-def lesson_file(course: Path, lang: str) -> Path:
+def lesson_file(folder: Path, lang: str) -> Path:
     """Return the lesson in a language, `lesson.<lang>.md`; without one, the English."""
-    own = course / f"lesson.{lang}.md"
-    return own if own.is_file() else course / "lesson.md"
+    own = folder / f"lesson.{lang}.md"
+    return own if own.is_file() else folder / TEXT
 
 
 def read_lesson(file: Path, *, distro: str) -> Lesson:
-    """Return the lesson, with the commands of this distro."""
-    text = file.read_text(encoding="utf-8").replace(WRITTEN_FOR, f"/opt/ros/{distro}")
-    introduction, *parts = HEADING.split(text)
+    """Return the lesson, with the commands and the documentation of this distro.
+
+    UsageError if there is none, or none with steps.
+    """
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        text = ""
+    introduction, *parts = HEADING.split(_of_distro(text, distro))
     sections = zip(parts[0::3], parts[1::3], parts[2::3])
-    steps = tuple(Step(int(number), title, body.strip()) for number, title, body in sections)
+    steps = tuple(_step(int(number), title, body) for number, title, body in sections)
+    if not steps:
+        raise UsageError(
+            say("there is no lesson with steps in {file}", file=str(file)),
+            remedy=say("A step begins with a line '## 1. Title'. `check` works without a lesson."),
+        )
     return Lesson(introduction.strip(), steps)
+
+
+def _step(number: int, title: str, body: str) -> Step:
+    mark = DONE.match(body)
+    text = body[mark.end() :] if mark is not None else body
+    return Step(number, title, text.strip(), mark[1].strip() if mark is not None else "")
+
+
+def _of_distro(text: str, distro: str) -> str:
+    """Return a text with what names one release of ROS 2 (its paths, its pages) naming another."""
+    known = distros()
+    for other in known.values():
+        text = text.replace(f"/opt/ros/{other.name}", f"/opt/ros/{distro}")
+        if distro in known:
+            text = text.replace(other.documentation, known[distro].documentation)
+    return text

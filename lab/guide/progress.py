@@ -1,7 +1,8 @@
 """How far a workspace is, told from its files and from this terminal; nothing else is remembered.
 
-Each step of the lesson has one function here. It returns the next thing to do, or "" if the step
-is done. It asks only whether the student can go on; whether it is right is what `check` tells.
+A step of a lesson names one function here (`<!-- done: package -->`). It returns the next thing to
+do, or "" if the step is done. It asks only whether the student can go on; whether it is right is what
+`check` tells.
 """
 
 from __future__ import annotations
@@ -9,14 +10,19 @@ from __future__ import annotations
 import ast
 import os
 from collections.abc import Callable
+from collections.abc import Iterable
 from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.assignment import Assignment
+from grader.errors import UsageError
 from grader.locale.message import joined
 from grader.locale.message import say
+from grader.mistakes.likeness import meant
+from grader.mistakes.likeness import nearest
+from grader.ros.distro import DEFAULT
 from grader.source.entry_points import from_setup_cfg
 from grader.source.entry_points import from_setup_py
 from grader.source.python import PythonFault
@@ -24,6 +30,7 @@ from grader.source.python import parse_python
 from grader.source.setup_cfg import SetupCfgFault
 from grader.source.setup_cfg import read_setup_cfg
 from grader.source.setup_py import read_setup_py
+from lab.guide.lesson import Step
 
 BUILD = "cd ~/ros2_ws && colcon build --symlink-install"
 MOST_BYTES = 200_000
@@ -53,20 +60,37 @@ class Place:
         return any((place / path).exists() for place in (install / self.wanted.package, install))
 
 
-def progress(place: Place) -> tuple[str, ...]:
-    """Return for each step the next thing to do in it, "" where it is done."""
-    return tuple(step(place) for step in STEPS)
+def progress(place: Place, steps: Iterable[Step]) -> tuple[str, ...]:
+    """Return for each step the next thing to do in it, "" where it is done or nothing tells.
+
+    UsageError for a step that names what the guide cannot tell.
+    """
+    return tuple(_told(step)(place) if step.done else "" for step in steps)
 
 
 def current(found: Sequence[str]) -> int:
-    """Return the number of the first step that is not done."""
-    return next(number for number, action in enumerate(found, start=1) if action)
+    """Return the place (from 1) of the first step that is not done; the last one if all are."""
+    return next((n for n, action in enumerate(found, start=1) if action), len(found))
+
+
+def _told(step: Step) -> Told:
+    if step.done in STEPS:
+        return STEPS[step.done]
+    raise UsageError(
+        say(
+            "step {number} of the lesson names '{name}', which the guide cannot tell",
+            number=step.number,
+            name=step.done,
+        )
+        + meant(nearest(step.done, STEPS)),
+        remedy=say("Known: {names}.", names=", ".join(STEPS)),
+    )
 
 
 def _terminal(place: Place) -> str:
     if place.environment.get("AMENT_PREFIX_PATH"):
         return ""
-    distro = place.environment.get("ROS_DISTRO") or "jazzy"
+    distro = place.environment.get("ROS_DISTRO") or DEFAULT
     return f"source /opt/ros/{distro}/setup.bash"
 
 
@@ -131,13 +155,14 @@ def _code(place: Place) -> str:
     calls = {_called(node) for node in ast.walk(tree) if isinstance(node, ast.Call)}
     functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
     if not any(_is_node(each) for each in ast.walk(tree)):
-        return say("{file} has no class that inherits from Node yet (part 3).", file=name)
+        return say("{file} has no class that inherits from Node yet.", file=name)
     if "create_timer" not in calls:
-        return say("The node in {file} has no timer yet (part 3).", file=name)
-    if place.wanted.target.rpartition(":")[2] not in functions:
-        return say("{file} has no function main yet (part 5).", file=name)
+        return say("The node in {file} has no timer yet.", file=name)
+    if place.wanted.function not in functions:
+        function = place.wanted.function
+        return say("{file} has no function {function} yet.", file=name, function=function)
     if not any(call.startswith("spin") for call in calls):
-        return say("Nothing in {file} spins yet: the node would end at once (part 5).", file=name)
+        return say("Nothing in {file} spins yet: the node would end at once.", file=name)
     return ""
 
 
@@ -182,10 +207,20 @@ def _run(place: Place) -> str:
     return joined(run, then, by="   ")
 
 
-STEPS: tuple[Callable[[Place], str], ...] = (
-    *(_terminal, _workspace, _package, _first_build, _file),
-    *(_code, _entry_point, _second_build, _overlay, _run),
-)
+Told = Callable[[Place], str]
+STEPS: Mapping[str, Told] = {
+    "terminal": _terminal,
+    "workspace": _workspace,
+    "package": _package,
+    "package_build": _first_build,
+    "node_file": _file,
+    "node": _code,
+    "entry_point": _entry_point,
+    "executable": _second_build,
+    "overlay": _overlay,
+    "run": _run,
+}
+"""What the guide can tell, by the name that a lesson gives to it."""
 
 
 def _read(path: Path) -> bytes:
