@@ -13,9 +13,9 @@ import pytest
 from grader.limits import Limits
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
-from grader.ros.prefix import find_ros
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent
 pytest_plugins = ["tests.site.fixtures"]
@@ -29,12 +29,12 @@ os.environ["LC_ALL"] = "C.UTF-8"
 @pytest.fixture(scope="session")
 def ros_jazzy() -> Ros:
     """ROS jazzy from PyPI's wheels (made once; several test processes at once make one)."""
-    return find_ros(find_distro("jazzy"))
+    return proven_ros(find_distro("jazzy"))
 
 
 @pytest.fixture(scope="session")
 def ros_kilted() -> Ros:
-    return find_ros(find_distro("kilted"))
+    return proven_ros(find_distro("kilted"))
 
 
 @pytest.fixture(scope="session")
