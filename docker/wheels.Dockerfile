@@ -27,8 +27,9 @@ RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
  && .venv/bin/pip install -q --require-hashes --only-binary :all: -r grader/requirements.txt
 COPY grader/__init__.py grader/errors.py grader/
 COPY grader/locale/__init__.py grader/locale/message.py grader/locale/
-COPY grader/ros/__init__.py grader/ros/cache.py grader/ros/distro.py grader/ros/prefix.py \
-     grader/ros/prefix_texts.py grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
+COPY grader/ros/__init__.py grader/ros/cache.py grader/ros/distro.py grader/ros/making.py \
+     grader/ros/prefix.py grader/ros/prefix_texts.py grader/ros/scripts.py grader/ros/distros.toml \
+     grader/ros/setup.bash.in grader/ros/
 COPY grader/ros/locks grader/ros/locks
 COPY grader/ros/ros2_command grader/ros/ros2_command
 ARG DISTRO=jazzy
@@ -36,11 +37,14 @@ RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
  && mkdir -p /opt/ros \
  && GRADER_CACHE=/cache .venv/bin/python -c "from grader.ros.distro import find_distro; \
 from grader.ros.prefix import wheels_prefix; \
-wheels_prefix(find_distro('$DISTRO')).rename('/opt/ros/$DISTRO')"
+wheels_prefix(find_distro('$DISTRO'), prove=lambda ros: None).rename('/opt/ros/$DISTRO')"
 
 FROM python AS wheels
 COPY --from=prefix /opt/ros /opt/ros
 ARG DISTRO=jazzy
+# the proof that its programs run, here where they will
+RUN bash -c ". /opt/ros/$DISTRO/setup.bash && colcon build --help && ros2 --help && python3 -c 'import rclpy.node; rclpy.init'" \
+      > /dev/null
 ENV ROS_DISTRO=${DISTRO} LANG=C.UTF-8
 LABEL ros2-teaching-lab.distro="${DISTRO}" \
       ros2-teaching-lab.ros="wheels" \

@@ -74,9 +74,9 @@ def find_python(asked: str) -> str:
 
 def stamp_of(python: str, locks: "list[str]") -> str:
     """Return what the environment is made of: interpreter and lock files."""
-    digest = hashlib.sha256(os.path.realpath(shutil.which(python) or python).encode())
+    digest = hashlib.sha256(os.fsencode(os.path.realpath(shutil.which(python) or python)))
     digest.update(repr(version_of(python)).encode())
-    digest.update(VENV.encode())
+    digest.update(os.fsencode(VENV))
     for lock in locks:
         with open(lock, "rb") as stream:
             digest.update(stream.read())
@@ -94,6 +94,11 @@ def read(path: str) -> str:
 
 def make_venv(python: str, lock: str, stamp: str) -> None:
     """Make `.venv` anew; its stamp is written last, so half a one is never taken for a whole."""
+    if os.pathsep in VENV:
+        fail(
+            "The path of this checkout has a '%s', which no Python environment can have: %s\n"
+            "Rename or move the folder." % (os.pathsep, ROOT)
+        )
     shutil.rmtree(VENV, ignore_errors=True)
     say("setting up the grader's Python environment in %s (once)" % VENV)
     made = subprocess.run(

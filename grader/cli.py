@@ -135,8 +135,11 @@ def prefix(distro: str) -> int:
     """Make the ROS prefix of a distro from PyPI's wheels, if it is not there, and say where it is."""
     from grader.ros.distro import find_distro  # noqa: PLC0415
     from grader.ros.prefix import wheels_prefix  # noqa: PLC0415
+    from grader.sandbox.proof import prove_ros  # noqa: PLC0415
 
-    found = wheels_prefix(find_distro(distro), say=lambda text: click.echo(text, err=True))
+    found = wheels_prefix(
+        find_distro(distro), prove=prove_ros, say=lambda text: click.echo(text, err=True)
+    )
     click.echo(found)
     return 0
 

@@ -19,11 +19,13 @@ from grader.observer import Watch
 from grader.probe_link import NodeSeen
 from grader.probe_link import ProbeError
 from grader.probe_link import ProbeLink
+from grader.sandbox.base import UNRUNNABLE
 from grader.sandbox.base import Sandbox
 from grader.terminal import Terminal
 
 UNSEEN_SECONDS = 5.0  # wall time after its first line in which a node is on the graph, if it is one
 COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen
+OWN_TRACEBACK = '/bin/ros2", line '  # of the command itself
 
 
 @dataclass
@@ -46,6 +48,12 @@ class Run:
     seconds: float = 0
     node_seconds: float | None = None
     first_line_seconds: float | None = None
+
+    @property
+    def doubts_ros2(self) -> bool:
+        """Whether `ros2` itself may not have run (the student's code can bring this about too)."""
+        unrunnable = self.status in UNRUNNABLE or OWN_TRACEBACK in self.transcript
+        return self.ended_by_itself and not self.nodes and unrunnable
 
 
 def ros2_run(assignment: Assignment) -> str:

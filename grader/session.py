@@ -15,6 +15,7 @@ from grader.probe_link import ProbeLink
 from grader.running import Run
 from grader.running import observe
 from grader.sandbox.base import Sandbox
+from grader.sandbox.proof import prove_again
 from grader.submission import Submission
 from grader.workspace import Build
 from grader.workspace import build
@@ -45,11 +46,16 @@ class Session:
         self.sandbox.close()
 
     def build(self, submission: Submission) -> Build:
-        """Build the package; the probe starts up beside it, on another core."""
+        """Build the package; the probe starts up beside it, on another core.
+
+        Raises BrokenRosError if it is colcon that does not run.
+        """
         begin = time.monotonic()
         self._probe = self._probe or ProbeLink(self.sandbox)
         try:
             made = build(self.sandbox, submission, package=self.assignment.package)
+            if made.doubts_colcon:
+                prove_again(self.sandbox)
         finally:
             self.timing["build"] += time.monotonic() - begin
         return replace(made, stopped_by=made.stopped_by or self._resource(made.status))
@@ -59,10 +65,13 @@ class Session:
 
         A run that would cost points for its timing is repeated too, with the clock in fine steps:
         neither the load of the machine nor a jump of the clock may look like the node's fault.
+        Raises BrokenRosError if it is ros2 that does not run.
         """
         begin = time.monotonic()
         try:
             run = self._run(tell)
+            if run.doubts_ros2:
+                prove_again(self.sandbox)
             if self._doubtful(run):
                 run = self._second_opinion(run, self._run(_unheard, fine=True))
             return run
@@ -81,6 +90,7 @@ class Session:
                 continue
             run.resource = run.resource or self.sandbox.resource_met()
             return run
+        prove_again(self.sandbox)
         raise Inconclusive(f"the probe failed {RUNS} times, the last time: {failure}")
 
     def _doubtful(self, run: Run) -> bool:

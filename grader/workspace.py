@@ -14,11 +14,14 @@ from dataclasses import dataclass
 from dataclasses import field
 
 from grader.errors import SurroundingsError
+from grader.sandbox.base import UNRUNNABLE
 from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
 from grader.submission import Submission
 
 BUILD = "colcon build --symlink-install"
+LAID_OUT = "grader: the workspace is laid out"  # said before any code of the student's runs
+SUMMARY = "\nSummary: "  # colcon's last words, however the packages fared
 MOST_LISTED = 2_000_000  # bytes of the listing of what was built
 INSPECT_SECONDS = 20.0
 HOOK = re.compile(r"^install/([^/]+)/share/\1/hook/ament_prefix_path\.")
@@ -54,6 +57,12 @@ class Build:
     stopped_by: str = ""
     files: dict[str, Installed] = field(default_factory=dict, repr=False)
     entry_points: str = ""
+
+    @property
+    def doubts_colcon(self) -> bool:
+        """Whether colcon itself may not have run (setup.py can bring this about as well)."""
+        ended = self.status != 0 and not self.stopped_by
+        return ended and (self.status in UNRUNNABLE or SUMMARY not in self.log)
 
     def is_installed(self, package: str) -> bool:
         """Whether ROS finds the package: its marker is in an index that the overlay names.
@@ -103,8 +112,8 @@ def _entry(name: str, kind: bytes, mode: int, now: int) -> tarfile.TarInfo:
 def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
     """Lay out the workspace and build it; SurroundingsError only where our own side failed."""
     script = (
-        "tar -xf - || exit 250; "
-        f'. "{sandbox.ros_path}/setup.bash" || exit 251; exec {BUILD} < /dev/null'
+        f'tar -xf - && . "{sandbox.ros_path}/setup.bash" || exit; '
+        f"echo '{LAID_OUT}'; exec {BUILD} < /dev/null"
     )
     outcome = sandbox.run(
         ["bash", "-c", script],
@@ -112,13 +121,14 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
         seconds=sandbox.limits.build_seconds,
     )
     log = outcome.output.decode("utf-8", errors="replace").replace("\r\n", "\n")
-    if outcome.status in (250, 251) and not outcome.stopped_by:
+    begun, laid_out, said = log.partition(f"{LAID_OUT}\n")
+    if not laid_out and not outcome.stopped_by:
         raise SurroundingsError(f"the workspace could not be laid out:\n{log[-2000:]}")
     files, entry_points = _inspect(sandbox)
     return Build(
         command=BUILD,
         status=outcome.status,
-        log=log,
+        log=begun + said,
         seconds=outcome.seconds,
         stopped_by=outcome.stopped_by,
         files=files,

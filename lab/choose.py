@@ -60,10 +60,10 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
 
 
 def _bubblewrap(distro: Distro, tell: Say) -> Enter:
-    from grader.ros.prefix import find_ros  # noqa: PLC0415
+    from grader.sandbox.proof import proven_ros  # noqa: PLC0415
     from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
 
-    return BubblewrapLab(find_ros(distro, say=tell)).enter
+    return BubblewrapLab(proven_ros(distro, say=tell)).enter
 
 
 def _without_docker(distro: Distro, error: SurroundingsError, tell: Say) -> Enter:

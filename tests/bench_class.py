@@ -15,7 +15,7 @@ from pathlib import Path
 
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
-from grader.ros.prefix import find_ros
+from grader.sandbox.proof import proven_ros
 from grader.submission import take_in
 from tests.batch import classes
 from tests.bench import ASSIGNMENT
@@ -32,7 +32,7 @@ def main() -> int:
     options.add_argument("--large", type=int, default=200, help="packages of the large class")
     options.add_argument("--stubbed", type=int, default=2000, help="packages without a sandbox")
     asked = options.parse_args()
-    ros = find_ros(find_distro("jazzy"))
+    ros = proven_ros(find_distro("jazzy"))
     bounds = []
     with tempfile.TemporaryDirectory() as work:
         place = Path(work)

@@ -14,9 +14,9 @@ from grader import lessons
 from grader.limits import Limits
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
-from grader.ros.prefix import find_ros
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent
 pytest_plugins = ["tests.site.fixtures"]
@@ -33,12 +33,12 @@ for _name in (lessons.COURSE, lessons.LESSON):
 @pytest.fixture(scope="session")
 def ros_jazzy() -> Ros:
     """ROS jazzy from PyPI's wheels (made once; several test processes at once make one)."""
-    return find_ros(find_distro("jazzy"))
+    return proven_ros(find_distro("jazzy"))
 
 
 @pytest.fixture(scope="session")
 def ros_kilted() -> Ros:
-    return find_ros(find_distro("kilted"))
+    return proven_ros(find_distro("kilted"))
 
 
 @pytest.fixture(scope="session")

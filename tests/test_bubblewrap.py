@@ -38,9 +38,9 @@ KILLED = """
 import sys, subprocess
 from grader.limits import Limits
 from grader.ros.distro import find_distro
-from grader.ros.prefix import find_ros
+from grader.sandbox.proof import proven_ros
 from grader.sandbox.bubblewrap import Bubblewrap
-with Bubblewrap(find_ros(find_distro("jazzy")), Limits()) as opened:
+with Bubblewrap(proven_ros(find_distro("jazzy")), Limits()) as opened:
     command = opened.command(["bash", "-c", "echo up; setsid MARK & MARK"])
     subprocess.run(command)
 """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import sys
 from pathlib import Path
 
 import pytest
@@ -165,16 +166,21 @@ def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
     assert not (stage.ROOT / "HACKED").exists()
 
 
-def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path) -> None:
-    """A set-up that was killed half-way has no stamp, and is not taken for a whole one."""
-    checkout = tmp_path / "checkout"
-    checkout.mkdir()
+def copy_checkout(folder: Path) -> Path:
+    """Copy of this checkout what marking needs, without what was made in it."""
+    folder.mkdir(parents=True)
     for name in ("Makefile", "grader", "lab", "tests"):
         source = stage.ROOT / name
         if source.is_dir():
-            shutil.copytree(source, checkout / name, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
         else:
-            shutil.copy(source, checkout / name)
+            shutil.copy(source, folder / name)
+    return folder
+
+
+def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path) -> None:
+    """A set-up that was killed half-way has no stamp, and is not taken for a whole one."""
+    checkout = copy_checkout(tmp_path / "checkout")
     half = checkout / ".venv" / "bin"
     half.mkdir(parents=True)
     (half / "python").write_text("#!/bin/sh\nexit 1\n")
@@ -187,3 +193,38 @@ def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path
         status, out, err = make("grade", f"STUDENT={tmp_path / 'solution'}", *words, cwd=checkout)
         assert status == 0
         assert "setting up" not in err
+
+
+def test_a_path_that_no_environment_can_have_is_told(tmp_path: Path) -> None:
+    """venv refuses a colon, since PATH is a list with colons between its folders."""
+    folder = tmp_path / "a:b"
+    for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(stage.ROOT / name, folder / name)
+    done = stage.run([sys.executable, folder / "grader/bootstrap.py"])
+    assert done.returncode == 3
+    assert done.stderr.splitlines() == [
+        f"The path of this checkout has a ':', which no Python environment can have: {folder}",
+        "Rename or move the folder.",
+    ]
+    assert not (folder / ".venv").exists()
+
+
+@pytest.mark.full  # it makes an environment and a prefix
+@pytest.mark.prefix
+def test_a_bare_machine_marks_in_a_checkout_whose_path_no_shebang_can_name(tmp_path: Path) -> None:
+    place = tmp_path / f"some path ü {'l' * 130}"
+    checkout = copy_checkout(place / "checkout")
+    environment = {"GRADER_CACHE": "", "XDG_CACHE_HOME": str(place / "cache")}
+    command = ["make", "--no-print-directory", "grade", "SANDBOX=bubblewrap"]
+    command += [f"STUDENT={solution(place)}", f"OUT={place / 'out'}"]
+    first = stage.run(command, cwd=checkout, env=environment, timeout=600)
+    assert first.returncode == 0, first.stdout + first.stderr
+    assert "100 / 100" in first.stdout
+    assert "setting up the grader's Python environment" in first.stderr
+    (prefix,) = (place / "cache" / "ros2_teaching_lab" / "prefixes").glob("jazzy-*")
+    assert "is ready in" in first.stderr
+    # nothing in it needs the checkout that made it
+    shutil.rmtree(checkout / ".venv")
+    programs = [path for path in (prefix / "bin").iterdir() if path.is_file()]
+    assert [path.name for path in programs if b".venv" in path.read_bytes()] == []

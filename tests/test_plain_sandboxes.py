@@ -12,20 +12,23 @@ import pytest
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.limits import Limits
+from grader.ros.cache import cache_root
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
+from grader.ros.prefix import prefix_path
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.plain import Bare
 from tests import stage
+from tests.test_cli import solution
 
 ACCOUNT = """
 import json, sys
 from grader.limits import Limits
 from grader.ros.distro import find_distro
-from grader.ros.prefix import find_ros
+from grader.sandbox.proof import proven_ros
 from grader.sandbox.plain import Account
 mark = sys.argv[1]
-with Account(find_ros(find_distro("jazzy")), Limits(processes=60)) as opened:
+with Account(proven_ros(find_distro("jazzy")), Limits(processes=60)) as opened:
     def said(script, role="student", seconds=20):
         return opened.run(["bash", "-c", script], role=role, seconds=seconds).output.decode()
     out = {
@@ -64,7 +67,37 @@ def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> No
     assert not Path(said["folder"]).exists()
 
 
+TWO_ACCOUNTS = """
+from pathlib import Path
+from grader.limits import Limits
+from grader.ros.distro import find_distro
+from grader.sandbox.plain import Account
+from grader.sandbox.proof import proven_ros
+distro = find_distro("jazzy")
+link = Path("/opt/ros/jazzy")
+link.parent.mkdir()
+link.symlink_to("/what/a/killed/grader/left")
+for _ in range(2):
+    with Account(proven_ros(distro), Limits()) as first:
+        with Account(proven_ros(distro), Limits()) as second:
+            first.close()
+            script = '. "%s/setup.bash"; ros2 pkg prefix rclpy' % second.ros_path
+            said = second.run(["bash", "-c", script], seconds=20)
+            print(said.output.decode().strip() == second.ros_path)
+    link.unlink(missing_ok=True)  # then the first makes it, and removes it before the second ends
+"""
+
+
+@pytest.mark.full  # needs root, which `make test` does not
+def test_two_graders_with_accounts_do_not_need_each_others_link(ros_jazzy: Ros) -> None:
+    command = stage.as_root_of_a_container([sys.executable, "-c", TWO_ACCOUNTS])
+    done = stage.run(command)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["True", "True"]
+
+
 def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GRADER_CACHE", str(cache_root()))  # another user's would be made now
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     with pytest.raises(SurroundingsError, match="needs root"):
         open_sandbox("account", find_distro("jazzy"), Limits())
@@ -94,6 +127,23 @@ def test_without_a_sandbox_the_environment_is_still_a_list(
             ["bash", "-c", f'. "{opened.ros_path}/setup.bash"; ros2 pkg prefix rclpy'], seconds=10
         )
         assert ros.output.decode().strip() == opened.ros_path
+
+
+@pytest.mark.prefix
+@pytest.mark.parametrize("name", ["some path ü", "l" * 150, "it's $HOME `id`", 'a "b":c', "a\nb"])
+def test_no_sandbox_needs_a_tame_path(
+    name: str, ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Neither of the prefix nor for temporary files: the student's own scripts name a short one."""
+    odd = tmp_path / name
+    monkeypatch.setenv("GRADER_CACHE", str(odd / "cache"))
+    prefix = prefix_path(find_distro("jazzy"))
+    prefix.parent.mkdir(parents=True)
+    prefix.symlink_to(ros_jazzy.path)
+    command = stage.grader("grade", solution(tmp_path), "--sandbox", "none", "--out", odd / "out")
+    done = stage.run(command, env={"TMPDIR": str(odd)})
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 / 100" in done.stdout
 
 
 def test_auto_never_marks_without_a_sandbox(

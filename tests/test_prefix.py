@@ -18,6 +18,7 @@ from grader.ros.distro import distros
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.ros.prefix import prefix_path
+from grader.sandbox.proof import proven_ros
 from tests import stage
 
 SETUP_VARIABLES = {
@@ -28,9 +29,10 @@ SETUP_VARIABLES = {
 
 
 def sourced(prefix: Path, script: str, *, times: int = 1) -> str:
-    lines = [f'. "{prefix}/setup.bash"'] * times
+    lines = ['. "$0/setup.bash"'] * times
+    command = ["bash", "-c", "\n".join([*lines, script]), str(prefix)]
     done = subprocess.run(
-        ["env", "-i", "PATH=/usr/bin:/bin", "bash", "-c", "\n".join([*lines, script])],
+        ["env", "-i", "PATH=/usr/bin:/bin", *command],
         capture_output=True,
         text=True,
         check=True,
@@ -57,6 +59,17 @@ def test_sourcing_twice_changes_nothing_more(jazzy_prefix: Path) -> None:
     once, twice = (environment(sourced(jazzy_prefix, "env", times=n)) for n in (1, 2))
     assert once.pop("_", "") == twice.pop("_", "")
     assert once == twice
+
+
+@pytest.mark.parametrize(
+    "name", ["some path ü", "it's", 'a "b"', "$HOME `id` $(id)", "back\\slash"]
+)
+def test_setup_bash_works_in_every_folder(name: str, jazzy_prefix: Path, tmp_path: Path) -> None:
+    prefix = tmp_path / name
+    prefix.symlink_to(jazzy_prefix)
+    said = sourced(prefix, 'printf "%s\\0" "$AMENT_PREFIX_PATH" "$PATH"; ros2 pkg prefix rclpy')
+    found = said.split("\0")
+    assert found == [str(prefix), f"{prefix}/bin:/usr/bin:/bin", f"{prefix}\n"]
 
 
 def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_path: Path) -> None:
@@ -100,7 +113,7 @@ def test_our_ros2_is_never_put_where_the_real_one_is(
         return real(tmp_path / "opt" / "ros") if words == ("/opt/ros",) else real(*words)
 
     monkeypatch.setattr(prefix, "Path", place)
-    found = prefix.find_ros(find_distro("jazzy"))
+    found = proven_ros(find_distro("jazzy"))
     assert (found.kind, found.path) == ("system", system)
     assert [p.name for p in system.rglob("*")] == ["setup.bash"]
 

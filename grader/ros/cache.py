@@ -21,6 +21,8 @@ MORE_SPACE = msg(
     "Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE to a folder on "
     "another disk."
 )
+NOT_REMOVED = msg("{path} is damaged and cannot be removed: {reason}")
+REMOVE = msg("Remove that folder, then run the command again.")
 
 
 def cache_root() -> Path:
@@ -61,13 +63,12 @@ def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
     old_umask = os.umask(0o022)  # other user ids inside a sandbox must be able to read it
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with locked(folder.parent / f".{folder.name}.lock", say=say):
+        with locked(_lock_of(folder), say=say):
             if folder.is_dir():
                 return False
-            for left in folder.parent.glob(f".{folder.name}.making-*"):
+            for left in folder.parent.glob(f"{_unfinished(folder)}*"):
                 shutil.rmtree(left, ignore_errors=True)
-            prefix = f".{folder.name}.making-"
-            staging = Path(tempfile.mkdtemp(prefix=prefix, dir=folder.parent))
+            staging = Path(tempfile.mkdtemp(prefix=_unfinished(folder), dir=folder.parent))
             staging.chmod(0o755)
             try:
                 make(staging)
@@ -85,3 +86,29 @@ def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
     finally:
         os.umask(old_umask)
     return True
+
+
+def discard(folder: Path, *, unless: Callable[[Path], bool], say: Say) -> None:
+    """Take a damaged folder out of the cache, unless it is not that (any more).
+
+    Who still uses its files keeps them until the next `make_once` clears them away. Raises
+    SurroundingsError if the cache cannot be written.
+    """
+    try:
+        with locked(_lock_of(folder), say=say):
+            if folder.is_dir() and not unless(folder):
+                folder.rename(tempfile.mkdtemp(prefix=_unfinished(folder), dir=folder.parent))
+    except OSError as error:
+        reason = str(error.strerror or error)
+        raise SurroundingsError(
+            Message(NOT_REMOVED, {"path": str(folder), "reason": reason}), remedy=Message(REMOVE)
+        ) from error
+
+
+def _lock_of(folder: Path) -> Path:
+    return folder.parent / f".{folder.name}.lock"
+
+
+def _unfinished(folder: Path) -> str:
+    """Return how the names of the folders begin that the next `make_once` clears away."""
+    return f".{folder.name}.making-"

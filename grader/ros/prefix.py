@@ -3,19 +3,21 @@
 It is laid out like `/opt/ros/<distro>` of the Debian packages (`lib/pythonX.Y/site-packages` found
 by PYTHONPATH, shared libraries in `lib`), not as a virtual environment: so colcon and setup.py
 behave as under ROS's own, and no Python is started twice by the wheels' `.pth` file.
+
+A folder of that name in the cache is a prefix whose programs have been seen to run: it gets its
+name after that.
 """
 
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import json
 import os
 import platform
 import re
 import shutil
-import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,15 +26,17 @@ from grader.locale.message import Message
 from grader.ros import prefix_texts as texts
 from grader.ros.cache import Say
 from grader.ros.cache import cache_root
+from grader.ros.cache import discard
 from grader.ros.cache import make_once
 from grader.ros.distro import HERE
 from grader.ros.distro import Distro
+from grader.ros.making import COMMAND
+from grader.ros.making import SUPPLY
+from grader.ros.making import make_prefix
 
-FORMAT = 1  # raise it when the making below changes
+FORMAT = 2  # raise it when what `making` does changes
 PYTHONS = ("3.10", "3.11", "3.12", "3.13")  # those that PyPI has ROS wheels for
-COMMAND = HERE / "ros2_command"  # our `ros2`, installed as the module below
-COMMAND_MODULE = "wheels_ros2"
-SUPPLY = ("rclpy", "rmw", "colcon", "setuptools", "python")
+PROGRAMS = ("python3", "colcon", "ros2")  # of bin: those that a verdict starts
 
 
 @dataclass(frozen=True)
@@ -51,6 +55,14 @@ class Ros:
         return f"/opt/ros/{self.distro.name}"
 
 
+class BrokenRosError(SurroundingsError):
+    """A program of a ROS installation does not run."""
+
+
+Prove = Callable[[Ros], None]
+"""What starts the programs of a ROS installation and raises BrokenRosError if one does not run."""
+
+
 def base_interpreter() -> Path:
     """Return the Python behind the running (virtual) environment."""
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
@@ -61,15 +73,16 @@ def base_interpreter() -> Path:
     return Path(sys.executable).resolve()
 
 
-def find_ros(distro: Distro, *, say: Say = print) -> Ros:
-    """Return the ROS installation for a distro, making the wheels prefix if need be.
+def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
+    """Return the ROS installation for a distro; the wheels prefix is made and proven if need be.
 
     $GRADER_ROS chooses: `wheels`, `system` (an existing /opt/ros/<distro>) or `auto` (the system's
-    where it is there). Raises SurroundingsError where neither is to be had.
+    if it is there). Raises SurroundingsError if neither is available.
     """
     choice = os.environ.get("GRADER_ROS", "auto")
     system = Path("/opt/ros") / distro.name
-    is_system = (system / "setup.bash").is_file() and not (system / "wheels-prefix.json").is_file()
+    is_wheels = (system / "wheels-prefix.json").is_file()
+    is_system = (system / "setup.bash").is_file() and not is_wheels
     if choice == "system" or (choice == "auto" and is_system):
         if not is_system:
             raise SurroundingsError(
@@ -78,12 +91,10 @@ def find_ros(distro: Distro, *, say: Say = print) -> Ros:
             )
         python = Path("/usr/bin/python3").resolve()
         return Ros(distro, "system", system, python, _system_versions(system))
-    if choice in ("auto", "wheels") and (system / "wheels-prefix.json").is_file():
-        path, interpreter = system, (system / "bin" / "python3").resolve()  # in an image of ours
-    else:
-        path, interpreter = wheels_prefix(distro, say=say), base_interpreter()
-    versions = json.loads((path / "wheels-prefix.json").read_text(encoding="utf-8"))
-    return Ros(distro, "wheels", path, interpreter, versions)
+    # a link is the `account` sandbox's, which removes it again
+    if choice in ("auto", "wheels") and is_wheels and not system.is_symlink():
+        return _wheels(distro, system, (system / "bin" / "python3").resolve())  # an image of ours
+    return _wheels(distro, wheels_prefix(distro, prove=prove, say=say), base_interpreter())
 
 
 def prefix_path(distro: Distro) -> Path:
@@ -106,128 +117,67 @@ def prefix_path(distro: Distro) -> Path:
             ),
             remedy=Message(texts.OTHER_PYTHON),
         )
-    key = hashlib.sha256(f"{FORMAT} {base_interpreter()}".encode())
+    key = hashlib.sha256(b"%d " % FORMAT + os.fsencode(base_interpreter()))
     key.update(distro.lock.read_bytes())
     key.update((HERE / "setup.bash.in").read_bytes())
     for source in sorted(COMMAND.rglob("*")):
         if source.is_file() and source.suffix != ".pyc":
             key.update(str(source.relative_to(COMMAND)).encode() + source.read_bytes())
     tag = f"cp{python.replace('.', '')}-{platform.machine()}"
-    return cache_root() / "prefixes" / f"{distro.name}-{tag}-{key.hexdigest()[:16]}"
+    return _prefixes() / f"{distro.name}-{tag}-{key.hexdigest()[:16]}"
 
 
-def wheels_prefix(distro: Distro, *, say: Say = print) -> Path:
-    """Return the wheels prefix of a distro, made now if it is not in the cache."""
+def wheels_prefix(distro: Distro, *, prove: Prove, say: Say = print) -> Path:
+    """Return the wheels prefix of a distro, made and proven now if it is not in the cache.
+
+    Raises BrokenRosError if a program of it does not run, however often it is made.
+    """
     folder = prefix_path(distro)
+    if folder.is_dir() and not _is_whole(folder):
+        discard(folder, unless=_is_whole, say=say)
     if not folder.is_dir():
         say(Message(texts.MAKING, {"distro": distro.name}))
-        make_once(folder, lambda staging: _make(distro, staging, say), say=say)
+        make_once(folder, lambda staging: _make(distro, staging, prove, say), say=say)
         say(Message(texts.READY, {"distro": distro.name, "path": str(folder)}))
     return folder
 
 
-def _make(distro: Distro, staging: Path, say: Say) -> None:
-    python = f"{sys.version_info.major}.{sys.version_info.minor}"
-    _install(distro, staging, say)
-    site = staging / "lib" / f"python{python}" / "site-packages"
-    if not (site / "rclpy").is_dir():
-        raise SurroundingsError(f"pip did not install rclpy into {site}")
+def is_in_cache(ros: Ros) -> bool:
+    """Whether a ROS installation was made by the grader, which can make it again."""
+    return ros.path.parent == _prefixes()
+
+
+def _prefixes() -> Path:
+    return cache_root() / "prefixes"
+
+
+def _is_whole(folder: Path) -> bool:
+    """Whether the programs are there (the Python behind them may have been removed)."""
+    return all(os.access(folder / "bin" / name, os.X_OK) for name in PROGRAMS)
+
+
+def _make(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
+    try:
+        _make_proven(distro, staging, prove, say)
+    except BrokenRosError as broken:
+        say(Message(texts.MAKING_AGAIN, {"reason": broken.message}))
+        for entry in staging.iterdir():
+            if entry.is_dir() and not entry.is_symlink():
+                shutil.rmtree(entry)
+            else:
+                entry.unlink()
+        _make_proven(distro, staging, prove, say)
+
+
+def _make_proven(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
     interpreter = base_interpreter()
-    for start_up in site.glob("*.pth"):
-        start_up.unlink()  # PYTHONPATH would not read them; a virtual environment would
-    _link_libraries(staging, site)
-    _mend_scripts(staging / "bin", interpreter)
-    _link(staging / "bin" / "python3", str(interpreter))
-    _install_command(distro, site, staging / "bin" / "ros2", interpreter)
-    text = (HERE / "setup.bash.in").read_text(encoding="utf-8")
-    fill = {"@DISTRO@": distro.name, "@PYTHON@": python, "@PREFIX@": f"/opt/ros/{distro.name}"}
-    for mark, value in fill.items():
-        text = text.replace(mark, value)
-    for name in ("setup", "local_setup"):
-        for shell in ("bash", "sh", "zsh"):
-            (staging / f"{name}.{shell}").write_text(text, encoding="utf-8")
-    versions = _versions(site)
-    (staging / "wheels-prefix.json").write_text(json.dumps(versions, indent=1), encoding="utf-8")
+    make_prefix(distro, staging, interpreter, say=say)
+    prove(_wheels(distro, staging, interpreter))
 
 
-def _install(distro: Distro, staging: Path, say: Say) -> None:
-    lock = distro.lock
-    assert lock is not None
-    total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
-    command = [sys.executable, "-m", "pip", "install", "--prefix", str(staging)]
-    command += ["--ignore-installed", "--no-deps", "--require-hashes", "-r", str(lock)]
-    # empy 3.3.4 has no wheel: it is built with the pinned setuptools of this environment
-    command += ["--only-binary", ":all:", "--no-binary", "empy", "--no-build-isolation"]
-    command += ["--no-warn-script-location", "--disable-pip-version-check", "--no-input"]
-    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PYTHONHOME")}
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment
-    ) as pip:
-        assert pip.stdout is not None
-        tail: list[str] = []
-        seen = 0
-        for line in pip.stdout:
-            tail = [*tail[-14:], line]
-            if line.startswith("Collecting "):
-                seen += 1
-                if seen % 25 == 0:
-                    say(Message(texts.PROGRESS, {"seen": seen, "total": total}))
-            elif line.startswith("Installing collected"):
-                say(Message(texts.UNPACKING))
-    if pip.returncode:
-        raise SurroundingsError(
-            Message(texts.PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),
-            remedy=Message(texts.CHECK_NETWORK),
-        )
-
-
-def _link(path: Path, target: str) -> None:
-    path.unlink(missing_ok=True)
-    path.symlink_to(target)
-
-
-def _link_libraries(staging: Path, site: Path) -> None:
-    """Bring the wheels' bundled libraries into `lib`, so that one folder has them all."""
-    for library in site.glob("ros_*.libs/*"):
-        _link(staging / "lib" / library.name, os.path.relpath(library, staging / "lib"))
-
-
-def _mend_scripts(folder: Path, interpreter: Path) -> None:
-    """Point the scripts at the base interpreter: the environment that ran pip may go away."""
-    for script in folder.iterdir():
-        data = script.read_bytes() if script.is_file() else b""
-        first, _, rest = data.partition(b"\n")
-        if first.startswith(b"#!") and b"python" in first:
-            script.write_bytes(b"#!" + os.fsencode(interpreter) + b"\n" + rest)
-
-
-def _install_command(distro: Distro, site: Path, script: Path, interpreter: Path) -> None:
-    target = site / COMMAND_MODULE
-    shutil.copytree(COMMAND, target, ignore=shutil.ignore_patterns("__pycache__"))
-    (target / "distro").write_text(distro.name, encoding="utf-8")
-    compile_ = [str(interpreter), "-m", "compileall", "-q", str(target)]
-    subprocess.run(compile_, check=True)
-    script.write_text(
-        f"#!{interpreter}\n"
-        f"from {COMMAND_MODULE}.cli import main\n\n"
-        'if __name__ == "__main__":\n    raise SystemExit(main())\n',
-        encoding="utf-8",
-    )
-    script.chmod(0o755)
-
-
-def _versions(site: Path) -> dict[str, str]:
-    found = {
-        d.metadata["Name"]: d.version for d in importlib.metadata.distributions(path=[str(site)])
-    }
-    wanted = {
-        "rclpy": found.get("ros-rclpy", ""),
-        "rmw": f"rmw_fastrtps_cpp {found.get('ros-rmw-fastrtps-cpp', '')}",
-        "colcon": found.get("colcon-core", ""),
-        "setuptools": found.get("setuptools", ""),
-        "python": platform.python_version(),
-    }
-    return {name: wanted[name] for name in SUPPLY}
+def _wheels(distro: Distro, path: Path, interpreter: Path) -> Ros:
+    versions = json.loads((path / "wheels-prefix.json").read_text(encoding="utf-8"))
+    return Ros(distro, "wheels", path, interpreter, versions)
 
 
 def _system_versions(system: Path) -> dict[str, str]:

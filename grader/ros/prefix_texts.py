@@ -24,3 +24,22 @@ INSTALL = msg("Install it, or unset GRADER_ROS to use PyPI's wheels.")
 NO_WHEELS = msg("PyPI has no ROS wheels for {distro}")
 PROGRESS = msg("  {seen} of about {total} wheels")
 UNPACKING = msg("  unpacking")
+MAKING_AGAIN = msg("{reason}\nmaking the prefix once more")
+BROKEN = msg("a program of ROS {distro} does not run:\n{said}")
+UNTESTED = msg("it could not be tested whether the programs of ROS {distro} run:\n{said}")
+TRY_AGAIN = msg("Run the command again. If that does not help, report this with its text.")
+REPORT = msg(
+    "Set GRADER_CACHE to a folder in which programs may run (its file system may forbid them), or "
+    "report this with its text."
+)
+REMOVED = msg(
+    "That prefix is removed from the cache. Run the command again: it makes a new one first."
+)
+INSTALL_TOOLS = msg(
+    "Install what is missing (colcon: `sudo apt-get install python3-colcon-common-extensions`), or "
+    "set GRADER_ROS=wheels to use PyPI's wheels."
+)
+MAKE_AGAIN = msg(
+    "Make it again. With Docker: make images DISTRO={distro}. In a lab without Docker: leave the "
+    "lab and remove ROS {distro} from the grader's cache (~/.cache/ros2_teaching_lab)."
+)

@@ -22,6 +22,7 @@ HOME = "/home/student"
 WORKSPACE = f"{HOME}/ros2_ws"
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 ROWS, COLUMNS = 40, 160  # of a pseudo-terminal
+UNRUNNABLE = (126, 127)  # a shell's status for a program that it cannot run (POSIX, sh: 2.8.2)
 
 DISCOVERY_PROFILE = """<?xml version="1.0" encoding="UTF-8"?>
 <profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">

@@ -14,8 +14,9 @@ from grader.locale.message import joined
 from grader.locale.message import say
 from grader.ros.cache import Say
 from grader.ros.distro import Distro
-from grader.ros.prefix import find_ros
+from grader.ros.prefix import BrokenRosError
 from grader.sandbox.base import Sandbox
+from grader.sandbox.proof import proven_ros
 
 NAMES = ("auto", "docker", "bubblewrap", "account", "none")
 DISPOSABLE = "GRADER_DISPOSABLE"
@@ -47,6 +48,8 @@ def open_sandbox(
             sandbox = _make(choice, distro, limits, say, asked=name != "auto")
             if sandbox is not None:
                 return sandbox.__enter__()
+        except BrokenRosError:
+            raise  # no other sandbox makes it run
         except SurroundingsError as error:
             tried.append(error)
     raise _none_opened(tried)
@@ -73,7 +76,7 @@ def _make(choice: str, distro: Distro, limits: Limits, say: Say, *, asked: bool)
     # each sandbox is loaded only when it is asked for: `grader --help` must not pay for it
     if choice == "docker":
         return _containers(distro, limits, say, asked=asked)
-    ros = find_ros(distro, say=say)
+    ros = proven_ros(distro, say=say)
     if choice == "bubblewrap":
         from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
 

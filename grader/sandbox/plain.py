@@ -8,9 +8,11 @@ users may read. `none` protects from nothing: it is for one's own code.
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import os
 import random
+import re
 import secrets
 import shutil
 import signal
@@ -48,6 +50,9 @@ LOOPBACK_PROFILE = DISCOVERY_PROFILE.replace(
 DOMAINS = range(1, 101)  # safe on Linux by ROS's documentation on ROS_DOMAIN_ID
 FIRST_UID = 65_600
 END_SECONDS = 10.0
+# neither a `#!` line (255 bytes, no spaces) nor PATH (no colons) can hold every path
+PLAIN_PATH = re.compile(r"/[\w./+-]{0,60}", re.ASCII)
+SHORT_FOLDER = "/tmp"  # noqa: S108 - mkdtemp makes a folder of our own in it
 
 
 class Bare(LocalSandbox):
@@ -76,9 +81,12 @@ class Bare(LocalSandbox):
 
     @property
     def ros_path(self) -> str:
-        """`/opt/ros/<distro>` where it is there, else the prefix's own place."""
-        inside = Path(self.ros.inside)
-        return str(inside if (inside / "setup.bash").is_file() else self.ros.path)
+        """`/opt/ros/<distro>` if that is the installation, else a short link to its place.
+
+        (Where colcon's Python is seen becomes the `#!` line of the student's executables.)
+        """
+        is_inside = str(self.ros.path) == self.ros.inside
+        return self.ros.inside if is_inside else str(self.folder / "ros")
 
     def profile_path(self, role: Role) -> str:
         del role
@@ -87,8 +95,11 @@ class Bare(LocalSandbox):
     def open(self) -> None:
         adopt_orphans()
         self._domain, self._claim = _claim_domain()
-        self._folder = Path(tempfile.mkdtemp(prefix="grader-"))
+        place = tempfile.gettempdir()
+        place = place if PLAIN_PATH.fullmatch(place) else SHORT_FOLDER
+        self._folder = Path(tempfile.mkdtemp(prefix="grader-", dir=place))
         self._folder.chmod(0o755)
+        (self._folder / "ros").symlink_to(self.ros.path)
         for place in ("home", "home/ros2_ws", "probe", "tmp"):
             (self._folder / place).mkdir()
         (self._folder / "fastdds.xml").write_text(LOOPBACK_PROFILE, encoding="utf-8")
@@ -199,8 +210,8 @@ class Account(Bare):
             os.chown(self.folder / place, self._uids[role], self._uids[role])  # type: ignore[index]
         os.chown(self.folder / "probe", self._uids["probe"], self._uids["probe"])
         inside = Path(self.ros.inside)
-        if not inside.exists():
-            inside.parent.mkdir(parents=True, exist_ok=True)
+        inside.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(FileExistsError):  # of the system, or of another grader
             inside.symlink_to(self.ros.path)
             self._linked = inside
         for path in (self.ros.path, self.ros.interpreter):

@@ -1,0 +1,123 @@
+"""Makes the wheels prefix of a distro in a folder: pip, then what makes a ROS prefix of it."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from grader.errors import SurroundingsError
+from grader.locale.message import Message
+from grader.ros import prefix_texts as texts
+from grader.ros.cache import Say
+from grader.ros.distro import HERE
+from grader.ros.distro import Distro
+from grader.ros.scripts import HEADER
+from grader.ros.scripts import use_own_python
+
+COMMAND = HERE / "ros2_command"  # our `ros2`, installed as the module below
+COMMAND_MODULE = "wheels_ros2"
+SUPPLY = ("rclpy", "rmw", "colcon", "setuptools", "python")
+
+
+def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, say: Say) -> None:
+    """Fill an empty folder with the wheels prefix of a distro, for this base interpreter.
+
+    Raises SurroundingsError if pip cannot install the wheels.
+    """
+    python = f"{sys.version_info.major}.{sys.version_info.minor}"
+    _install(distro, staging, say)
+    site = staging / "lib" / f"python{python}" / "site-packages"
+    if not (site / "rclpy").is_dir():
+        raise SurroundingsError(f"pip did not install rclpy into {site}")
+    for start_up in site.glob("*.pth"):
+        start_up.unlink()  # PYTHONPATH would not read them; a virtual environment would
+    _link_libraries(staging, site)
+    use_own_python(staging / "bin", sys.executable)
+    _link(staging / "bin" / "python3", str(interpreter))
+    _install_command(distro, site, staging / "bin" / "ros2", interpreter)
+    text = (HERE / "setup.bash.in").read_text(encoding="utf-8")
+    fill = {"@DISTRO@": distro.name, "@PYTHON@": python, "@PREFIX@": f"/opt/ros/{distro.name}"}
+    for mark, value in fill.items():
+        text = text.replace(mark, value)
+    for name in ("setup", "local_setup"):
+        for shell in ("bash", "sh", "zsh"):
+            (staging / f"{name}.{shell}").write_text(text, encoding="utf-8")
+    versions = _versions(site)
+    (staging / "wheels-prefix.json").write_text(json.dumps(versions, indent=1), encoding="utf-8")
+
+
+def _install(distro: Distro, staging: Path, say: Say) -> None:
+    lock = distro.lock
+    assert lock is not None
+    total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
+    command = [sys.executable, "-m", "pip", "install", "--prefix", str(staging)]
+    command += ["--ignore-installed", "--no-deps", "--require-hashes", "-r", str(lock)]
+    # empy 3.3.4 has no wheel: it is built with the pinned setuptools of this environment
+    command += ["--only-binary", ":all:", "--no-binary", "empy", "--no-build-isolation"]
+    command += ["--no-warn-script-location", "--disable-pip-version-check", "--no-input"]
+    environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PYTHONHOME")}
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment
+    ) as pip:
+        assert pip.stdout is not None
+        tail: list[str] = []
+        seen = 0
+        for line in pip.stdout:
+            tail = [*tail[-14:], line]
+            if line.startswith("Collecting "):
+                seen += 1
+                if seen % 25 == 0:
+                    say(Message(texts.PROGRESS, {"seen": seen, "total": total}))
+            elif line.startswith("Installing collected"):
+                say(Message(texts.UNPACKING))
+    if pip.returncode:
+        raise SurroundingsError(
+            Message(texts.PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),
+            remedy=Message(texts.CHECK_NETWORK),
+        )
+
+
+def _link(path: Path, target: str) -> None:
+    path.unlink(missing_ok=True)
+    path.symlink_to(target)
+
+
+def _link_libraries(staging: Path, site: Path) -> None:
+    """Bring the wheels' bundled libraries into `lib`, so that one folder has them all."""
+    for library in site.glob("ros_*.libs/*"):
+        _link(staging / "lib" / library.name, os.path.relpath(library, staging / "lib"))
+
+
+def _install_command(distro: Distro, site: Path, script: Path, interpreter: Path) -> None:
+    target = site / COMMAND_MODULE
+    shutil.copytree(COMMAND, target, ignore=shutil.ignore_patterns("__pycache__"))
+    (target / "distro").write_text(distro.name, encoding="utf-8")
+    compile_ = [str(interpreter), "-m", "compileall", "-q", str(target)]
+    subprocess.run(compile_, check=False)  # it saves time; whether it runs is proven later
+    script.write_bytes(
+        HEADER
+        + f"from {COMMAND_MODULE}.cli import main\n\n".encode()
+        + b'if __name__ == "__main__":\n    raise SystemExit(main())\n'
+    )
+    script.chmod(0o755)
+
+
+def _versions(site: Path) -> dict[str, str]:
+    found = {
+        d.metadata["Name"]: d.version for d in importlib.metadata.distributions(path=[str(site)])
+    }
+    wanted = {
+        "rclpy": found.get("ros-rclpy", ""),
+        "rmw": f"rmw_fastrtps_cpp {found.get('ros-rmw-fastrtps-cpp', '')}",
+        "colcon": found.get("colcon-core", ""),
+        "setuptools": found.get("setuptools", ""),
+        "python": platform.python_version(),
+    }
+    return {name: wanted[name] for name in SUPPLY}

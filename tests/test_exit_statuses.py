@@ -1,0 +1,92 @@
+"""An exit status of the student's own code stays theirs, also one that tells of a missing program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from textwrap import indent
+
+import pytest
+
+from grader.validate.tree import Replace
+from grader.validate.tree import Write
+from grader.workspace import LAID_OUT
+from tests.corpus.build import write
+from tests.corpus.model import MARKER
+from tests.corpus.model import NODE
+from tests.corpus.model import SETUP
+from tests.corpus.model import Package
+from tests.test_verdicts import mark
+from tests.test_verdicts import told
+
+IMPORT = "from setuptools import setup\n"
+INSTALLING = """
+import os
+import sys
+if 'develop' in sys.argv and '--help' not in sys.argv:
+{code}
+    os._exit({status})  # colcon ends with this status then
+"""
+# what would have the programs of ROS fail for the grader as well, if it asked where this code was
+SPOIL = """
+home = os.path.expanduser('~')
+python = f'python{sys.version_info[0]}.{sys.version_info[1]}'
+site = os.path.join(home, '.local', 'lib', python, 'site-packages')
+os.makedirs(site, exist_ok=True)
+for place in (home, home + '/ros2_ws', '/tmp', site, '/opt/ros/jazzy/bin', '/dev/shm'):
+    for name in ('rclpy', 'colcon_core', 'usercustomize', 'sitecustomize'):
+        try:
+            with open(os.path.join(place, name + '.py'), 'w') as spoilt:
+                spoilt.write('import os; os._exit(127)')
+        except OSError:
+            pass
+for name in ('.bashrc', '.profile', '.bash_profile'):
+    with open(os.path.join(home, name), 'w') as spoilt:
+        spoilt.write('exit 127')
+"""
+UNREADY = "#!/usr/bin/env python3\nimport os\n\n\ndef main():\n    os._exit({status})\n"
+
+
+def installing(status: int, code: str = "") -> Replace:
+    """Return the edit that has setup.py run this code and end while colcon installs the package."""
+    return Replace(
+        SETUP, IMPORT, IMPORT + INSTALLING.format(code=indent(code, "    "), status=status)
+    )
+
+
+def package(*edits: Replace | Write) -> Package:
+    return Package(name="solution", edits=edits)
+
+
+@pytest.mark.prefix
+@pytest.mark.parametrize("status", [126, 127, 250, 251])
+def test_a_status_of_setup_py_is_the_students(status: int, tmp_path: Path) -> None:
+    report = mark(write(package(installing(status)), tmp_path))
+    found = next(check for check in report.checks if check.id == "build.colcon")
+    assert found.status == "failed", told(report)
+    assert f"exited with code {status}" in found.actual
+
+
+@pytest.mark.prefix
+def test_a_setup_py_that_spoils_what_it_can_write_gains_nothing(tmp_path: Path) -> None:
+    report = mark(write(package(installing(127, SPOIL)), tmp_path))
+    found = next(check for check in report.checks if check.id == "build.colcon")
+    assert found.status == "failed", told(report)
+    assert "exited with code 127" in found.actual
+
+
+@pytest.mark.prefix
+@pytest.mark.parametrize("status", [126, 127])
+def test_a_status_of_the_node_is_the_students(status: int, tmp_path: Path) -> None:
+    report = mark(write(package(Write(NODE, UNREADY.format(status=status), 0o755)), tmp_path))
+    found = next(check for check in report.checks if check.id == "run.starts")
+    assert found.status == "failed", told(report)
+    assert "run.exits_at_once" in [mistake.id for mistake in found.mistakes]
+    assert f"with status {status}" in found.actual
+
+
+@pytest.mark.prefix
+def test_what_says_that_the_workspace_is_laid_out_is_not_in_the_log(tmp_path: Path) -> None:
+    """It is the grader's own word, by which a failure of its own is told from the student's."""
+    report = mark(write(package(Write(MARKER, b"")), tmp_path))
+    assert LAID_OUT not in report.evidence.build_log
+    assert "Summary: 1 package finished" in report.evidence.build_log
