@@ -7,8 +7,8 @@ SHELL := /bin/sh
 
 # A variable's raw text goes to the recipes through the environment, never through make or a shell.
 VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
-  PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS SCHEDULER \
-  APPLY KEYS GRADER_COURSE GRADER_ASSIGNMENT
+  PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS CANVAS_COLUMN \
+  GRADE_COLUMN FEEDBACK_COLUMN ACCEPT SCHEDULER APPLY KEYS GRADER_COURSE GRADER_ASSIGNMENT
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
@@ -29,7 +29,8 @@ help:  ## Show this help
 	@echo "           KEYS=folder (solution and hidden checks of your own assignment)"
 	@echo "           GRADER_COURSE=folder (the lessons of another course: docs/assignments.md)"
 	@echo "           SUBMISSIONS=path ROSTER=csv WORKSHEET=csv CANVAS=csv WORKERS=n REGRADE=1"
-	@echo "           SCHEDULER=tcp://host:8786 (see docs/classes.md, docs/cluster.md)"
+	@echo "           GRADE_COLUMN=, FEEDBACK_COLUMN= (of WORKSHEET), CANVAS_COLUMN= (of CANVAS)"
+	@echo "           ACCEPT=join|lower SCHEDULER=tcp://host:8786 (docs/classes.md, docs/cluster.md)"
 
 setup:  ## Make the grader's environment and the ROS prefix, once (DISTRO=jazzy)
 	@$(BOOTSTRAP)
@@ -60,6 +61,9 @@ grade-all:  ## Mark a class: make grade-all SUBMISSIONS=path [ROSTER=csv] [REGRA
 	  $${ROSTER:+--roster "$$ROSTER"} \
 	  $${WORKERS:+--workers "$$WORKERS"} $${REGRADE:+--regrade} \
 	  $${WORKSHEET:+--worksheet "$$WORKSHEET"} $${CANVAS:+--canvas "$$CANVAS"} \
+	  $${GRADE_COLUMN:+--grade-column "$$GRADE_COLUMN"} \
+	  $${FEEDBACK_COLUMN:+--feedback-column "$$FEEDBACK_COLUMN"} \
+	  $${CANVAS_COLUMN:+--canvas-column "$$CANVAS_COLUMN"} $${ACCEPT:+--accept "$$ACCEPT"} \
 	  $${SCHEDULER:+--scheduler "$$SCHEDULER"} -- "$$SUBMISSIONS"
 
 check:  ## Check your own package before handing it in: make check [PACKAGE=path]

@@ -48,6 +48,9 @@ class Late(_Part):
 class Policy(_Part):
     """The policy; one without a due date takes nothing.
 
+    Who handed in nothing gets no grade unless `missing` is `zero`: nothing that was found is not
+    always nothing that was handed in.
+
     A due date has its offset from UTC (`2026-11-20T23:59:00+09:00`), or counts in `time_zone`, a
     name of the IANA time zone database.
     """
@@ -57,7 +60,7 @@ class Policy(_Part):
     grace: str = "0 s"
     late: Late = Field(default_factory=Late)
     attempts: Literal["best", "last", "first"] = "best"
-    missing: Literal["zero", "none"] = "zero"
+    missing: Literal["zero", "none"] = "none"
 
     @property
     def deadline(self) -> datetime | None:

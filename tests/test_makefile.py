@@ -111,7 +111,13 @@ def test_a_package_is_mended_through_make(tmp_path: Path) -> None:
     assert (package / "setup.cfg").exists()
 
 
-@pytest.mark.parametrize("variable", ["SUBMISSIONS", "ROSTER", "WORKERS", "WORKSHEET", "SCHEDULER"])
+@pytest.mark.parametrize(
+    "variable",
+    [
+        *("SUBMISSIONS", "ROSTER", "WORKERS", "WORKSHEET", "SCHEDULER", "CANVAS", "CANVAS_COLUMN"),
+        *("GRADE_COLUMN", "FEEDBACK_COLUMN", "ACCEPT"),
+    ],
+)
 def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     words = {"SUBMISSIONS": f"{tmp_path}/none", "OUT": f"{tmp_path}/out", variable: hostile}
@@ -126,6 +132,20 @@ def test_the_language_is_a_variable_too(words: tuple[str, ...], tmp_path: Path) 
     status, _, said = make("grade", f"STUDENT={tmp_path / 'missing'}", *words)
     assert status == 2
     assert "폴더가 없습니다" in said
+
+
+def test_the_columns_of_a_class_and_what_is_accepted_reach_the_command(tmp_path: Path) -> None:
+    (tmp_path / "sheet.csv").write_text("Identifier,Punkte,Text\nParticipant 1,,\n")
+    words = [f"SUBMISSIONS={tmp_path}", f"OUT={tmp_path / 'out'}"]
+    sheet = [*words, f"WORKSHEET={tmp_path / 'sheet.csv'}"]
+    assert "make: GRADE_COLUMN='its name'" in make("grade-all", *sheet)[2]
+    assert "no column 'Nope'" in make("grade-all", *sheet, "GRADE_COLUMN=Nope")[2]
+    both = [*sheet, "GRADE_COLUMN=Punkte", "FEEDBACK_COLUMN=None such"]
+    assert "no column 'None such'" in make("grade-all", *both)[2]
+    (tmp_path / "canvas.csv").write_text("Student,ID,Section,A (1),A (2)\nAnn,1,A,,\n")
+    canvas = [*words, f"CANVAS={tmp_path / 'canvas.csv'}"]
+    assert "called 'A'" in make("grade-all", *canvas, "CANVAS_COLUMN=A")[2]
+    assert "Did you mean 'lower'?" in make("grade-all", *words, "ACCEPT=join,lowr")[2]
 
 
 def test_grade_all_without_a_class_says_how() -> None:

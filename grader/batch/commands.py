@@ -54,6 +54,14 @@ _ledger = click.option(
 @click.option("--canvas-column", default="", help="The column of Canvas' gradebook that is filled.")
 @click.option("--grade-column", default="", help="The worksheet's column of grades.")
 @click.option("--feedback-column", default="", help="The worksheet's column of feedback.")
+@click.option(
+    "--accept",
+    "accepts",
+    multiple=True,
+    metavar="WHAT",
+    help="Go on where it stops otherwise: `join`, if less than 80 % of the submissions are on the "
+    "roster; `lower`, if somebody gets a lower grade than before. May be repeated.",
+)
 @click.option("--show-hidden", is_flag=True, help="Name hidden checks in what students read.")
 @options.lang
 @click.option("-n", "--dry-run", is_flag=True, help="Only say what would be marked.")
@@ -78,6 +86,7 @@ def grade_all(
     canvas_column: str,
     grade_column: str,
     feedback_column: str,
+    accepts: tuple[str, ...],
     show_hidden: bool,
     lang: str | None,
     dry_run: bool,
@@ -90,8 +99,9 @@ def grade_all(
     """
     # a `--help` must not pay for these
     from grader.batch import grade_all as run  # noqa: PLC0415
-    from grader.batch.outputs import Sheets  # noqa: PLC0415
+    from grader.batch.accept import accepted  # noqa: PLC0415
     from grader.batch.override import LEDGER  # noqa: PLC0415
+    from grader.batch.sheets import Sheets  # noqa: PLC0415
     from grader.ordering import make_orders  # noqa: PLC0415
 
     with errors_in(lang):
@@ -118,6 +128,7 @@ def grade_all(
         workers=workers or 0,
         scheduler=scheduler,
         sheets=sheets,
+        accepts=accepted(accepts),
         quiet=quiet,
     )
     return run.grade_all(asked, dry_run=dry_run)

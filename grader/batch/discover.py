@@ -13,6 +13,7 @@ from grader.batch.join import join
 from grader.batch.model import ClassFolder
 from grader.batch.model import HandedIn
 from grader.batch.model import System
+from grader.batch.roster import Roster
 from grader.batch.roster import read_roster
 from grader.batch.systems import plain
 from grader.batch.systems.exec_bits import nobody_has_one
@@ -56,7 +57,7 @@ class Asked:
 
 
 def discover(
-    path: Path, *, system: str = "auto", roster: Path | None = None, unpack: Path
+    path: Path, *, system: str = "auto", roster: Path | Roster | None = None, unpack: Path
 ) -> ClassFolder:
     """Return everything that a class handed in: `path` is a folder, or an archive of one.
 
@@ -65,7 +66,7 @@ def discover(
     """
     check_system(system)
     asked = Asked(resolved(path), system, unpack.resolve())
-    students = None if roster is None else read_roster(roster)
+    students = read_roster(roster) if isinstance(roster, Path) else roster
     notes = Notes()
     unpacked = Unpacked(asked.path)
     if not asked.path.is_dir():
@@ -79,8 +80,11 @@ def discover(
     return ClassFolder(
         system=found_system,
         path=asked.path,
-        handed_in=joined.handed_in,
+        # (a member of a group may have handed in alone as well)
+        handed_in=tuple(_numbered(joined.handed_in)),
         missing=joined.missing,
+        elsewhere=joined.elsewhere,
+        on_roster=joined.on_roster,
         notes=(*notes.lines(), *joined.notes),
     )
 

@@ -10,39 +10,45 @@ from dataclasses import dataclass
 from dataclasses import field
 from datetime import datetime
 from datetime import timezone
+from functools import partial
 from pathlib import Path
 from typing import TextIO
 
 from grader.batch import run
+from grader.batch.beforehand import GRADEBOOK
+from grader.batch.beforehand import look_beforehand
 from grader.batch.class_page import changes_of
 from grader.batch.class_page import class_page
 from grader.batch.class_page import regrade_page
-from grader.batch.discover import discover
 from grader.batch.ledger import Ledger
 from grader.batch.local_pool import LocalPool
 from grader.batch.model import ClassFolder
 from grader.batch.model import ClassResult
 from grader.batch.outputs import INDEX
-from grader.batch.outputs import Sheets
-from grader.batch.outputs import write_all
+from grader.batch.outputs import Outcome
+from grader.batch.outputs import Outputs
 from grader.batch.progress import ClassProgress
 from grader.batch.result import class_result
+from grader.batch.sheets import Sheets
 from grader.batch.students import find_student
 from grader.batch.work import Job
 from grader.batch.work import Pool
+from grader.gradebook.written import raise_failures
 from grader.report.plain import encodable
 from grader.report.plain import one_line
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
 from grader.runner import Order
 
-UNPACKED = "unpacked"
 MOST_A_CORE = 2  # workers, while cores have nothing to do
 
 
 @dataclass(frozen=True, kw_only=True)
 class ClassOrder:
-    """What `grade-all` was asked for; `order` has the assignment, the distro and the sandbox."""
+    """What `grade-all` was asked for; `order` has the assignment, the distro and the sandbox.
+
+    `accepts` is what the instructor accepts beforehand (see `accept`).
+    """
 
     order: Order
     out: Path
@@ -54,24 +60,33 @@ class ClassOrder:
     workers: int = 0
     scheduler: str = ""
     sheets: Sheets = field(default_factory=Sheets)
+    accepts: frozenset[str] = frozenset()
     quiet: bool = False
 
 
 def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
     """Mark what is not marked yet, write everything, and return the exit status.
 
+    The teacher's files, the roster and what fits them are looked at before anything is marked.
     Ctrl+C ends the marking: what was marked is kept and written, then KeyboardInterrupt goes on.
     """
     started = datetime.now(timezone.utc)
     order = asked.order
-    folder = discover(
-        order.path, system=asked.system, roster=asked.roster, unpack=asked.out / UNPACKED
+    known = look_beforehand(
+        order.path,
+        order.assignment,
+        asked.sheets,
+        asked.out,
+        system=asked.system,
+        roster=asked.roster,
+        accepts=asked.accepts,
+        say=_say,
     )
-    _say_found(folder)
     interrupted = False
     with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
+        outputs = Outputs(asked.out, asked.sheets, known, ledger, asked.accepts)
         with ClassProgress(sys.stderr) as progress:
-            plan = run.make_plan(ledger, folder, setting, listener=progress)
+            plan = run.make_plan(ledger, known.folder, setting, listener=progress)
             if asked.regrade or asked.students:
                 chosen = None if asked.regrade else _chosen(asked.students, plan)
                 if dry_run:
@@ -84,29 +99,44 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
                 for item in plan.todo:
                     _print(one_line(item.handed_in.student.name or item.student))
                 return 0
+            result_now = partial(_result, asked, ledger, known.folder, plan, started)
             try:
                 if plan.todo:
+                    if outputs.can_lower:
+                        outputs.refuse_lower(result_now(), but=plan.students)
                     run.carry_out(ledger, plan, setting, pool, listener=progress)
             except KeyboardInterrupt:
                 interrupted = True
-        result = class_result(
-            ledger,
-            folder,
-            plan.items,
-            order.assignment,
-            distro=order.distro.name,
-            lang=order.lang,
-            started=started,
-            seconds=(datetime.now(timezone.utc) - started).total_seconds(),
-        )
-        written = write_all(result, asked.out, asked.sheets, ledger, say=_say)
-        _show(result, plan, ledger, asked, written=written)
+        result = result_now()
+        written = outputs.write(result, say=_say)
+        _show(result, plan, ledger, asked, written)
         failed = any(ledger.fault(item.student, item.key) for item in plan.todo)
         status = _status(result, failed=failed)
     if interrupted:
+        for failure in written.failures:
+            _say(str(failure))
         _say("interrupted: what was marked is kept, and the same command goes on from there")
         raise KeyboardInterrupt
+    if written.state == "refused":
+        raise written.failures[0]
+    raise_failures(written.failures)
     return status
+
+
+def _result(
+    asked: ClassOrder, ledger: Ledger, folder: ClassFolder, plan: run.Plan, started: datetime
+) -> ClassResult:
+    """Return the result of the class as the ledger has it now."""
+    return class_result(
+        ledger,
+        folder,
+        plan.items,
+        asked.order.assignment,
+        distro=asked.order.distro.name,
+        lang=asked.order.lang,
+        started=started,
+        seconds=(datetime.now(timezone.utc) - started).total_seconds(),
+    )
 
 
 @contextlib.contextmanager
@@ -144,28 +174,18 @@ def _status(result: ClassResult, *, failed: bool) -> int:
     """Return the worst of the students; who handed in nothing is no student's fault of marking."""
     if failed:
         return 3
-    marked = [entry for entry in result.entries if entry.status != "missing"]
+    marked = [e for e in result.entries if e.status not in ("missing", "elsewhere")]
     return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
 
 
-def _say_found(folder: ClassFolder) -> None:
-    students = {attempt.student.key for attempt in folder.handed_in}
-    attempts = len(folder.handed_in)
-    more = f" in {attempts} attempts" if attempts != len(students) else ""
-    missing = f", {len(folder.missing)} handed in nothing" if folder.missing else ""
-    _say(f"found {len(students)} students{more}{missing} ({folder.system})")
-    for note in folder.notes:
-        _say(f"  {one_line(note)}")
-
-
 def _say_plan(plan: run.Plan) -> None:
-    again = len(plan.regrades)
+    again = sum((item.student, item.key) in plan.regrades for item in plan.todo)
     words = f"{len(plan.todo)} to mark" + (f" ({again} again)" if again else "")
     _say(f"{words}, {plan.marked} marked before")
 
 
 def _show(
-    result: ClassResult, plan: run.Plan, ledger: Ledger, asked: ClassOrder, *, written: bool
+    result: ClassResult, plan: run.Plan, ledger: Ledger, asked: ClassOrder, written: Outcome
 ) -> None:
     out = sys.stdout
     width, styled = width_of(out), takes_styles(out)
@@ -174,10 +194,11 @@ def _show(
         _print(regrade_page(changes, width=width, styled=styled))
     if not asked.quiet:
         _print(class_page(result, width=width, styled=styled))
-    place = asked.out / INDEX
-    _print(f"page       {place}")
-    _print(f"gradebook  {asked.out / 'gradebook.csv'}")
-    if not written:
+    if written.state == "refused":
+        return
+    _print(f"page       {asked.out / INDEX}")
+    _print(f"gradebook  {asked.out / GRADEBOOK}")
+    if written.state == "unchanged":
         _say("nothing has changed since these were written")
 
 

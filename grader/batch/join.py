@@ -1,66 +1,172 @@
-"""Submissions and roster brought together: by what names one person, else by a name of one only."""
+"""Submissions and roster brought together: whose is what, whose a group's is, and who has none."""
 
 from __future__ import annotations
 
-import itertools
-import unicodedata
-from collections.abc import Callable
 from collections.abc import Iterable
 from collections.abc import Iterator
+from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
 from dataclasses import replace
 from datetime import datetime
 
+from grader.batch.groups import Groups
+from grader.batch.groups import find_groups
+from grader.batch.groups import group_column
+from grader.batch.match import Match
+from grader.batch.match import folded
+from grader.batch.match import is_same_name
+from grader.batch.match import match_more
+from grader.batch.match import other_ways
+from grader.batch.match import sure_ways
+from grader.batch.model import Elsewhere
 from grader.batch.model import HandedIn
+from grader.batch.model import OnRoster
 from grader.batch.model import Student
 from grader.batch.model import System
 from grader.batch.roster import Roster
+from grader.report.plain import one_line
 
 STRANGER = "this student is on no line of the roster"
 DOUBTFUL = "more than one line of the roster fits, or more than one submission fits its line"
 BY_NAME = "found on the roster by the name alone"
-MOST_PARTS = 5  # of a name that is written as one word
+BY_GROUPS = ("moodle", "folders", "archives")  # whose download has a folder for each group
+ALONE_TOO = "handed in alone as well as with the group: both are attempts"
 
 
 @dataclass(frozen=True)
 class Joined:
-    """The class in its order: the roster's, then by name."""
+    """The class in its order: the roster's, then by name.
+
+    `elsewhere` are those of the missing, by key, whose submission is known to be somewhere.
+    """
 
     handed_in: tuple[HandedIn, ...]
     missing: tuple[Student, ...] = ()
+    elsewhere: Mapping[str, Elsewhere] = field(default_factory=dict)
+    on_roster: OnRoster | None = None
     notes: tuple[str, ...] = ()
 
 
 def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
     """Give each submission its student's line of the roster; without one, sort by name.
 
-    The students keep the submissions' keys.
+    A group's submission becomes one of each member. The students keep the submissions' keys, and
+    the members of groups have the roster's.
     """
     by_key: dict[str, list[HandedIn]] = {}
     for one in handed_in:
         by_key.setdefault(one.student.key, []).append(one)
     if roster is None:
         return Joined(tuple(_in_order(by_key.values())))
-    match = _match(system, [group[0].student for group in by_key.values()], roster)
+    students = [group[0].student for group in by_key.values()]
+    roster, told = _with_groups(system, students, roster)
+    match = Match()
+    match_more(match, sure_ways(system, roster), students, roster)
+    # a group `Team Lee` may have the number of a participant Ann Lee
+    named = find_groups(students, roster.lines).rows
+    for student in students:
+        row = match.rows.get(student.key)
+        if row is None or student.key not in named:
+            continue
+        if not is_same_name(student, roster.students[row]):
+            del match.rows[student.key]
+    groups = find_groups([one for one in students if one.key not in match.rows], roster.lines)
+    rest = [one for one in students if one.key not in groups.rows | dict.fromkeys(groups.doubtful)]
+    match_more(match, other_ways(system, roster), rest, roster)
+    return _joined(by_key, match, groups, roster, told)
+
+
+def _with_groups(
+    system: System, students: Sequence[Student], roster: Roster
+) -> tuple[Roster, list[str]]:
+    """Return the roster with its column of groups, if only the submissions' names tell which it is;
+    without any group if these submissions are people's.
+
+    A student can call himself as a group is called. So a name counts as a group's only where Moodle
+    or the instructor gave it, and where it is not the exception: in Moodle all hand in as groups or
+    nobody does.
+    """
+    if any(line.group for line in roster.lines):
+        found = len(find_groups(students, roster.lines).rows)
+        if system in BY_GROUPS and (roster.kind == "moodle" or 2 * found >= len(students)):
+            return roster, []
+        return replace(roster, lines=tuple(replace(line, group="") for line in roster.lines)), []
+    column = group_column(students, roster.lines) if system in BY_GROUPS else ""
+    if not column:
+        return roster, []
+    lines = tuple(replace(line, group=line.unknown[column]) for line in roster.lines)
+    named = one_line(column, most=40)
+    return replace(roster, lines=lines), [f"the roster's column '{named}' was taken as the group"]
+
+
+def _joined(
+    by_key: Mapping[str, list[HandedIn]],
+    match: Match,
+    groups: Groups,
+    roster: Roster,
+    told: list[str],
+) -> Joined:
     found: dict[int, list[HandedIn]] = {}
     strangers = []
-    for key, group in by_key.items():
-        row = match.rows.get(key)
-        if row is None:
-            note = DOUBTFUL if key in match.doubtful else STRANGER
-            strangers.append([replace(one, notes=(*one.notes, note)) for one in group])
-            continue
+    # a key that no longer names a submission is free: a group's number may be a participant's
+    taken = set(by_key) - groups.rows.keys()
+    for key, row in match.rows.items():
+        student = _fuller(by_key[key][0].student, roster.students[row])
         notes = (BY_NAME,) if key in match.by_name else ()
-        student = _fuller(group[0].student, roster.students[row])
-        known = [replace(one, student=student, notes=(*one.notes, *notes)) for one in group]
-        found[row] = _timed(known, roster.submitted_by(row))
-    taken = set(by_key)
-    missing = tuple(
-        _apart(student, taken) for row, student in enumerate(roster.students) if row not in found
+        own = [replace(o, student=student, notes=(*o.notes, *notes)) for o in by_key[key]]
+        found[row] = _timed(own, roster.lines[row].submitted)
+    for key, rows in groups.rows.items():
+        for row in rows:
+            own = found.get(row, [])
+            student = own[0].student if own else _apart(roster.students[row], taken)
+            found[row] = [*_of_group(by_key[key], student, groups.names[key], alone=own), *own]
+    for key, attempts in by_key.items():
+        if key not in match.rows and not groups.rows.get(key):
+            note = DOUBTFUL if key in match.doubtful | groups.doubtful else STRANGER
+            strangers.append([replace(one, notes=(*one.notes, note)) for one in attempts])
+    missing = [
+        (row, _apart(line.student, taken))
+        for row, line in enumerate(roster.lines)
+        if row not in found
+    ]
+    why = {s.key: groups.unsure.get(row) or roster.lines[row].evidence for row, s in missing}
+    return Joined(
+        handed_in=(*(o for row in sorted(found) for o in found[row]), *_in_order(strangers)),
+        missing=tuple(student for _, student in missing),
+        elsewhere={key: Elsewhere(reason) for key, reason in why.items() if reason},
+        on_roster=_counts(by_key, strangers, roster),
+        notes=(*roster.notes, *told, *_told(groups)),
     )
-    joined = [one for row in sorted(found) for one in found[row]]
-    return Joined((*joined, *_in_order(strangers)), missing, roster.notes)
+
+
+def _counts(
+    by_key: Mapping[str, list[HandedIn]], strangers: Sequence[list[HandedIn]], roster: Roster
+) -> OnRoster:
+    return OnRoster(
+        roster=roster.name,
+        submissions=len(by_key),
+        strangers=tuple(group[0].student.name for group in strangers),
+        lines=len(roster.lines),
+    )
+
+
+def _of_group(
+    attempts: Sequence[HandedIn], student: Student, name: str, *, alone: Sequence[HandedIn]
+) -> Iterator[HandedIn]:
+    note = f"handed in by the group '{one_line(name, most=80)}'"
+    for one in attempts:
+        more = (ALONE_TOO,) if alone else ()
+        yield replace(one, student=student, notes=(*one.notes, note, *more))
+
+
+def _told(groups: Groups) -> Iterator[str]:
+    members = sum(len(rows) for rows in groups.rows.values())
+    if members:
+        count = len(groups.rows)
+        what = "1 submission is a group's" if count == 1 else f"{count} submissions are groups'"
+        yield f"{what}: each of the {members} members gets the verdict of the group"
 
 
 def _timed(group: list[HandedIn], at: datetime | None) -> list[HandedIn]:
@@ -72,7 +178,7 @@ def _timed(group: list[HandedIn], at: datetime | None) -> list[HandedIn]:
 
 def _in_order(groups: Iterable[list[HandedIn]]) -> Iterator[HandedIn]:
     def place(group: list[HandedIn]) -> tuple[str, str]:
-        return _folded(group[0].student.name), group[0].student.key
+        return folded(group[0].student.name), group[0].student.key
 
     for group in sorted(groups, key=place):
         yield from group
@@ -91,147 +197,9 @@ def _fuller(own: Student, line: Student) -> Student:
 
 
 def _apart(student: Student, taken: set[str]) -> Student:
-    """Return a missing student under a key that no submission has."""
+    """Return a student of the roster under a key that no submission has."""
     key = student.key
     while key in taken:
         key = f"{key} (roster)"
     taken.add(key)
     return replace(student, key=key)
-
-
-@dataclass
-class Match:
-    """The roster's row of each key; which keys were found by name alone, and which not for sure."""
-
-    rows: dict[str, int] = field(default_factory=dict)
-    by_name: set[str] = field(default_factory=set)
-    doubtful: set[str] = field(default_factory=set)
-
-
-def _match(system: System, students: list[Student], roster: Roster) -> Match:
-    """Find each student's row; a row is one key's, and the surer way comes first."""
-    match = Match()
-    for way in _ways(system, roster):
-        rows = _rows_by_mark(way, roster, without=set(match.rows.values()))
-        claims: dict[int, list[str]] = {}
-        for student in students:
-            if student.key in match.rows:
-                continue
-            fit = {row for mark in way.of_own(student) for row in rows.get(mark, ())}
-            if len(fit) == 1:
-                claims.setdefault(fit.pop(), []).append(student.key)
-            elif fit:
-                match.doubtful.add(student.key)
-        for row, keys in claims.items():
-            if len(keys) > 1:
-                match.doubtful.update(keys)
-                continue
-            match.rows[keys[0]] = row
-            if way.by_name:
-                match.by_name.add(keys[0])
-    return match
-
-
-def _rows_by_mark(way: Way, roster: Roster, *, without: set[int]) -> dict[str, list[int]]:
-    rows: dict[str, list[int]] = {}
-    for row, student in enumerate(roster.students):
-        if row not in without:
-            for mark in set(way.of_line(student)):
-                rows.setdefault(mark, []).append(row)
-    return rows
-
-
-@dataclass(frozen=True)
-class Way:
-    """One way to know somebody again: the marks of a submission, and those of a roster's line."""
-
-    of_own: Callable[[Student], Iterable[str]]
-    of_line: Callable[[Student], Iterable[str]]
-    by_name: bool = False
-
-
-def _ways(system: System, roster: Roster) -> Iterator[Way]:
-    """Yield the ways, the surest first.
-
-    Moodle's and Canvas' numbers mean something only where the roster has them too: a small number
-    of another list would be somebody else's.
-    """
-    numbered = system in ("moodle", "canvas")
-    if system == roster.kind and numbered:
-        yield Way(_key, _key)
-    if system == "github_classroom":
-        yield Way(_username, _username)
-        yield Way(_tails, _username)
-    if not numbered:
-        for marks in (_id_number, _username, _email):
-            yield Way(_own_marks, marks)
-        yield Way(_own_marks, _key)
-        yield Way(_own_marks, _mailbox)
-    yield Way(_sorted_words, _sorted_words, by_name=True)
-    yield Way(_one_word, _words_in_any_order, by_name=True)
-
-
-def _own_marks(student: Student) -> Iterator[str]:
-    for value in (student.key, student.id_number, student.username, student.email):
-        yield from _mark(value)
-
-
-def _mark(value: str) -> tuple[str, ...]:
-    value = unicodedata.normalize("NFC", value).strip().casefold()
-    return (value,) if value else ()
-
-
-def _key(student: Student) -> tuple[str, ...]:
-    return _mark(student.key)
-
-
-def _id_number(student: Student) -> tuple[str, ...]:
-    return _mark(student.id_number)
-
-
-def _username(student: Student) -> tuple[str, ...]:
-    return _mark(student.username)
-
-
-def _email(student: Student) -> tuple[str, ...]:
-    return _mark(student.email)
-
-
-def _mailbox(student: Student) -> tuple[str, ...]:
-    return _mark(student.email.partition("@")[0])
-
-
-def _tails(student: Student) -> Iterator[str]:
-    """Yield what may be the user's name in `<assignment>-<username>`: both may have a `-`."""
-    parts = student.key.split("-")
-    for n in range(1, len(parts)):
-        yield from _mark("-".join(parts[n:]))
-
-
-def _folded(name: str) -> str:
-    """Return a name without accents and capitals."""
-    plain = unicodedata.normalize("NFKD", name.casefold())
-    return "".join(c for c in plain if not unicodedata.category(c).startswith("M"))
-
-
-def _words(student: Student) -> list[str]:
-    spaced = "".join(c if c.isalnum() else " " for c in _folded(student.name))
-    return spaced.split()
-
-
-def _sorted_words(student: Student) -> tuple[str, ...]:
-    words = _words(student)
-    return (" ".join(sorted(words)),) if words else ()
-
-
-def _one_word(student: Student) -> tuple[str, ...]:
-    """Canvas writes `Lee, Ann` as `leeann`."""
-    words = _words(student)
-    return ("".join(words),) if words else ()
-
-
-def _words_in_any_order(student: Student) -> Iterator[str]:
-    words = _words(student)
-    if len(words) <= MOST_PARTS:
-        for order in itertools.permutations(words):
-            yield "".join(order)

@@ -6,8 +6,11 @@ for each regrade that was asked for.
 
 from __future__ import annotations
 
+import contextlib
+import sqlite3
 import zlib
 from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import astuple
 from datetime import datetime
 from datetime import timezone
@@ -54,26 +57,18 @@ class Ledger:
         A regrade that was asked for is done with it. Raises AlreadyMarkedError where there is a
         verdict and no regrade was asked for.
         """
-        content = zlib.compress(report.model_dump_json(by_alias=True).encode(), 6)
         with self._file.write() as connection:
-            (rounds,) = connection.execute(
-                "SELECT count(*) FROM verdict WHERE student = ? AND key = ?", (student, key)
-            ).fetchone()
-            asked = connection.execute(
-                "DELETE FROM regrade WHERE student = ? AND key = ?", (student, key)
-            ).rowcount
-            if rounds and not asked:
-                raise AlreadyMarkedError(f"{student}: {key}")
-            cursor = connection.execute(
-                "INSERT INTO verdict (student, key, round, assignment, submission, distro, score, "
-                "max_score, report, marked) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                (
-                    *(student, key, rounds + 1, report.assignment.id, report.submission.sha256),
-                    *(report.environment.distro, report.score, report.max_score, content, _now()),
-                ),
-            )
-            connection.execute("DELETE FROM fault WHERE student = ? AND key = ?", (student, key))
-            return int(cursor.lastrowid or 0)
+            return _insert(connection, student, key, report)
+
+    def record_for_all(self, key: str, reports: Mapping[str, Report]) -> None:
+        """Record one verdict for several students, by the students' keys: for all or for none.
+
+        Who has a verdict already, without a regrade, keeps it.
+        """
+        with self._file.write() as connection:
+            for student, report in reports.items():
+                with contextlib.suppress(AlreadyMarkedError):
+                    _insert(connection, student, key, report)
 
     def record_fault(self, student: str, key: str, message: str) -> None:
         """Note that our own side failed; whatever verdict there is stays the one that counts."""
@@ -230,6 +225,11 @@ class Ledger:
             for student, check, points, because, by, at in rows
         ]
 
+    def corrected_since(self, at: datetime) -> set[str]:
+        """Return the students who were corrected, or a correction of whom was taken back, since."""
+        rows = self._file.rows("SELECT student, at FROM override")
+        return {student for student, when in rows if datetime.fromisoformat(when) > at}
+
     def fingerprints(self) -> dict[str, str]:
         """Return the fingerprints that were worked out before, by the submission's hash."""
         return dict(self._file.rows("SELECT submission, value FROM fingerprint"))
@@ -253,6 +253,28 @@ class Ledger:
             connection.execute(
                 "INSERT OR REPLACE INTO setting (name, value) VALUES (?, ?)", (name, value)
             )
+
+
+def _insert(connection: sqlite3.Connection, student: str, key: str, report: Report) -> int:
+    (rounds,) = connection.execute(
+        "SELECT count(*) FROM verdict WHERE student = ? AND key = ?", (student, key)
+    ).fetchone()
+    asked = connection.execute(
+        "DELETE FROM regrade WHERE student = ? AND key = ?", (student, key)
+    ).rowcount
+    if rounds and not asked:
+        raise AlreadyMarkedError(f"{student}: {key}")
+    content = zlib.compress(report.model_dump_json(by_alias=True).encode(), 6)
+    cursor = connection.execute(
+        "INSERT INTO verdict (student, key, round, assignment, submission, distro, score, "
+        "max_score, report, marked) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        (
+            *(student, key, rounds + 1, report.assignment.id, report.submission.sha256),
+            *(report.environment.distro, report.score, report.max_score, content, _now()),
+        ),
+    )
+    connection.execute("DELETE FROM fault WHERE student = ? AND key = ?", (student, key))
+    return int(cursor.lastrowid or 0)
 
 
 def _now() -> str:

@@ -1,9 +1,11 @@
-"""What the ledger's rows are to the rest of the house."""
+"""What the ledger's rows are outside of the ledger."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from datetime import datetime
+from pathlib import Path
 
 
 class AlreadyMarkedError(Exception):
@@ -41,3 +43,8 @@ class Regrade:
     student: str
     key: str
     before: int
+
+
+def path_text(path: Path) -> str:
+    """Return a path as the ledger keeps it: text, whatever bytes are in it."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")

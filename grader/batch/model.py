@@ -8,6 +8,7 @@ of the folder or archive.
 from __future__ import annotations
 
 from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field
 from datetime import datetime
@@ -18,7 +19,7 @@ from typing import overload
 from grader.report.model import Report
 
 System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
-EntryStatus = Literal["graded", "ungradable", "missing", "pending"]
+EntryStatus = Literal["graded", "ungradable", "missing", "elsewhere", "pending"]
 
 
 @dataclass(frozen=True)
@@ -54,13 +55,39 @@ class HandedIn:
 
 
 @dataclass(frozen=True)
+class Elsewhere:
+    """Why a student without a submission here is known to have handed in, in words.
+
+    `final` are the points that he or she has already, None if that is not known.
+    """
+
+    reason: str
+    final: float | None = None
+
+
+@dataclass(frozen=True)
+class OnRoster:
+    """How well a class fits its roster: `strangers` are the names that are on no line of it."""
+
+    roster: str
+    submissions: int
+    strangers: tuple[str, ...]
+    lines: int
+
+
+@dataclass(frozen=True)
 class ClassFolder:
-    """A class as it was downloaded: every attempt, and the roster's students without any."""
+    """A class as it was downloaded: every attempt, and the roster's students without any.
+
+    `elsewhere` are those of the missing, by key, who are known to have handed in all the same.
+    """
 
     system: System
     path: Path
     handed_in: tuple[HandedIn, ...]
     missing: tuple[Student, ...] = ()
+    elsewhere: Mapping[str, Elsewhere] = field(default_factory=dict)
+    on_roster: OnRoster | None = None
     notes: tuple[str, ...] = ()
 
 
@@ -105,7 +132,8 @@ class Entry:
 
     `score` is the report's with overrides (None where there is none); `penalty` the points taken
     for lateness; `final` what goes into the gradebook, None if nothing does (an ungradable
-    submission waits for the instructor; a missing one follows the assignment's policy).
+    submission waits for the instructor; a missing one follows the assignment's policy; who handed
+    in elsewhere, where the grader has not looked, keeps what he or she has).
     """
 
     student: Student

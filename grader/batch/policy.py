@@ -14,6 +14,7 @@ from datetime import datetime
 
 from grader.assignment_policy import Policy
 from grader.assignment_policy import amount
+from grader.batch.model import Elsewhere
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
@@ -81,19 +82,36 @@ def standing(
     overrides: Sequence[Override],
     policy: Policy,
     max_score: float,
+    *,
+    elsewhere: Elsewhere | None = None,
 ) -> Entry:
     """Return what a student gets. `attempts` are in the order in which they were handed in.
 
     A correction of a check counts before lateness takes its share; one of the total is the last
-    word.
+    word. Who is known to have handed in `elsewhere` keeps what he or she has, whatever the policy
+    says about those who handed in nothing.
     """
     if not attempts:
-        nothing = 0.0 if policy.missing == "zero" else None
-        entry = Entry(student, "missing", final=nothing, max_score=max_score)
+        entry = _without_attempt(student, policy, max_score, elsewhere)
         return _corrected(replace(entry, overrides=tuple(overrides)))
     rated = [_rate(student, attempt, overrides, policy, max_score) for attempt in attempts]
     entry = rated[_chosen(rated, policy)]
     return _corrected(replace(entry, attempts=len(rated)))
+
+
+def _without_attempt(
+    student: Student, policy: Policy, max_score: float, elsewhere: Elsewhere | None
+) -> Entry:
+    if elsewhere is not None:
+        return Entry(
+            student,
+            "elsewhere",
+            final=elsewhere.final,
+            max_score=max_score,
+            notes=(elsewhere.reason,),
+        )
+    nothing = 0.0 if policy.missing == "zero" else None
+    return Entry(student, "missing", final=nothing, max_score=max_score)
 
 
 def _rate(

@@ -13,12 +13,15 @@ from datetime import datetime
 from functools import partial
 
 from grader.assignment import Assignment
+from grader.batch.handed_in_before import HandedInBefore
 from grader.batch.intake import Item
 from grader.batch.ledger import Ledger
 from grader.batch.ledger_rows import HandedInRow
 from grader.batch.ledger_rows import VerdictRow
+from grader.batch.ledger_rows import path_text
 from grader.batch.model import ClassFolder
 from grader.batch.model import ClassResult
+from grader.batch.model import Elsewhere
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
@@ -77,10 +80,15 @@ def class_result(
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
+    before = HandedInBefore(ledger, assignment.id, students, earlier)
     for student in folder.missing:
-        entry, _ = _entry(student, [], overrides[student.key], assignment, lang)
-        entries.append(entry)
-    identical = _identical(ledger, submissions)
+        known = before.as_known(student)
+        found = [_of_row(ledger, row, assignment.id) for row in earlier.get(known.key, ())]
+        where = folder.elsewhere.get(student.key)
+        entry, counts = _entry(known, found, overrides[known.key], assignment, lang, where)
+        verdict = counts.verdict if counts is not None else None
+        entries.append(replace(entry, report=None, verdict=verdict))
+    identical = _identical(ledger, submissions, _paths(items))
     return ClassResult(
         title=assignment.title,
         assignment=assignment.id,
@@ -101,11 +109,13 @@ def _entry(
     overrides: Sequence[Override],
     assignment: Assignment,
     lang: str,
+    elsewhere: Elsewhere | None = None,
 ) -> tuple[Entry, Found | None]:
     """Return a student's entry, and which attempt it stands on."""
     dated = sorted(found, key=lambda f: (f.at is not None, f.at.timestamp() if f.at else 0))
     attempts = [replace(f.attempt, number=n) for n, f in enumerate(dated, start=1)]
-    entry = standing(student, attempts, overrides, assignment.policy, assignment.max_score)
+    policy, most = assignment.policy, assignment.max_score
+    entry = standing(student, attempts, overrides, policy, most, elsewhere=elsewhere)
     if entry.report is None:
         return replace(entry, lang=lang), None
     return replace(entry, lang=entry.report.lang), dated[entry.attempt - 1]
@@ -156,11 +166,19 @@ def _of_row(ledger: Ledger, seen: HandedInRow, assignment: str) -> Found:
 def _earlier(
     ledger: Ledger, items: Sequence[Item], seen: Iterable[HandedInRow], assignment: str
 ) -> dict[str, list[HandedInRow]]:
-    """Return what students handed in before that is no longer there, and was marked."""
+    """Return what students handed in before that is no longer there, and was marked.
+
+    What lies in the folder is only theirs whose it is now: a group's submission that was marked
+    without a roster is no attempt of the participant who has the group's number.
+    """
     here = {(item.student, item.submission) for item in items}
+    places: dict[str, set[str]] = defaultdict(set)
+    for item in items:
+        places[path_text(item.handed_in.path)].add(item.student)
     found: dict[str, list[HandedInRow]] = defaultdict(list)
     for row in seen:
-        if (row.student, row.submission) in here:
+        others = row.path in places and row.student not in places[row.path]
+        if (row.student, row.submission) in here or others:
             continue
         if ledger.verdict_of(assignment, row.student, row.submission) is not None:
             found[row.student].append(row)
@@ -171,9 +189,22 @@ def _report(ledger: Ledger, row: VerdictRow | None) -> Report | None:
     return None if row is None else ledger.report(row.id)
 
 
-def _identical(ledger: Ledger, submissions: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:
+def _paths(items: Iterable[Item]) -> dict[tuple[str, str], str]:
+    """Return where each student's contents lie."""
+    return {(i.student, i.submission): path_text(i.handed_in.path) for i in items if i.submission}
+
+
+def _identical(
+    ledger: Ledger, submissions: Mapping[str, str], paths: Mapping[tuple[str, str], str]
+) -> tuple[tuple[str, ...], ...]:
+    """Return who has the same content; the members of one group have handed in only once."""
     known = ledger.fingerprints()
-    return groups({key: known.get(found, "") for key, found in submissions.items()})
+    found = groups({key: known.get(submission, "") for key, submission in submissions.items()})
+
+    def place(key: str) -> str:
+        return paths.get((key, submissions[key]), key)
+
+    return tuple(group for group in found if len({place(key) for key in group}) > 1)
 
 
 def _with_reports(

@@ -6,7 +6,9 @@ import difflib
 import unicodedata
 from collections.abc import Callable
 from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass
+from dataclasses import field
 from datetime import datetime
 from pathlib import Path
 
@@ -16,8 +18,12 @@ from grader.batch.roster_columns import Columns
 from grader.batch.roster_columns import Kind
 from grader.batch.roster_columns import columns_of
 from grader.batch.roster_columns import participant
+from grader.batch.roster_guess import EMAIL
 from grader.batch.systems.gradescope_yaml import instant
 from grader.errors import UsageError
+from grader.gradebook.decoded import AS_CSV
+from grader.gradebook.decoded import decoded
+from grader.gradebook.moodle_words import says_submitted
 from grader.gradebook.sheet import Sheet
 from grader.intake.notes import shown
 from grader.intake.reading import MEGABYTE
@@ -29,24 +35,39 @@ LARGEST = 20 * MEGABYTE
 LONGEST = 300  # characters of a cell
 ZIP = b"PK\x03\x04"  # a spreadsheet of Excel or LibreOffice
 NO_STUDENT = ("points possible", "manual posting", "student, test", "test student")
-AS_CSV = "Save it in the spreadsheet as 'CSV UTF-8'."
+
+
+@dataclass(frozen=True)
+class Line:
+    """A student's line: `row` is its number in the sheet, `group` the group in which he or she is.
+
+    `evidence` is why the course's system knows a submission or a grade of this student, in words;
+    "" if it knows none. `submitted` is when the student handed in, as the course's system says (UTC;
+    None: it does not). `unknown` are the cells of the columns that were not understood, by their
+    names.
+    """
+
+    student: Student
+    row: int = 0
+    group: str = ""
+    evidence: str = ""
+    submitted: datetime | None = None
+    unknown: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Roster:
-    """A class' students in the order of their file; `kind` tells whose numbers the keys are.
+    """A class' students in the order of their file; `kind` tells whose numbers the keys are."""
 
-    `submitted` is when each of them handed in, as the course's system says (UTC; None: it does not).
-    """
-
-    students: tuple[Student, ...]
+    lines: tuple[Line, ...]
     kind: Kind
+    name: str = "the roster"
     notes: tuple[str, ...] = ()
-    submitted: tuple[datetime | None, ...] = ()
 
-    def submitted_by(self, row: int) -> datetime | None:
-        """Return when the student of a row handed in, None if the file does not say."""
-        return self.submitted[row] if self.submitted else None
+    @property
+    def students(self) -> tuple[Student, ...]:
+        """The students of the lines."""
+        return tuple(line.student for line in self.lines)
 
 
 def read_roster(path: Path) -> Roster:
@@ -56,31 +77,61 @@ def read_roster(path: Path) -> Roster:
     apart, and for a student who is in it twice.
     """
     name = shown(str(path))
-    text, notes = _decoded(_content(path, name), name)
+    found = decoded(_content(path, name), f"the roster {name}")
+    text = found.text
     first, _, rest = text.partition("\n")
     skipped = 0
     if first.strip().lower().startswith("sep="):  # Excel's own line
         text, skipped = rest, 1
     sheet = Sheet(text.encode(), name=f"the roster {name}")
 
-    def line(row: int) -> int:
-        return skipped + _line(text, sheet.rows[row][0].start)
+    def place(row: int) -> str:
+        return f"{name}:{skipped + _line(text, sheet.rows[row][0].start)}"
 
     columns = columns_of(sheet)
-    if not columns.tells_people_apart:
-        raise UsageError(f"{name}:{line(0)}: {_no_columns(sheet.header)}", remedy=_remedy())
-    rows = [(row, _student(sheet, row, columns)) for row in range(1, len(sheet.rows))]
-    people = [(row, student) for row, student in rows if student is not None]
-    _no_twins(people, name, line)
-    notes += _left_out(name, [line(row) for row, student in rows if student is None])
-    if not people:
-        raise UsageError(f"{name}:{line(0)}: there is no student below the header")
-    return Roster(
-        tuple(student for _, student in people),
-        columns.kind,
-        tuple(notes),
-        tuple(_submitted(sheet, row, columns) for row, _ in people),
+    if not columns.tells_people_apart or _has_no_header(sheet):
+        raise UsageError(f"{place(0)}: {_no_columns(sheet)}", remedy=_remedy())
+    roster = roster_of(sheet, f"the roster {name}", columns)
+    _no_twins(roster.lines, place)
+    if not roster.lines:
+        raise UsageError(f"{place(0)}: there is no student below the header")
+    left_out = sorted(set(range(1, len(sheet.rows))) - {line.row for line in roster.lines})
+    numbers = [place(row).rpartition(":")[2] for row in left_out]
+    notes = (found.note, *roster.notes, *_left_out(name, numbers))
+    return Roster(roster.lines, roster.kind, roster.name, tuple(note for note in notes if note))
+
+
+def roster_of(sheet: Sheet, name: str, columns: Columns | None = None) -> Roster:
+    """Return the students of a sheet that was read already (a worksheet, say)."""
+    columns = columns_of(sheet) if columns is None else columns
+    lines = tuple(
+        Line(
+            student=student,
+            row=row,
+            group=_cell(sheet, row, columns, "group"),
+            evidence=_evidence(sheet, row, columns),
+            submitted=_submitted(sheet, row, columns),
+            unknown={sheet.header[i]: sheet.value(row, i) for i in columns.unknown},
+        )
+        for row in range(1, len(sheet.rows))
+        if (student := _student(sheet, row, columns)) is not None
     )
+    told = ", ".join(one_line(guess, most=100) for guess in columns.guesses)
+    notes = (f"{name}: columns with unknown names were taken by their content: {told}",)
+    return Roster(lines, columns.kind, name, notes if told else ())
+
+
+def _evidence(sheet: Sheet, row: int, columns: Columns) -> str:
+    """Return why Moodle knows a submission or a grade of this student; "" if it does not."""
+    if columns.kind != "moodle":
+        return ""
+    grade = _cell(sheet, row, columns, "grade")
+    if grade not in ("", "-"):
+        return f"Moodle's worksheet has the grade {one_line(grade, most=20)}"
+    status = _cell(sheet, row, columns, "status")
+    if not says_submitted(status, _cell(sheet, row, columns, "submitted on")):
+        return ""
+    return f"Moodle's worksheet says '{one_line(status, most=80) or 'submitted'}'"
 
 
 def _content(path: Path, name: str) -> bytes:
@@ -96,50 +147,22 @@ def _content(path: Path, name: str) -> bytes:
     return content
 
 
-def _decoded(content: bytes, name: str) -> tuple[str, list[str]]:
-    """Return the text, without a byte order mark, and what was guessed about it."""
-    for mark, encoding in (
-        (b"\xef\xbb\xbf", "utf-8"),
-        (b"\xff\xfe", "utf-16"),
-        (b"\xfe\xff", "utf-16"),
-    ):
-        if content.startswith(mark):
-            try:
-                return content.decode(encoding).removeprefix("\ufeff"), []
-            except UnicodeDecodeError as error:
-                raise UsageError(
-                    f"the roster {name} says of itself that it is {encoding.upper()}, and is not "
-                    f"(byte {error.start})",
-                    remedy=AS_CSV,
-                ) from None
-    if b"\0" in content[:4_000]:
-        raise UsageError(
-            f"the roster {name} is no CSV file: it has zero bytes in it", remedy=AS_CSV
-        )
-    try:
-        return content.decode("utf-8"), []
-    except UnicodeDecodeError:
-        note = (
-            f"the roster {name} is not UTF-8: it was read as Latin-1 (Windows-1252), see the names"
-        )
-    try:
-        return content.decode("cp1252"), [note]
-    except UnicodeDecodeError:
-        return content.decode("latin-1"), [note]
-
-
 def _line(text: str, position: int) -> int:
     before = text[:position].replace("\r\n", "\n")
     return before.count("\n") + before.count("\r") + 1
 
 
+def _cell(sheet: Sheet, row: int, columns: Columns, name: str) -> str:
+    texts = (sheet.value(row, index) for index in columns.of(name))
+    found = next((text for text in texts if text), "")
+    return unicodedata.normalize("NFC", one_line(found, most=LONGEST))
+
+
 def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
     """Return a row's student, None if there is nobody in it."""
 
-    def cell(field: str) -> str:
-        texts = (sheet.value(row, index) for index in columns.of(field))
-        found = next((text for text in texts if text), "")
-        return unicodedata.normalize("NFC", one_line(found, most=LONGEST))
+    def cell(name: str) -> str:
+        return _cell(sheet, row, columns, name)
 
     first, last = cell("first name"), cell("last name")
     name = cell("name") or f"{first} {last}".strip()
@@ -161,7 +184,7 @@ def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
         email=email,
         username=username,
         id_number=number,
-        section=cell("section"),
+        section=cell("section") or cell("group"),
     )
 
 
@@ -177,9 +200,16 @@ def _in_order(name: str) -> str:
     return f"{first} {last}" if comma and first and last and "," not in first else name
 
 
-def _no_columns(header: list[str]) -> str:
-    names = ", ".join(f"'{one_line(name, most=40)}'" for name in header[:10])
-    for name in header:
+def _has_no_header(sheet: Sheet) -> bool:
+    """Whether the first line is a student already: it has an email address in it."""
+    return any(EMAIL.fullmatch(name) for name in sheet.header)
+
+
+def _no_columns(sheet: Sheet) -> str:
+    names = ", ".join(f"'{one_line(name, most=40)}'" for name in sheet.header[:10])
+    if _has_no_header(sheet):
+        return f"the first line has to name the columns, and it has an email address: {names}"
+    for name in sheet.header:
         close = difflib.get_close_matches(name.casefold(), KNOWN, n=1, cutoff=0.7)
         if close:
             return f"no column tells who a student is: {names} (did you mean '{close[0]}'?)"
@@ -189,22 +219,23 @@ def _no_columns(header: list[str]) -> str:
 def _remedy() -> str:
     return (
         "The first line names the columns; at least one of: name (or first name and last name), "
-        "email, username, id number. Exports of Moodle, Canvas, Gradescope and GitHub Classroom "
-        "are read as they are."
+        "email, username, id number, in English or Korean. Exports of Moodle, Canvas, Gradescope "
+        "and GitHub Classroom are read as they are."
     )
 
 
-def _no_twins(people: list[tuple[int, Student]], name: str, line: Callable[[int], int]) -> None:
+def _no_twins(lines: tuple[Line, ...], place: Callable[[int], str]) -> None:
     seen: dict[tuple[str, str], int] = {}
-    for row, student in people:
-        for what, value in _marks(student):
+    for line in lines:
+        for what, value in _marks(line.student):
             mark = (what, value.casefold())
             if mark in seen:
+                other = place(seen[mark]).rpartition(":")[2]
                 raise UsageError(
-                    f"{name}:{line(row)}: the {what} '{value}' is in line {line(seen[mark])} too",
+                    f"{place(line.row)}: the {what} '{value}' is in line {other} too",
                     remedy="Take one of the two lines out, or correct it.",
                 )
-            seen[mark] = row
+            seen[mark] = line.row
 
 
 def _marks(student: Student) -> Iterator[tuple[str, str]]:
@@ -220,9 +251,8 @@ def _marks(student: Student) -> Iterator[tuple[str, str]]:
             yield what, value
 
 
-def _left_out(name: str, lines: list[int]) -> list[str]:
+def _left_out(name: str, lines: list[str]) -> list[str]:
     if not lines:
         return []
     more = f" and {len(lines) - 10} more" if len(lines) > 10 else ""
-    listed = ", ".join(str(line) for line in lines[:10])
-    return [f"the roster {name} has lines that are no student's: {listed}{more}"]
+    return [f"the roster {name} has lines that are no student's: {', '.join(lines[:10])}{more}"]

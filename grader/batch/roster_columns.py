@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from grader.batch.roster_guess import PARTICIPANT
+from grader.batch.roster_guess import PEEKED
+from grader.batch.roster_guess import guessed
+from grader.gradebook.moodle_words import FEEDBACK
+from grader.gradebook.moodle_words import GRADE
 from grader.gradebook.moodle_words import IDENTIFIER
+from grader.gradebook.moodle_words import MAXIMUM
+from grader.gradebook.moodle_words import STATUS
+from grader.gradebook.moodle_words import SUBMITTED_ON
+from grader.gradebook.moodle_words import TEAM
 from grader.gradebook.sheet import Sheet
 
 Kind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
@@ -16,36 +24,59 @@ NAMES: Mapping[str, tuple[str, ...]] = {
     "name": (
         *("name", "full name", "fullname", "student name", "student", "display name"),
         *("vollständiger name", "nom complet", "nombre completo", "nome completo"),
+        *(
+            "성명",
+            "이름",
+            "전체 이름",
+            "학생 이름",
+            "학생명",
+            "사용자 성명",
+            "학생 성명",
+            "학생",
+            "성함",
+        ),
     ),
     "first name": ("first name", "firstname", "given name", "forename", "first", "vorname"),
-    "last name": ("last name", "lastname", "surname", "family name", "last", "nachname"),
+    "last name": ("last name", "lastname", "surname", "family name", "last", "nachname", "성"),
     "email": (
         *("email", "e-mail", "email address", "e-mail address", "mail", "student email"),
         *("e-mail-adresse", "adresse de courriel", "dirección de correo", "indirizzo email"),
+        *("이메일", "이메일 주소", "전자우편", "전자우편 주소", "메일", "메일 주소", "e메일"),
     ),
     "username": (
         *("username", "user name", "login", "login id", "sis login id", "github username"),
         *("user", "account", "netid", "net id", "anmeldename"),
+        *("사용자 아이디", "아이디", "사용자 id", "사용자명", "사용자 이름", "계정"),
     ),
     "id number": (
         *("id number", "idnumber", "sid", "student id", "student number", "sis user id"),
-        *("sis id", "matriculation number", "matrikelnummer", "id-nummer", "id", "number"),
+        *("sis id", "matriculation number", "matrikelnummer", "id-nummer", "학번", "학생 번호"),
+        *("id 번호", "식별 번호", "id", "number"),
     ),
-    "section": ("section", "sections", "section name", "group", "groups", "class", "gruppe"),
+    "section": ("section", "sections", "section name", "class", "분반", "반"),
+    "group": tuple(sorted(TEAM)),
     "submitted": ("submission timestamp",),  # of Classroom's "Download grades"
 }
+MOODLES: Mapping[str, frozenset[str]] = {
+    "status": STATUS,
+    "submitted on": SUBMITTED_ON,
+    "grade": GRADE,
+}
 KNOWN = tuple(name for names in NAMES.values() for name in names)
-PARTICIPANT = re.compile(r"[^\W\d_][^\d]*?\s*(\d+)")  # a word in any language, then the number
-EMAIL = re.compile(r"[^@\s]+@[^@\s]+\.[^@\s]+")
-PEEKED = 50  # rows
 
 
 @dataclass(frozen=True)
 class Columns:
-    """The columns of each field, the best one first, and whose export it is."""
+    """The columns of each field, the best one first, and whose export it is.
+
+    `guesses` says which columns were recognised by what is in them, `unknown` which were not
+    recognised at all.
+    """
 
     kind: Kind
     fields: Mapping[str, tuple[int, ...]]
+    guesses: tuple[str, ...] = ()
+    unknown: tuple[int, ...] = ()
 
     def of(self, field: str) -> tuple[int, ...]:
         """Return the columns in which a field may stand."""
@@ -58,39 +89,76 @@ class Columns:
         return any(self.of(field) for field in known)
 
 
-def columns_of(sheet: Sheet) -> Columns:
-    """Return what the columns of a sheet are."""
+def columns_of(sheet: Sheet, *, participants: int | None = None) -> Columns:
+    """Return what the columns of a sheet are: by their names, else by what is in them.
+
+    `participants` is the column of Moodle's identifiers, if that is known.
+    """
     header = [_folded(name) for name in sheet.header]
-    fields = {
-        field: tuple(i for name in names for i, head in enumerate(header) if head == name)
-        for field, names in NAMES.items()
-    }
-    kind, key = _kind(sheet, header)
+    fields = {field: _named(header, names) for field, names in NAMES.items()}
+    if _folded("성") in header:  # `이름` beside it is the given name
+        given = _named(header, ("이름",))
+        fields["first name"] += given
+        fields["name"] = tuple(index for index in fields["name"] if index not in given)
+    kind, key = _kind(sheet, header) if participants is None else ("moodle", participants)
     if key is not None:
         fields = {
             field: tuple(index for index in found if index != key)
             for field, found in fields.items()
         }
         fields["key"] = (key,)
-    if not fields["email"]:
-        fields["email"] = _looks_like_email(sheet, header)
-    if kind == "moodle" and not (fields["name"] or fields["last name"]) and key is not None:
-        fields["name"] = _beside(sheet, key, fields["email"])
-    return Columns(kind, fields)
+    unknown = [i for i, name in enumerate(header) if not _is_known(name) and i != key]
+    guesses = guessed(sheet, unknown, {field for field, found in fields.items() if found})
+    fields |= {field: (index,) for field, index in guesses.items()}
+    if "key" in guesses:
+        kind = "moodle"
+    if kind == "moodle":
+        fields |= _of_moodle(header, fields)
+    told = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
+    rest = tuple(index for index in unknown if index not in guesses.values())
+    return Columns(kind, fields, tuple(told), rest)
+
+
+def _of_moodle(
+    header: list[str], fields: Mapping[str, tuple[int, ...]]
+) -> dict[str, tuple[int, ...]]:
+    """Return the columns of a worksheet that tell whether Moodle has a submission or a grade."""
+    found = {field: _named(header, tuple(names)) for field, names in MOODLES.items()}
+    return {field: columns or fields.get(field, ()) for field, columns in found.items()}
+
+
+def _named(header: list[str], names: tuple[str, ...]) -> tuple[int, ...]:
+    folded = [_folded(name) for name in names]
+    return tuple(i for name in folded for i, head in enumerate(header) if head == name)
 
 
 def _folded(name: str) -> str:
-    return " ".join(name.casefold().replace("_", " ").split())
+    words = name.casefold().replace("_", " ").split()
+    # blanks between Korean words are a matter of taste: 이메일 주소, 이메일주소
+    return (" " if name.isascii() else "").join(words)
+
+
+_FOLDED = frozenset(
+    _folded(name)
+    for names in (KNOWN, GRADE, FEEDBACK, IDENTIFIER, STATUS, SUBMITTED_ON)
+    for name in names
+)
+
+
+def _is_known(name: str) -> bool:
+    return name in _FOLDED or MAXIMUM.search(name) is not None
 
 
 def _kind(sheet: Sheet, header: list[str]) -> tuple[Kind, int | None]:
     """Return whose export it is, and the column of that system's own number."""
+    identifiers = {_folded(name) for name in IDENTIFIER}
     for index, name in enumerate(header):
         values = [value for value in sheet.column(index)[:PEEKED] if value]
-        if name in IDENTIFIER and values and all(PARTICIPANT.fullmatch(v) for v in values):
+        if name in identifiers and values and all(PARTICIPANT.fullmatch(v) for v in values):
             # (`student 1`, `student 2` are somebody's own numbers: Moodle has a column of grades)
             return "moodle", index
-    if header[:1] == ["student"] and "id" in header and "section" in header:
+    split = header[:2] == ["lastname", "firstname"]
+    if (header[:1] == ["student"] or split) and "id" in header and "section" in header:
         return "canvas", header.index("id")
     for name in ("identifier", "roster identifier"):  # of the roster, and of the grades
         if name in header and "github username" in header:
@@ -100,24 +168,7 @@ def _kind(sheet: Sheet, header: list[str]) -> tuple[Kind, int | None]:
     return "plain", None
 
 
-def _looks_like_email(sheet: Sheet, header: list[str]) -> tuple[int, ...]:
-    """Return a column of addresses, whatever it is called."""
-    for index in range(len(header)):
-        values = [value for value in sheet.column(index)[:PEEKED] if value]
-        if values and all(EMAIL.fullmatch(value) for value in values):
-            return (index,)
-    return ()
-
-
-def _beside(sheet: Sheet, key: int, email: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the column after Moodle's number, where the full name is in every language."""
-    index = key + 1
-    values = [value for value in sheet.column(index)[:PEEKED] if value]
-    named = values and index not in email and all(len(value.split()) > 1 for value in values)
-    return (index,) if named else ()
-
-
 def participant(text: str) -> str:
     """Return the number in Moodle's `Participant 123`, "" if there is none."""
     match = PARTICIPANT.fullmatch(text)
-    return match[1] if match else ""
+    return match[2] if match else ""

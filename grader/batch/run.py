@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable
+from collections.abc import Iterator
+from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import field
@@ -12,15 +14,21 @@ from datetime import datetime
 from datetime import timezone
 
 from grader.assignment import Assignment
+from grader.batch.handed_in_before import HandedInBefore
 from grader.batch.intake import Item
 from grader.batch.intake import take_in_class
 from grader.batch.intake import tasks
 from grader.batch.keys import surroundings_key
 from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import AlreadyMarkedError
 from grader.batch.ledger_rows import HandedInRow
 from grader.batch.ledger_rows import Regrade
+from grader.batch.ledger_rows import path_text
 from grader.batch.model import ClassFolder
+from grader.batch.model import Student
+from grader.batch.shared import Pair
+from grader.batch.shared import give_known
+from grader.batch.shared import reports_of
+from grader.batch.shared import together
 from grader.batch.similar import fingerprint
 from grader.batch.work import Done
 from grader.batch.work import Job
@@ -69,16 +77,26 @@ def prove(order: Order, *, say: Callable[[str], None]) -> Setting:
 
 @dataclass
 class Plan:
-    """Every attempt of a class, those that are still to be marked, and the regrades among them."""
+    """Every attempt of a class, the submissions that are still to be marked, and the regrades.
+
+    A group's submission is in `todo` once; `sharing` are all students who get its verdict, by the
+    pair of student and key that it is marked for.
+    """
 
     items: list[Item]
     todo: list[Item]
-    regrades: dict[tuple[str, str], Regrade] = field(default_factory=dict)
+    regrades: dict[Pair, Regrade] = field(default_factory=dict)
+    sharing: dict[Pair, list[Student]] = field(default_factory=dict)
+
+    @property
+    def students(self) -> set[str]:
+        """The students who will have a new verdict."""
+        return {student.key for students in self.sharing.values() for student in students}
 
     @property
     def marked(self) -> int:
-        """How many attempts have their verdict already."""
-        return len([item for item in self.items if item.key]) - len(self.todo)
+        """How many submissions have their verdict already."""
+        return len(together(self.items)) - len(self.todo)
 
 
 class Listener:
@@ -114,11 +132,21 @@ def make_plan(ledger: Ledger, folder: ClassFolder, setting: Setting, *, listener
     if fresh:
         ledger.keep_fingerprints(fresh)
     _remember(ledger, items, setting.assignment.id)
+    give_known(ledger, items)
     students = {attempt.student.key: attempt.student for attempt in folder.handed_in}
-    students.update({student.key: student for student in folder.missing})
+    students.update({student.key: student for student in _missing(ledger, folder, setting)})
     if set(students.values()) - set(ledger.students(setting.assignment.id)):
         ledger.enrol(setting.assignment.id, students.values())
     return _plan(ledger, items)
+
+
+def _missing(ledger: Ledger, folder: ClassFolder, setting: Setting) -> Iterator[Student]:
+    """Yield who has no submission now, under the key of what was handed in before."""
+    assignment = setting.assignment.id
+    present = {attempt.student.key for attempt in folder.handed_in}
+    seen = {row.student for row in ledger.seen(assignment)}
+    before = HandedInBefore(ledger, assignment, present, seen)
+    yield from (before.as_known(student) for student in folder.missing)
 
 
 def ask_regrade(ledger: Ledger, plan: Plan, students: Sequence[str] | None) -> Plan:
@@ -131,8 +159,9 @@ def ask_regrade(ledger: Ledger, plan: Plan, students: Sequence[str] | None) -> P
     verdicts = ledger.verdicts()
     wanted = {
         (item.student, item.key)
-        for item in plan.items
-        if item.key and (students is None or item.student in students)
+        for group in together(plan.items)
+        if students is None or any(item.student in students for item in group)
+        for item in group
     }
     ledger.ask_again(verdicts[pair] for pair in sorted(wanted) if pair in verdicts)
     return _plan(ledger, plan.items)
@@ -153,7 +182,7 @@ def carry_out(
     running = pool.run(waiting, started=lambda task: listener.started(names[task.student]))
     with contextlib.closing(running):
         for done in running:
-            if _keep(ledger, done):
+            if _keep(ledger, done, plan.sharing):
                 in_a_row = 0
             else:
                 in_a_row += 1
@@ -182,7 +211,7 @@ def _remember(ledger: Ledger, items: Sequence[Item], assignment: str) -> None:
             submission=item.submission,
             submitted=given.submitted,
             late=given.late,
-            path=os.fsencode(given.path).decode("utf-8", "backslashreplace"),
+            path=path_text(given.path),
             first_seen=before.first_seen if before else now,
         )
         if row != before:
@@ -192,24 +221,30 @@ def _remember(ledger: Ledger, items: Sequence[Item], assignment: str) -> None:
 
 
 def _plan(ledger: Ledger, items: list[Item]) -> Plan:
-    verdicts = ledger.verdicts()
-    asked = ledger.asked_again()
-    todo: dict[tuple[str, str], Item] = {}
-    for item in items:
-        pair = (item.student, item.key)
-        if item.key and (pair not in verdicts or pair in asked):
-            todo.setdefault(pair, item)
-    regrades = {pair: asked[pair] for pair in todo if pair in asked}
-    return Plan(items, list(todo.values()), regrades)
+    verdicts, asked = ledger.verdicts(), ledger.asked_again()
+    plan = Plan(items, [])
+    for group in together(items):
+        pairs = [(item.student, item.key) for item in group]
+        waiting = [n for n, pair in enumerate(pairs) if pair not in verdicts or pair in asked]
+        if not waiting:
+            continue
+        first = pairs[waiting[0]]
+        if first not in plan.sharing:
+            plan.todo.append(group[waiting[0]])
+        students = [group[n].handed_in.student for n in waiting]
+        plan.sharing.setdefault(first, []).extend(students)
+        plan.regrades |= {pairs[n]: asked[pairs[n]] for n in waiting if pairs[n] in asked}
+    return plan
 
 
-def _keep(ledger: Ledger, done: Done) -> bool:
+def _keep(ledger: Ledger, done: Done, sharing: Mapping[Pair, list[Student]]) -> bool:
     """Keep a verdict; return False where there is none, and the one before still counts."""
     task, report = done.task, done.answer.report
+    others = [one for one in sharing.get((task.student, task.key), ()) if one.key != task.student]
     if report is None:
-        ledger.record_fault(task.student, task.key, done.answer.fault)
+        for student in (task.student, *(other.key for other in others)):
+            ledger.record_fault(student, task.key, done.answer.fault)
         return False
     # one that became, while it waited, what had been marked before keeps that verdict
-    with contextlib.suppress(AlreadyMarkedError):
-        ledger.record(task.student, task.key, report)
+    ledger.record_for_all(task.key, {task.student: report, **reports_of(report, others)})
     return True

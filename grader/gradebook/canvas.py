@@ -11,11 +11,29 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections.abc import Iterable
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import dataclass
 
+from grader.batch.match import Match
+from grader.batch.match import Way
+from grader.batch.match import match_more
+from grader.batch.match import ways_of_people
 from grader.batch.model import ClassResult
+from grader.batch.model import Elsewhere
 from grader.batch.model import Entry
+from grader.batch.model import Student
+from grader.batch.model import System
+from grader.batch.roster import Roster
+from grader.batch.roster import roster_of
 from grader.errors import UsageError
 from grader.gradebook import cells
+from grader.gradebook.lowered import NONE
+from grader.gradebook.lowered import Lowered
+from grader.gradebook.lowered import as_number
+from grader.gradebook.lowered import is_without_verdict
+from grader.gradebook.lowered import lowered
 from grader.gradebook.sheet import Filled
 from grader.gradebook.sheet import Sheet
 from grader.report.plain import one_line
@@ -31,41 +49,108 @@ READ_ONLY = re.compile(r"read\s+only")
 COMPUTED = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
 
 
-def fill_gradebook(gradebook: bytes, result: ClassResult, *, column: str = "") -> Filled:
-    """Return the teacher's export with one assignment's column filled in.
+@dataclass(frozen=True)
+class CanvasGradebook:
+    """A gradebook that was understood: the column that is filled in, and whose line each row is."""
 
-    `column` is its header, its title or its number (default: the class's title or assignment).
-    Rows of students without a final result, and cells with EX or N/A, stay as they are.
-    UsageError for a file that is no gradebook, and if the column cannot be told.
+    sheet: Sheet
+    column: int
+    roster: Roster
+    notes: tuple[str, ...] = ()
+
+    def match(self, students: Sequence[Student], system: System) -> Match:
+        """Return the line of each student, by key."""
+        found = Match()
+        sure = [way for way in ways_of_people(system, self.roster) if not way.by_name]
+        names = [way for way in ways_of_people(system, self.roster) if way.by_name]
+        ways = [*sure, Way(_email, _login), *names]
+        match_more(found, ways, students, self.roster)
+        return found
+
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
+        """Return who has a grade in Canvas (or is excused), by key, and why that counts."""
+        found = {}
+        for key, index in self.match(students, system).rows.items():
+            cell = self._cell(self.roster.lines[index].row)
+            if cell not in NONE:
+                found[key] = Elsewhere(f"Canvas has {one_line(cell, most=20)} for this assignment")
+        return found
+
+    def lowered(self, result: ClassResult) -> list[Lowered]:
+        """Return the grades in the gradebook that would go down."""
+        found = (
+            lowered(entry, self._cell(row), NAME)
+            for row, entry in self._filled_in(result, self._match(result))
+            if self._cell(row).upper() not in KEPT
+        )
+        return [one for one in found if one is not None]
+
+    def filled(self, result: ClassResult) -> Filled:
+        """Return the teacher's export with the assignment's column filled in.
+
+        Rows of students without a final result stay as they are, cells with EX or N/A too, and
+        cells with a grade where nothing was found of a student.
+        """
+        match = self._match(result)
+        warnings = [*_points_warning(self.sheet, self.column, result), *_told(result, match)]
+        comma = self.sheet.decimal_comma(self.column)
+        changes: dict[tuple[int, int], str] = {}
+        for row, entry in self._filled_in(result, match):
+            if self._cell(row).upper() in KEPT:
+                warnings.append(f"{_who(entry)} has {self._cell(row)} in Canvas: kept")
+            else:
+                changes[row, self.column] = cells.number(entry.final, comma=comma)
+        return Filled(self.sheet.filled(changes), tuple(warnings))
+
+    def _match(self, result: ClassResult) -> Match:
+        return self.match([entry.student for entry in result.entries], result.system)
+
+    def _cell(self, row: int) -> str:
+        return self.sheet.value(row, self.column)
+
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
+        """Yield the rows whose cells get a grade, and whose they are."""
+        for entry in result.entries:
+            index = match.rows.get(entry.student.key)
+            if index is None or entry.final is None:
+                continue
+            row = self.roster.lines[index].row
+            held = self._cell(row) not in NONE or entry.status == "elsewhere"
+            if not (is_without_verdict(entry) and held):
+                yield row, entry
+
+
+def read_gradebook(
+    content: bytes, *, column: str = "", names: Iterable[str] = ()
+) -> CanvasGradebook:
+    """Read a gradebook and find the assignment's column.
+
+    `column` is its header, its title or its number (default: the first of `names` that one column
+    has). UsageError for a file that is no gradebook, and if the column cannot be told.
     """
-    sheet = Sheet(gradebook, name=NAME)
-    index = _column(sheet, column, result)
-    warnings = _points_warning(sheet, index, result)
-    comma = sheet.decimal_comma(index)
-    rows, missing = _join(sheet, result)
-    warnings += [
-        f"{_who(entry)} is not in the gradebook: nothing was filled in" for entry in missing
-    ]
-    changes: dict[tuple[int, int], str] = {}
-    for row, entry in rows.items():
-        if entry.final is None:
-            continue
-        if not sheet.has_cell(row, index):
-            raise UsageError(f"{NAME} is damaged: the row of {_who(entry)} is too short")
-        if sheet.value(row, index).upper() in KEPT:
-            warnings.append(f"{_who(entry)} has {sheet.value(row, index)} in Canvas: kept")
-        else:
-            changes[row, index] = cells.number(entry.final, comma=comma)
-    return Filled(sheet.filled(changes), tuple(warnings))
+    sheet = Sheet(content, name=NAME)
+    index = _column(sheet, [column] if column else [name for name in names if name])
+    roster = roster_of(sheet, NAME)
+    for line in roster.lines:
+        if not sheet.has_cell(line.row, index):
+            who = one_line(line.student.name, most=100)
+            raise UsageError(f"{NAME} is damaged: the row of {who} is too short", remedy=REMEDY)
+    return CanvasGradebook(sheet, index, roster, (sheet.note,) if sheet.note else ())
 
 
 def new_gradebook(result: ClassResult, *, title: str = "") -> bytes:
-    """Return a gradebook of one new column; Canvas makes the assignment when it takes it in."""
+    """Return a gradebook of one new column; Canvas makes the assignment when it takes it in.
+
+    Who has no final result is left out: if there is an assignment of this title already, Canvas
+    takes an empty cell for "no grade any more" (`no_change_to_value?`).
+    """
     out = io.StringIO()
     table = csv.writer(out)
     table.writerow([*OWN, cells.text(title or result.title or result.assignment)])
     table.writerow([POSSIBLE, *[""] * (len(OWN) - 1), cells.number(result.max_score)])
     for entry in result.entries:
+        if entry.final is None or entry.status == "elsewhere":
+            continue
         student = entry.student
         number = student.key if result.system == "canvas" else ""
         who = (student.name, number, student.id_number, student.username, student.section)
@@ -73,22 +158,23 @@ def new_gradebook(result: ClassResult, *, title: str = "") -> bytes:
     return out.getvalue().encode()
 
 
-def _column(sheet: Sheet, column: str, result: ClassResult) -> int:
+def _column(sheet: Sheet, wanted: Sequence[str]) -> int:
     header = sheet.header
     _need_gradebook(header)
-    first = _first_assignment(sheet)
+    first = header.index("Section") + 1
     open_ = [i for i in range(first, len(header)) if not COMPUTED.search(header[i])]
-    wanted = [column] if column else [result.title, result.assignment]
     for name in wanted:
-        fit = [index for index in open_ if name and _is_called(header[index], name)]
+        fit = [index for index in open_ if _is_called(header[index], name)]
         if len(fit) == 1:
             if READ_ONLY.search(_possible(sheet, fit[0])):
                 raise UsageError(f"{NAME}: the column '{header[fit[0]]}' is read only")
             return fit[0]
     listed = one_line(", ".join(f"'{header[index]}'" for index in open_), most=1_000)
+    name = one_line(wanted[0]) if wanted else ""
     raise UsageError(
-        f"{NAME} has not one column that is called '{one_line(wanted[0])}'",
-        remedy=f"Name the column with --canvas-column. There are: {listed or 'none'}.",
+        f"{NAME} has not exactly one column that is called '{name}'",
+        remedy="Name the column with --canvas-column (make: CANVAS_COLUMN='its name'). "
+        f"There are: {listed or 'none'}.",
     )
 
 
@@ -97,10 +183,6 @@ def _need_gradebook(header: list[str]) -> None:
     split = header[:2] == ["LastName", "FirstName"] and len(header) > 4 and "ID" in header[2]
     if not (names or split) or "Section" not in header:
         raise UsageError(f"{NAME} is none: it does not begin with Student, ID", remedy=REMEDY)
-
-
-def _first_assignment(sheet: Sheet) -> int:
-    return sheet.header.index("Section") + 1
 
 
 def _is_called(header: str, name: str) -> bool:
@@ -119,7 +201,7 @@ def _possible(sheet: Sheet, column: int) -> str:
 
 def _points_warning(sheet: Sheet, column: int, result: ClassResult) -> list[str]:
     possible = _possible(sheet, column)
-    if not possible or cells.number(result.max_score) == cells.number(_as_number(possible)):
+    if not possible or cells.number(result.max_score) == cells.number(as_number(possible)):
         return []
     return [
         f"Canvas has {possible} points for this assignment, the class is marked out of "
@@ -127,51 +209,21 @@ def _points_warning(sheet: Sheet, column: int, result: ClassResult) -> list[str]
     ]
 
 
-def _as_number(text: str) -> float | None:
-    try:
-        return float(text.replace(",", "."))
-    except ValueError:
-        return None
-
-
-def _join(sheet: Sheet, result: ClassResult) -> tuple[dict[int, Entry], list[Entry]]:
-    """Return each row's entry, and those that have no row (or more than one)."""
-    rows = [row for row in range(1, len(sheet.rows)) if _is_student(sheet, row)]
-    found: dict[int, Entry] = {}
-    missing = []
+def _told(result: ClassResult, match: Match) -> Iterator[str]:
+    """Yield who has no row (or more than one), and who was found by the name alone."""
     for entry in result.entries:
-        row = _row_of(sheet, rows, entry, result)
-        if row is None or row in found:
-            missing.append(entry)
-        else:
-            found[row] = entry
-    return found, missing
+        if entry.student.key not in match.rows:
+            yield f"{_who(entry)} is not in the gradebook: nothing was filled in"
+        elif entry.student.key in match.by_name:
+            yield f"{_who(entry)} was found in the gradebook by the name alone"
 
 
-def _row_of(sheet: Sheet, rows: list[int], entry: Entry, result: ClassResult) -> int | None:
-    """Return the one row that has the student's id, else SIS id, else login."""
-    student, header = entry.student, sheet.header
-    known = (
-        ("ID", student.key if result.system == "canvas" else ""),
-        ("SIS User ID", student.id_number),
-        ("SIS Login ID", student.username),
-        ("SIS Login ID", student.email),
-    )
-    for name, key in known:
-        if not key.strip() or name not in header:
-            continue
-        column, wanted = header.index(name), key.strip().casefold()
-        fit = [row for row in rows if sheet.value(row, column).casefold() == wanted]
-        if len(fit) == 1:
-            return fit[0]
-    return None
+def _email(student: Student) -> tuple[str, ...]:
+    return (student.email.strip().casefold(),) if student.email.strip() else ()
 
 
-def _is_student(sheet: Sheet, row: int) -> bool:
-    """Return whether a row is a student's: not the points, nor `Manual Posting`."""
-    if "Points Possible" in sheet.value(row, 0):
-        return False
-    return any(sheet.value(row, index) for index in range(_first_assignment(sheet)))
+def _login(line: Student) -> tuple[str, ...]:
+    return (line.username.strip().casefold(),) if line.username.strip() else ()
 
 
 def _who(entry: Entry) -> str:

@@ -27,7 +27,11 @@ from grader.report.plain import points
 
 SUBMISSION = "submission"  # the test case of what could not be marked
 MOST = 200  # characters of a name
-NOTHING = {"missing": say("nothing was handed in"), "pending": say("not marked yet")}
+NOTHING = {
+    "missing": say("nothing was handed in"),
+    "elsewhere": say("handed in elsewhere"),
+    "pending": say("not marked yet"),
+}
 COUNTS = ("tests", "failures", "errors", "skipped")
 CLOSED = b"</testsuites>"
 

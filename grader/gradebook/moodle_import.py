@@ -1,7 +1,8 @@
 """A CSV file for Moodle's gradebook import (grade/import/csv): any header, one grade a student.
 
 One unknown user ends the whole import, so a student without the identifying value is left out, and
-so is one whose value a spreadsheet would take for a formula.
+so is one whose value a spreadsheet would take for a formula. Who has no final result is left out as
+well: `-` or an empty cell would take away the grade that the gradebook has.
 """
 
 from __future__ import annotations
@@ -24,7 +25,6 @@ HEADS: dict[By, str] = {
     "email": "Email address",
     "username": "Username",
 }
-NO_GRADE = "-"  # grade/import/csv takes it for "no grade"
 
 
 def moodle_import(
@@ -39,13 +39,14 @@ def moodle_import(
     table.writerow([HEADS[column], "Full name", title, "Feedback"])
     warnings = []
     for entry in result.entries:
+        if entry.final is None or entry.status == "elsewhere":
+            continue
         value = _identity(entry.student, column)
         if not value or counts[value] > 1 or not cells.is_plain(value):
             warnings.append(_left_out(entry, column, value))
             continue
-        grade = NO_GRADE if entry.final is None else cells.number(entry.final)
-        told = "" if entry.final is None else short_html(entry, show_hidden=show_hidden)
-        table.writerow([value, cells.text(entry.student.name), grade, told])
+        told = short_html(entry, show_hidden=show_hidden)
+        table.writerow([value, cells.text(entry.student.name), cells.number(entry.final), told])
     return Filled(out.getvalue().encode(), tuple(warnings))
 
 

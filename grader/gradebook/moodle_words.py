@@ -1,8 +1,9 @@
-"""What Moodle calls the columns of its grading worksheet in other languages.
+"""What Moodle calls the columns of its grading worksheet in other languages, and the status in it.
 
-From Moodle's language packs: `recordid`, `hiddenuser` and `maxgrade` of mod_assign, `grade` of the
-core, the name of assignfeedback_comments. A worksheet in a language that is not here is understood
-by its content, or its columns are named by the caller.
+From Moodle's language packs: `recordid`, `hiddenuser`, `maxgrade`, `status`, `submissionteam`,
+`lastmodifiedsubmission` and `submissionstatus_…` of mod_assign, `grade` of the core, the name of
+assignfeedback_comments. A worksheet in a language that is not here is understood by its content, or
+its columns are named by the caller.
 """
 
 from __future__ import annotations
@@ -91,6 +92,8 @@ FEEDBACK = frozenset(
         "回饋評語",
         "フィードバックコメント",
         "피드백 의견",
+        "피드백 코멘트",
+        "피드백 댓글",
     }
 )
 IDENTIFIER = frozenset(
@@ -110,6 +113,82 @@ IDENTIFIER = frozenset(
         "标识符",
         "識別碼",
         "識別子",
+        "식별자",
     }
 )
+STATUS = frozenset(
+    {
+        *("status", "submission status", "statut", "état", "estado", "estatus", "stato", "estat"),
+        *(
+            "egoera",
+            "durum",
+            "статус",
+            "состояние",
+            "状态",
+            "狀態",
+            "ステータス",
+            "상태",
+            "제출 상태",
+        ),
+    }
+)
+TEAM = frozenset(
+    {
+        *("group", "groups", "team", "gruppe", "gruppen", "groupe", "grupo", "gruppo", "groep"),
+        *("grupp", "grup", "taldea", "ryhmä", "grupa", "skupina", "csoport", "группа", "группы"),
+        *("群组", "小组", "群組", "グループ", "모둠", "그룹", "조", "팀"),
+    }
+)
+SUBMITTED_ON = frozenset(
+    {
+        *(
+            "last modified (submission)",
+            "zuletzt geändert (abgabe)",
+            "dernière modification (remise)",
+        ),
+        *("última modificación (entrega)", "마지막 수정됨(제출)", "마지막 수정됨 (제출)"),
+        *("최종 수정(제출)", "최종 수정 (제출)", "마지막 수정 (제출)", "마지막 수정(제출)"),
+    }
+)
+# how the status begins; lateness and `Graded` come after it
+SUBMITTED = (
+    *("submitted", "채점을 위해 제출", "제출 완료", "제출됨", "제출함", "zur bewertung abgegeben"),
+    *("remis pour évaluation", "enviado para", "entregado para", "submetido para"),
+    *(
+        "consegnato per",
+        "opdracht ingestuurd",
+        "inlämnad för",
+        "s'ha tramès",
+        "kalifikatzeko bidali",
+    ),
+    *("notlandırılması için gönderildi", "отправлено для оценивания", "已经提交", "已提交"),
+    *("已經繳交", "評定のため"),
+)
+NOT_SUBMITTED = (
+    *("no submission", "draft", "제출이 없습니다", "제출 없음", "제출물 없음", "제출되지 않음"),
+    *(
+        "제출 안",
+        "미제출",
+        "아직 제출되지",
+        "초안",
+        "새 제출",
+        "keine abgabe",
+        "neue abgabe",
+        "entwurf",
+    ),
+    *("aucune remise", "brouillon", "sin entrega", "sin envío", "no entregado", "borrador"),
+    *("nenhum", "sem submissão", "rascunho", "нет ответа", "ответ не представлен", "черновик"),
+    *("未提交", "草稿", "尚未繳交", "提出なし", "下書き"),
+)
 MAXIMUM = re.compile(r"max|máx|massim|maks|höchst|högst|enimm|najv|макс|最高|最大|최대|最大|أقصى")
+
+
+def says_submitted(status: str, submitted_on: str) -> bool:
+    """Return whether Moodle has a submission: by its status, else by the time of the submission.
+
+    In a language whose words are not here only the time tells: Moodle writes `-` for none.
+    """
+    begin = status.casefold().strip()
+    if begin.startswith(SUBMITTED):
+        return True
+    return not begin.startswith(NOT_SUBMITTED) and submitted_on.strip() not in ("", "-")

@@ -8,14 +8,27 @@ maximum without a word, so they are refused here.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from grader.batch.match import Match
+from grader.batch.match import match_more
+from grader.batch.match import ways_of_people
 from grader.batch.model import ClassResult
+from grader.batch.model import Elsewhere
 from grader.batch.model import Entry
+from grader.batch.model import Student
+from grader.batch.model import System
+from grader.batch.roster import Roster
+from grader.batch.roster import roster_of
+from grader.batch.roster_columns import columns_of
 from grader.errors import UsageError
 from grader.gradebook import cells
 from grader.gradebook.feedback import short_html
+from grader.gradebook.lowered import Lowered
+from grader.gradebook.lowered import is_without_verdict
+from grader.gradebook.lowered import lowered
 from grader.gradebook.moodle_words import FEEDBACK
 from grader.gradebook.moodle_words import GRADE
 from grader.gradebook.moodle_words import IDENTIFIER
@@ -31,6 +44,7 @@ REMEDY = (
     "In Moodle: assignment, View all submissions, Grading action, Download grading worksheet "
     "(the assignment needs 'Offline grading worksheet' among its feedback types)."
 )
+NO_FEEDBACK = "the worksheet has no column of feedback comments: only grades go in"
 
 
 @dataclass(frozen=True)
@@ -43,44 +57,94 @@ class Columns:
     feedback: int | None
 
 
-def fill_worksheet(
-    worksheet: bytes,
-    result: ClassResult,
+@dataclass(frozen=True)
+class Worksheet:
+    """A worksheet that was understood: what is filled in, and whose line each row is."""
+
+    sheet: Sheet
+    columns: Columns
+    roster: Roster
+    notes: tuple[str, ...] = ()
+
+    def match(self, students: Sequence[Student], system: System) -> Match:
+        """Return the line of each student, by key."""
+        found = Match()
+        match_more(found, ways_of_people(system, self.roster), students, self.roster)
+        return found
+
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
+        """Return of whom Moodle knows a submission or a grade, by key, and why."""
+        rows = self.match(students, system).rows
+        found = {key: self.roster.lines[row].evidence for key, row in rows.items()}
+        return {key: Elsewhere(reason) for key, reason in found.items() if reason}
+
+    def lowered(self, result: ClassResult) -> list[Lowered]:
+        """Return the grades in the worksheet that would go down."""
+        found = (
+            lowered(entry, self.sheet.value(row, self.columns.grade), NAME)
+            for row, entry in self._filled_in(result, self._match(result))
+        )
+        return [one for one in found if one is not None]
+
+    def filled(self, result: ClassResult, *, show_hidden: bool = False) -> Filled:
+        """Return the worksheet with Grade and Feedback filled in for who has a final result.
+
+        A cell is never filled in for a missing submission if Moodle knows one, or a grade.
+        UsageError for a grade above the maximum.
+        """
+        sheet, columns = self.sheet, self.columns
+        match = self._match(result)
+        comma = sheet.decimal_comma(columns.grade, *_only(columns.maximum))
+        changes: dict[tuple[int, int], str] = {}
+        too_many: list[str] = []
+        for row, entry in self._filled_in(result, match):
+            if _above(sheet, row, columns, entry.final):
+                too_many.append(f"{_who(entry)}: {cells.number(entry.final)}")
+            changes[row, columns.grade] = cells.number(entry.final, comma=comma)
+            if columns.feedback is not None:
+                changes[row, columns.feedback] = short_html(entry, show_hidden=show_hidden)
+        if too_many:
+            raise _too_many(", ".join(too_many), result.max_score)
+        return Filled(sheet.filled(changes), tuple(_warnings(result, match)))
+
+    def _match(self, result: ClassResult) -> Match:
+        return self.match([entry.student for entry in result.entries], result.system)
+
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
+        """Yield the rows whose cells get a grade, and whose they are."""
+        for entry in result.entries:
+            index = match.rows.get(entry.student.key)
+            if index is None or entry.final is None:
+                continue
+            line = self.roster.lines[index]
+            if is_without_verdict(entry) and (line.evidence or entry.status == "elsewhere"):
+                continue
+            yield line.row, entry
+
+
+def read_worksheet(
+    content: bytes,
     *,
     grade_column: str = "",
     feedback_column: str = "",
-    show_hidden: bool = False,
-) -> Filled:
-    """Return the worksheet with Grade and Feedback filled in for who has a final result.
+    max_score: float | None = None,
+) -> Worksheet:
+    """Read a worksheet and find its columns.
 
-    `grade_column` and `feedback_column` name these columns where their language is not known here.
-    A class that did not come from Moodle is joined by email. UsageError for a file that is no
-    worksheet, and for a grade above the maximum.
+    `grade_column` and `feedback_column` name these columns where their language is not known here;
+    `max_score` is the most that a student of the class can get. UsageError for a file that is no
+    worksheet, that is damaged, or that allows fewer points.
     """
-    sheet = Sheet(worksheet, name=NAME)
+    sheet = Sheet(content, name=NAME)
     columns = _columns(sheet, grade_column, feedback_column)
-    rows, warnings = _join(sheet, columns, result)
-    comma = sheet.decimal_comma(columns.grade, *_only(columns.maximum))
-    changes: dict[tuple[int, int], str] = {}
-    too_many: list[str] = []
-    for row, entry in rows.items():
-        if entry.final is None:
-            continue
-        _need_cells(sheet, row, columns, entry)
-        if _above_maximum(sheet, row, columns, entry):
-            too_many.append(f"{_who(entry)}: {cells.number(entry.final)}")
-        changes[row, columns.grade] = cells.number(entry.final, comma=comma)
-        if columns.feedback is not None:
-            changes[row, columns.feedback] = short_html(entry, show_hidden=show_hidden)
-    if too_many:
-        raise UsageError(
-            f"more points than {NAME} allows: {', '.join(too_many)}",
-            remedy="Set the assignment's maximum grade in Moodle to the points of the class "
-            f"({cells.number(result.max_score)}), then download the worksheet again.",
-        )
-    if columns.feedback is None:
-        warnings.append("the worksheet has no column of feedback comments: only grades went in")
-    return Filled(sheet.filled(changes), tuple(warnings))
+    roster = roster_of(sheet, NAME, columns_of(sheet, participants=columns.identifier))
+    _need_cells(sheet, columns, roster)
+    if max_score is not None:
+        for line in roster.lines:
+            if _above(sheet, line.row, columns, max_score):
+                raise _too_many(f"the class is worth {cells.number(max_score)}", max_score)
+    notes = (sheet.note, "" if columns.feedback is not None else NO_FEEDBACK)
+    return Worksheet(sheet, columns, roster, tuple(note for note in notes if note))
 
 
 def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> Columns:
@@ -90,7 +154,7 @@ def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> Columns:
     if grade is None:
         raise UsageError(
             f"{NAME} has no column of grades that is known here; its columns: {_listed(header)}",
-            remedy="Name the column: --grade-column 'its name'.",
+            remedy="Name the column: --grade-column 'its name' (make: GRADE_COLUMN='its name').",
         )
     feedback = _named(header, feedback_column) if feedback_column else _feedback(header)
     return Columns(identifier, grade, _maximum(sheet, grade), feedback)
@@ -149,60 +213,40 @@ def _maximum(sheet: Sheet, grade: int) -> int | None:
     return fit[0] if len(values) == 1 and len(numbers) == 1 else None
 
 
-def _join(
-    sheet: Sheet, columns: Columns, result: ClassResult
-) -> tuple[dict[int, Entry], list[str]]:
-    """Return each row's entry, and a warning for each student that has no row."""
-    by_number: dict[str, int] = {}
-    for row in range(1, len(sheet.rows)):
-        match = PARTICIPANT.fullmatch(sheet.value(row, columns.identifier))
-        if match is not None:
-            by_number[match.group(2).lstrip("0")] = row
-    emails = _emails(sheet)
-    rows: dict[int, Entry] = {}
-    warnings = []
+def _warnings(result: ClassResult, match: Match) -> Iterator[str]:
+    """Yield who has no row, and who was found by the name alone."""
     for entry in result.entries:
-        row_found = _row_of(entry, by_number, emails, moodle=result.system == "moodle")
-        if row_found is None or row_found in rows:
-            warnings.append(f"{_who(entry)} is not in the worksheet: nothing was filled in")
-        else:
-            rows[row_found] = entry
-    return rows, warnings
+        if entry.student.key not in match.rows:
+            yield f"{_who(entry)} is not in the worksheet: nothing was filled in"
+        elif entry.student.key in match.by_name:
+            yield f"{_who(entry)} was found in the worksheet by the name alone"
 
 
-def _row_of(
-    entry: Entry, by_number: Mapping[str, int], emails: Mapping[str, int], *, moodle: bool
-) -> int | None:
-    student = entry.student
-    if moodle:  # only there is the key a participant's number
-        return by_number.get(student.key.lstrip("0"))
-    return emails.get(student.email.casefold()) if student.email else None
+def _need_cells(sheet: Sheet, columns: Columns, roster: Roster) -> None:
+    for line in roster.lines:
+        for column in (columns.grade, *_only(columns.feedback)):
+            if not sheet.has_cell(line.row, column):
+                who = one_line(line.student.name, most=100)
+                raise UsageError(
+                    f"{NAME} is damaged: the row of {who} is shorter than the header",
+                    remedy="Download it again, and do not edit it by hand.",
+                )
 
 
-def _emails(sheet: Sheet) -> dict[str, int]:
-    """Return the row of each email address that stands alone in a cell, and only once."""
-    found: dict[str, list[int]] = {}
-    for row, row_cells in enumerate(sheet.rows[1:], start=1):
-        for value in {cell.value.strip().casefold() for cell in row_cells}:
-            if "@" in value:
-                found.setdefault(value, []).append(row)
-    return {value: rows[0] for value, rows in found.items() if len(rows) == 1}
-
-
-def _need_cells(sheet: Sheet, row: int, columns: Columns, entry: Entry) -> None:
-    for column in (columns.grade, *_only(columns.feedback)):
-        if not sheet.has_cell(row, column):
-            raise UsageError(
-                f"{NAME} is damaged: the row of {_who(entry)} is shorter than the header",
-                remedy="Download it again, and do not edit it by hand.",
-            )
-
-
-def _above_maximum(sheet: Sheet, row: int, columns: Columns, entry: Entry) -> bool:
-    if columns.maximum is None or entry.final is None:
+def _above(sheet: Sheet, row: int, columns: Columns, points: float | None) -> bool:
+    """Whether a row allows fewer points than these."""
+    if columns.maximum is None or points is None:
         return False
     most = sheet.value(row, columns.maximum).replace(",", ".")
-    return bool(NUMBER.fullmatch(most)) and entry.final > float(most)
+    return bool(NUMBER.fullmatch(most)) and points > float(most)
+
+
+def _too_many(what: str, max_score: float) -> UsageError:
+    return UsageError(
+        f"more points than {NAME} allows: {what}",
+        remedy="Set the assignment's maximum grade in Moodle to the points of the class "
+        f"({cells.number(max_score)}), then download the worksheet again.",
+    )
 
 
 def _only(column: int | None) -> tuple[int, ...]:

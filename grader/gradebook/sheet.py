@@ -1,7 +1,8 @@
 """A CSV file of a teacher's, of which some cells are replaced: every other byte stays as it was.
 
 It is read as Python's `csv` reads it; where each cell stands is kept, so that delimiter, quotes,
-line ends, byte order mark and unknown columns need not be written anew.
+line ends, byte order mark and unknown columns need not be written anew. Only a file that is not
+UTF-8 becomes UTF-8: that is what the courses' systems read.
 """
 
 from __future__ import annotations
@@ -12,8 +13,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from grader.errors import UsageError
+from grader.gradebook.decoded import BOM
+from grader.gradebook.decoded import decoded
 
-BOM = b"\xef\xbb\xbf"
 DELIMITERS = (",", ";", "\t")
 DECIMAL_COMMA = re.compile(r"\s*-?\d+,\d+\s*")
 DECIMAL_POINT = re.compile(r"\s*-?\d+\.\d+\s*")
@@ -41,15 +43,11 @@ class Sheet:
     """The rows of a CSV file, the header first; blank lines are left out (and stay in the file)."""
 
     def __init__(self, content: bytes, *, name: str) -> None:
-        """Read a file; UsageError (which calls it `name`) if it is no CSV in UTF-8."""
-        self._bom = BOM if content.startswith(BOM) else b""
-        try:
-            self._text = content[len(self._bom) :].decode("utf-8")
-        except UnicodeDecodeError as error:
-            raise UsageError(
-                f"{name} is not UTF-8 (byte {error.start})",
-                remedy="Export it again, or save it in the spreadsheet as 'CSV UTF-8'.",
-            ) from None
+        """Read a file; UsageError (which calls it `name`) if it is no CSV file."""
+        found = decoded(content, name)
+        self._text = found.text
+        self.note = found.note
+        self._bom = BOM if found.marked else b""
         if "\0" in self._text:
             raise UsageError(f"{name} is no CSV file: it has zero bytes in it")
         heads = {d: next(_rows(self._text, d), []) for d in DELIMITERS}

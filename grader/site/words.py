@@ -24,6 +24,7 @@ STATES: dict[EntryStatus, str] = {
     "graded": say("graded"),
     "ungradable": say("ungradable"),
     "missing": say("nothing handed in"),
+    "elsewhere": say("handed in elsewhere"),
     "pending": say("not marked yet"),
 }
 SYSTEMS: dict[System, str] = {

@@ -10,6 +10,7 @@ import signal
 import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,10 @@ from grader.ros.prefix import Ros
 from tests.batch.classes import grade_all
 from tests.batch.classes import of_corpus
 from tests.batch.classes import verdicts_beside
+from tests.batch.downloads import KOREAN
+from tests.batch.downloads import moodle_zip
+from tests.batch.downloads import people
+from tests.batch.downloads import worksheet
 from tests.batch.works import workers_of
 from tests.stage import ROOT
 from tests.stage import grader
@@ -91,7 +96,7 @@ def test_everybody_is_in_the_gradebook_with_what_was_reached(marked: Class) -> N
         "s1-entry_missing": ("Bela Nagy", "graded", "50"),
         "s2-text_other_capital": ("Chidi Okafor", "graded", "90"),
         "corrupt": ("Dörte Weiß", "graded", "0"),
-        "absent": ("Émile Zola", "missing", "0"),
+        "absent": ("Émile Zola", "missing", ""),
     }
     assert "setup.no_entry" in rows["s1-entry_missing"]["mistakes"]
 
@@ -184,6 +189,33 @@ def test_a_correction_survives_a_regrade_and_is_in_every_output(copy: Class) -> 
     assert copy.override("Bela Nagy", "--check", "run.output", "--remove").returncode == 0
     copy.again()
     assert copy.rows()["s1-entry_missing"]["final"] == "50"
+
+
+def test_a_group_is_marked_once_for_real_and_each_member_has_the_report(
+    ros_jazzy: Ros, tmp_path: Path
+) -> None:
+    class_ = [replace(p, group="Team_1") for p in people(3, korean=True)]
+    (tmp_path / "worksheet.csv").write_bytes(worksheet(class_, KOREAN, encoding="cp949"))
+    root = of_corpus(tmp_path / "corpus", ["entry_missing"]) / "s0-entry_missing"
+    files = {
+        path.relative_to(root).as_posix(): path.read_bytes()
+        for path in root.rglob("*")
+        if path.is_file()
+    }
+    path = moodle_zip(tmp_path / "class.zip", [("Team_1", 1001, files)])
+    done = grade_all(path, tmp_path / "out", "--worksheet", str(tmp_path / "worksheet.csv"))
+    assert done.returncode == 1, done.stderr
+    assert "1 to mark, 0 marked before" in done.stderr
+    made = Class(path, tmp_path / "worksheet.csv", tmp_path / "out", done)
+    found = {row["name"]: (row["final"], row["mistakes"]) for row in made.rows().values()}
+    assert found == {person.name: ("50", "setup.no_entry") for person in class_}
+    reports = {
+        report.parts[-3]: json.loads(report.read_text(encoding="utf-8"))["submission"]
+        for report in made.out.glob("*/jazzy/report.json")
+    }
+    assert {name: s["student_id"] for name, s in reports.items()} == {
+        person.name: person.id_number for person in class_
+    }
 
 
 @pytest.mark.parametrize(

@@ -53,6 +53,16 @@ def test_a_verdict_comes_back_as_it_was_recorded(ledger: Ledger) -> None:
     assert ledger.verdicts()["kim", "k1"].score == recorded.score
 
 
+def test_a_verdict_of_several_students_is_recorded_for_all_or_for_none(ledger: Ledger) -> None:
+    ledger.record("kim", "k1", report())
+    ledger.record_for_all("k1", {"ann": worse(), "kim": worse(), "bob": worse()})
+    found = {student: row.score for (student, _), row in ledger.verdicts().items()}
+    assert found == {"kim": 100, "ann": 90, "bob": 90}, "who has one keeps it"
+    with pytest.raises(UnicodeEncodeError):  # no database keeps this key
+        ledger.record_for_all("k2", {"ann": worse(), "b\ud800b": worse()})
+    assert {key for _, key in ledger.verdicts()} == {"k1"}
+
+
 def test_it_is_on_the_disk_when_it_is_recorded(path: Path) -> None:
     """Another process is killed, without closing anything, right after it has said "done"."""
     code = (

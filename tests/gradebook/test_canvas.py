@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.errors import UsageError
-from grader.gradebook.canvas import fill_gradebook
 from grader.gradebook.canvas import new_gradebook
+from tests.gradebook.filled import fill_gradebook
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts
 from tests.report import samples

@@ -109,7 +109,7 @@ def entries() -> Iterator[Entry]:
     yield classes.entry(1, EVERYTHING, **usual, overrides=CORRECTIONS, score=66, final=66)
     total = (Override("1", "", 80, "구두 시험", by="박"),)
     yield classes.entry(1, EVERYTHING, **usual, overrides=total, score=80, final=80)
-    for status in ("missing", "pending", "ungradable"):
+    for status in ("missing", "elsewhere", "pending", "ungradable"):
         yield classes.entry(1, None, **usual, status=status)
     fault = EVERYTHING.model_copy(update={"status": "error", "message": "", "checks": []})
     attempt = Attempt(1, None, late=True, report=fault)

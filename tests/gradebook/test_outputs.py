@@ -15,7 +15,11 @@ from hypothesis import strategies as st
 from grader.batch.model import ClassResult
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
+from grader.gradebook import outputs
+from grader.gradebook.canvas import read_gradebook
+from grader.gradebook.moodle_worksheet import read_worksheet
 from grader.gradebook.outputs import write_outputs
+from grader.gradebook.written import raise_failures
 from tests.gradebook.test_canvas import POSSIBLE
 from tests.gradebook.test_canvas import export
 from tests.gradebook.test_canvas import student
@@ -29,18 +33,15 @@ def files(out: Path) -> set[Path]:
 
 
 def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) -> None:
-    (tmp_path / "worksheet.csv").write_bytes(english(*range(23)))
-    (tmp_path / "canvas.csv").write_bytes(export(POSSIBLE, *(student(n) for n in range(24))))
     said: list[str] = []
     out = tmp_path / "new" / "out"
     written = write_outputs(
         dataclasses.replace(mixed, title="Hello time"),
         out,
-        worksheet=tmp_path / "worksheet.csv",
-        canvas=tmp_path / "canvas.csv",
-        canvas_column="4711",
+        worksheet=read_worksheet(english(*range(23))),
+        canvas=read_gradebook(export(POSSIBLE, *(student(n) for n in range(24))), column="4711"),
         say=said.append,
-    )
+    ).files
     assert set(written) == files(out)
     names = {path.name for path in written if path.parent == out}
     assert names == {
@@ -54,28 +55,46 @@ def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) 
         for ending in ("md", "html"):
             assert (out / "feedback" / f"{entry.student.key}.{ending}") in written
     assert any(mixed.entries[23].student.name in text for text in said)
-    assert (tmp_path / "worksheet.csv").read_bytes() == english(*range(23)), "theirs is untouched"
 
 
 def test_only_the_owner_can_read_them(mixed: ClassResult, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    for path in [out, *(write_outputs(mixed, out)), out / "feedback"]:
+    for path in [out, *write_outputs(mixed, out).files, out / "feedback"]:
         assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0, path
 
 
 def test_the_same_result_gives_the_same_bytes(mixed: ClassResult, tmp_path: Path) -> None:
-    first = {p.name: p.read_bytes() for p in write_outputs(mixed, tmp_path / "a")}
-    assert first == {p.name: p.read_bytes() for p in write_outputs(mixed, tmp_path / "b")}
+    first = {p.name: p.read_bytes() for p in write_outputs(mixed, tmp_path / "a").files}
+    assert first == {p.name: p.read_bytes() for p in write_outputs(mixed, tmp_path / "b").files}
 
 
-def test_nothing_is_written_if_the_worksheet_is_refused(mixed: ClassResult, tmp_path: Path) -> None:
-    worksheet = tmp_path / "worksheet.csv"
-    worksheet.write_bytes(english(*range(24), maximum="10.00"))
-    with pytest.raises(UsageError):
-        write_outputs(mixed, tmp_path / "out", worksheet=worksheet)
-    with pytest.raises(UsageError, match="cannot be read"):
-        write_outputs(mixed, tmp_path / "out", canvas=tmp_path / "none.csv")
-    assert not (tmp_path / "out").exists()
+def test_the_others_are_written_if_one_output_is_refused(
+    mixed: ClassResult, tmp_path: Path
+) -> None:
+    worksheet = read_worksheet(english(*range(24), maximum="10.00"))
+    refused = write_outputs(mixed, tmp_path / "some", worksheet=worksheet)
+    assert [type(failure) for failure in refused.failures] == [UsageError]
+    whole = write_outputs(mixed, tmp_path / "all")
+    assert not whole.failures
+    names = {path.relative_to(tmp_path / "all") for path in whole.files}
+    assert {path.relative_to(tmp_path / "some") for path in refused.files} == names
+    with pytest.raises(UsageError, match="more points") as caught:
+        raise_failures(refused.failures)
+    assert "All other files were written" in caught.value.remedy
+
+
+def test_a_fault_of_ours_in_one_output_costs_none_of_the_others(
+    mixed: ClassResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(result: ClassResult, *, bom: bool) -> bytes:
+        raise KeyError(bom)
+
+    monkeypatch.setattr(outputs, "gradebook_csv", broken)
+    written = write_outputs(mixed, tmp_path)
+    assert (tmp_path / "junit.xml").is_file()
+    assert len(list((tmp_path / "feedback").iterdir())) == 2 * len(mixed.entries)
+    with pytest.raises(KeyError):  # it is told with its traceback
+        raise_failures(written.failures)
 
 
 def test_a_link_in_the_way_is_not_followed(mixed: ClassResult, tmp_path: Path) -> None:
@@ -85,10 +104,13 @@ def test_a_link_in_the_way_is_not_followed(mixed: ClassResult, tmp_path: Path) -
     (theirs / "file").write_text("kept")
     (out / "gradebook.csv").symlink_to(theirs / "file")
     (out / "feedback").symlink_to(theirs)
-    with pytest.raises(SurroundingsError):
-        write_outputs(mixed, out)
+    failures = write_outputs(mixed, out).failures
+    with pytest.raises(SurroundingsError) as caught:
+        raise_failures(failures)
+    assert caught.value.message.count("feedback") < 10, "told once, and not for each student"
     assert (theirs / "file").read_text() == "kept"
     assert files(theirs) == {theirs / "file"}
+    assert (out / "junit.xml").is_file()
 
 
 @settings(
@@ -103,7 +125,7 @@ def test_hostile_keys_give_safe_file_names(found: list[str], tmp_path: Path) -> 
         for entry, key in zip(result.entries, keys, strict=True)
     ]
     out = tmp_path / "out"
-    written = write_outputs(dataclasses.replace(result, entries=tuple(entries)), out)
+    written = write_outputs(dataclasses.replace(result, entries=tuple(entries)), out).files
     feedback = [path for path in written if path.parent.name == "feedback"]
     assert len(set(feedback)) == 2 * len(keys)
     for path in written:

@@ -61,10 +61,31 @@ def test_bytes_around_a_filled_cell_stay() -> None:
 
 
 @pytest.mark.parametrize(
+    ("encoding", "name", "said"),
+    [
+        ("cp949", "김민지", "CP949"),
+        ("cp949", "뷁 가나다라마", "CP949"),
+        ("cp1252", "Änn Å€", "Windows-1252"),
+        # valid CP949 as well: a Hangul syllable that hardly anybody is called
+        ("cp1252", "Åsa Berg", "Windows-1252"),
+        ("latin-1", "Zo\xeb \x81", "Latin-1"),
+        ("utf-16", "김민지", ""),
+        ("utf-8-sig", "김민지", ""),
+    ],
+)
+def test_every_encoding_of_a_spreadsheet_is_read_and_becomes_utf8(
+    encoding: str, name: str, said: str
+) -> None:
+    sheet = Sheet(f"a,b\n{name},1\n".encode(encoding), name="the file")
+    assert sheet.value(1, 0) == name
+    assert (said in sheet.note) if said else not sheet.note
+    assert sheet.filled({(1, 1): "2"}) == f"a,b\n{name},2\n".encode("utf-8-sig")
+
+
+@pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("a,b\nÄnn,1".encode("cp1252"), "is not UTF-8"),
-        ("a,b\n".encode("utf-16"), "is not UTF-8"),
+        (b"\xff\xfea", "UTF-16, and is not"),
         (b"PK\x03\x04\x00\x00", "is no CSV"),
         (b"", "is empty"),
         (b"\n\n", "is empty"),

@@ -1,0 +1,104 @@
+"""What is not done without the instructor's word: a class that hardly fits its roster, lower grades.
+
+Two shares are looked at, and each catches what the other cannot:
+- of the submissions, how many are on a line of the roster (of the worksheet, of the gradebook). A
+  roster of another class, or one whose columns were misunderstood, joins few of them. A section's
+  submissions against the whole course's list are all on it, so that is fine.
+- of the roster's lines, how many would get 0 points, if the policy says `missing: zero`. That
+  catches a section against the whole list where the list does not say who handed in.
+Beyond that nobody's grade goes down (`lower`).
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from grader.assignment_policy import Policy
+from grader.batch.model import ClassFolder
+from grader.batch.model import OnRoster
+from grader.errors import UsageError
+from grader.report.plain import one_line
+
+if TYPE_CHECKING:
+    from grader.gradebook.lowered import Lowered
+
+JOIN, LOWER = "join", "lower"
+KNOWN = (JOIN, LOWER)
+LEAST_JOINED = 0.8  # of the submissions
+MOST_ZEROS = 0.2  # of the roster's lines
+MOST_NAMED = 5
+
+
+def accepted(words: Sequence[str]) -> frozenset[str]:
+    """Return what the instructor accepts, of words with commas in them; UsageError for others."""
+    found = [word.strip() for text in words for word in text.split(",") if word.strip()]
+    for word in found:
+        if word not in KNOWN:
+            close = difflib.get_close_matches(word, KNOWN, n=1)
+            hint = f"Did you mean '{close[0]}'? " if close else ""
+            raise UsageError(
+                f"nothing is called '{one_line(word, most=40)}' that could be accepted",
+                remedy=f"{hint}Known: {', '.join(KNOWN)}.",
+            )
+    return frozenset(found)
+
+
+def refuse_poor_join(
+    folder: ClassFolder, sheets: Sequence[OnRoster], policy: Policy, accepts: Collection[str]
+) -> None:
+    """Raise UsageError if the class hardly fits its roster, or one of the teacher's files."""
+    if JOIN in accepts:
+        return
+    for found in (folder.on_roster, *sheets):
+        if found is None or not found.submissions:
+            continue
+        joined = found.submissions - len(found.strangers)
+        if joined < LEAST_JOINED * found.submissions:
+            raise UsageError(
+                f"only {joined} of {found.submissions} submissions are on {found.roster} "
+                f"({found.lines} students); at least {LEAST_JOINED:.0%} should be. "
+                f"Nothing was marked or written. Not on it: {_named(found.strangers)}",
+                remedy="Is it this class' list, and are its columns named so that they are "
+                f"understood? {_go_on(JOIN)}",
+            )
+    _refuse_zeros(folder, policy)
+
+
+def refuse_lower(lowered: Sequence[Lowered], accepts: Collection[str], *, marked: bool) -> None:
+    """Raise UsageError if grades would go down; `marked` says whether there are new verdicts."""
+    if not lowered or LOWER in accepts:
+        return
+    people = len({one.key for one in lowered})
+    who = "1 student" if people == 1 else f"{people} students"
+    kept = "The verdicts are kept, and nothing" if marked else "Nothing"
+    raise UsageError(
+        f"{who} would get a lower grade than there is already. {kept} was written. "
+        f"{_named([str(one) for one in lowered], by='; ')}",
+        remedy=f"Look at them (grader grade PATH shows one report). {_go_on(LOWER)}",
+    )
+
+
+def _refuse_zeros(folder: ClassFolder, policy: Policy) -> None:
+    if policy.missing != "zero" or folder.on_roster is None:
+        return
+    zeros = [student.name for student in folder.missing if student.key not in folder.elsewhere]
+    lines = folder.on_roster.lines
+    if len(zeros) > MOST_ZEROS * lines:
+        raise UsageError(
+            f"{len(zeros)} of {lines} students on {folder.on_roster.roster} would get 0 points, as "
+            f"nothing of theirs is here and the assignment's policy says missing: zero. "
+            f"Nothing was marked or written. Without a submission: {_named(zeros)}",
+            remedy=f"Are these the submissions of the whole class? {_go_on(JOIN)}",
+        )
+
+
+def _go_on(what: str) -> str:
+    return f"To go on all the same: --accept {what} (make: ACCEPT={what})."
+
+
+def _named(names: Sequence[str], *, by: str = ", ") -> str:
+    more = f"{by}and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return by.join(one_line(name, most=120) for name in names[:MOST_NAMED]) + more

@@ -1,0 +1,89 @@
+"""What is known before anything is marked: the teacher's files, the gradebook, and the class.
+
+Whatever can be found wrong with them is told here, while it costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Collection
+from dataclasses import dataclass
+from dataclasses import replace
+from pathlib import Path
+
+from grader.assignment import Assignment
+from grader.batch.accept import refuse_poor_join
+from grader.batch.discover import discover
+from grader.batch.model import ClassFolder
+from grader.batch.sheets import OpenSheets
+from grader.batch.sheets import Sheets
+from grader.batch.sheets import open_sheets
+from grader.gradebook.before import Before
+from grader.gradebook.before import read_before
+from grader.report.plain import one_line
+
+UNPACKED = "unpacked"
+GRADEBOOK = "gradebook.csv"
+
+
+@dataclass(frozen=True)
+class Beforehand:
+    """The class with its files; `before` is the gradebook of an earlier run."""
+
+    folder: ClassFolder
+    sheets: OpenSheets
+    before: Before
+
+
+def look_beforehand(
+    path: Path,
+    assignment: Assignment,
+    sheets: Sheets,
+    out: Path,
+    *,
+    system: str,
+    roster: Path | None,
+    accepts: Collection[str],
+    say: Callable[[str], None],
+) -> Beforehand:
+    """Read everything; UsageError for what cannot be used, and for a class that hardly fits.
+
+    If no roster was named, the worksheet is the roster, else Canvas' gradebook.
+    """
+    opened = open_sheets(sheets, assignment)
+    before = read_before(out / GRADEBOOK)
+    for note in opened.notes:
+        say(f"  {one_line(note)}")
+    rosters = [roster] if roster else opened.rosters
+    found = discover(
+        path,
+        system=system,
+        roster=rosters[0] if rosters else None,
+        unpack=out / UNPACKED,
+    )
+    _say_found(found, say)
+    folder = _with_elsewhere(found, opened, before)
+    students = {one.student.key: one.student for one in folder.handed_in}
+    covered = list(opened.covered(list(students.values()), folder.system))
+    refuse_poor_join(folder, covered, assignment.policy, accepts)
+    return Beforehand(folder, opened, before)
+
+
+def _with_elsewhere(folder: ClassFolder, opened: OpenSheets, before: Before) -> ClassFolder:
+    """Return the class with what the files and the gradebook know of those who are missing."""
+    elsewhere = {**opened.elsewhere(folder.missing, folder.system), **folder.elsewhere}
+    for student in folder.missing:
+        had = before.elsewhere(student)
+        if had is not None:
+            elsewhere[student.key] = replace(elsewhere.get(student.key, had), final=had.final)
+    return replace(folder, elsewhere=elsewhere)
+
+
+def _say_found(folder: ClassFolder, say: Callable[[str], None]) -> None:
+    students = {attempt.student.key for attempt in folder.handed_in}
+    attempts = len(folder.handed_in)
+    more = f" in {attempts} attempts" if attempts != len(students) else ""
+    missing = f", nothing of {len(folder.missing)} others" if folder.missing else ""
+    say(f"found {len(students)} students{more}{missing} ({folder.system})")
+    for note in folder.notes:
+        say(f"  {one_line(note)}")

@@ -1,0 +1,148 @@
+"""Submissions of groups: whose members the roster tells, by its column of groups.
+
+Moodle's download calls a group's folder after the group as `clean_filename` leaves it
+(mod/assign/classes/downloader.php): `_` has become a blank, `&` first `&amp;`, and what no file
+name can have (PARAM_FILE) is dropped. The worksheet has the name as it is. Names are compared as Moodle writes
+them, and only then without capitals and accents.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable
+from collections.abc import Iterable
+from collections.abc import Iterator
+from collections.abc import Mapping
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import field
+
+from grader.batch.match import folded
+from grader.batch.model import Student
+from grader.batch.roster import Line
+
+DROPPED = re.compile(r"[\x00-\x1f\x7f&<>\"`|':\\/]")
+SEVERAL = re.compile(r"\s*[,;|]\s*")  # between groups, if somebody is in more than one
+
+
+@dataclass
+class Groups:
+    """The rows of each group's members by the submission's key, and the group's name.
+
+    `doubtful` are submissions whose group is not certain, `unsure` the rows that may be in one.
+    """
+
+    rows: dict[str, list[int]] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+    doubtful: set[str] = field(default_factory=set)
+    unsure: dict[int, str] = field(default_factory=dict)
+
+
+def find_groups(students: Sequence[Student], lines: Sequence[Line]) -> Groups:
+    """Return which of the submissions are a group's, by the name that the folder has."""
+    found = Groups()
+    cells = _rows_by_group(lines)
+    for form in (_as_moodle_writes, _loosely):
+        known = found.rows.keys() | found.doubtful
+        left = [student for student in students if student.key not in known]
+        free = {cell: rows for cell, rows in cells.items() if cell not in found.names.values()}
+        _match(found, left, free, form)
+    _without_double_members(found, lines)
+    return found
+
+
+def group_column(students: Sequence[Student], lines: Sequence[Line]) -> str:
+    """Return the column of unknown name in which most of the submissions' names stand; "" if none.
+
+    It is one of groups only if a name stands in it for more than one student.
+    """
+    for column in lines[0].unknown if lines else ():
+        trial = [Line(line.student, group=line.unknown.get(column, "")) for line in lines]
+        found = find_groups(students, trial)
+        members = sum(len(rows) for rows in found.rows.values())
+        if 2 * len(found.rows) > len(students) and members > len(found.rows):
+            return column
+    return ""
+
+
+def _rows_by_group(lines: Sequence[Line]) -> dict[str, list[int]]:
+    cells: dict[str, list[int]] = {}
+    for row, line in enumerate(lines):
+        for name in dict.fromkeys((line.group, *SEVERAL.split(line.group))):
+            if name:
+                cells.setdefault(name, []).append(row)
+    return cells
+
+
+def _match(
+    found: Groups,
+    students: Iterable[Student],
+    cells: Mapping[str, list[int]],
+    form: Callable[[str], Iterable[str]],
+) -> None:
+    by_form: dict[str, set[str]] = {}
+    for cell in cells:
+        for text in form(cell):
+            by_form.setdefault(text, set()).add(cell)
+    claims: dict[str, list[Student]] = {}
+    for student in students:
+        fit = {cell for name in _names(student) for t in form(name) for cell in by_form.get(t, ())}
+        for cell in fit:
+            claims.setdefault(cell, []).append(student)
+        if len(fit) > 1:
+            _doubt(found, [student], fit, cells)
+    for cell, claimants in claims.items():
+        if len(claimants) > 1:
+            _doubt(found, claimants, [cell], cells)
+        elif claimants[0].key not in found.doubtful:
+            found.rows[claimants[0].key] = list(cells[cell])
+            found.names[claimants[0].key] = cell
+    for key in found.doubtful & found.rows.keys():
+        del found.rows[key], found.names[key]
+
+
+def _doubt(
+    found: Groups,
+    students: Iterable[Student],
+    names: Iterable[str],
+    cells: Mapping[str, list[int]],
+) -> None:
+    found.doubtful.update(student.key for student in students)
+    for name in names:
+        why = f"a group handed in that may be '{name}': more than one has this name"
+        found.unsure |= dict.fromkeys(cells[name], why)
+
+
+def _without_double_members(found: Groups, lines: Sequence[Line]) -> None:
+    """Take out who is in several of the groups: which verdict is theirs is not certain."""
+    groups: dict[int, list[str]] = {}
+    for key, rows in found.rows.items():
+        for row in rows:
+            groups.setdefault(row, []).append(key)
+    for row, keys in groups.items():
+        # a group may be called `Kim, Lee`
+        own = [key for key in keys if found.names[key] == lines[row].group]
+        if len(keys) > 1 and not own:
+            named = ", ".join(f"'{found.names[key]}'" for key in keys)
+            found.unsure[row] = f"is in more than one group that handed in: {named}"
+        if len(keys) > 1:
+            for key in set(keys) - set(own):
+                found.rows[key].remove(row)
+
+
+def _names(student: Student) -> Iterator[str]:
+    """Yield the names that a folder may stand for; a number of Moodle's may be behind it."""
+    yield student.name
+    yield student.name.removesuffix(f" {student.key}")
+
+
+def _as_moodle_writes(name: str) -> Iterator[str]:
+    plain = unicodedata.normalize("NFC", name).replace("_", " ")
+    yield DROPPED.sub("", plain).strip()
+    yield DROPPED.sub("", plain.replace("&", "&amp;")).strip()
+
+
+def _loosely(name: str) -> Iterator[str]:
+    for text in _as_moodle_writes(name):
+        yield " ".join(folded(text).split())
