@@ -59,7 +59,7 @@ def refuse_poor_join(
         if joined < LEAST_JOINED * found.submissions:
             raise UsageError(
                 f"only {joined} of {found.submissions} submissions are on {found.roster} "
-                f"({found.lines} students); at least {LEAST_JOINED:.0%} should be. "
+                f"({counted(found.lines)}); at least {LEAST_JOINED:.0%} should be. "
                 f"Nothing was marked or written. Not on it: {_named(found.strangers)}",
                 remedy="Is it this class' list, and are its columns named so that they are "
                 f"understood? {_go_on(JOIN)}",
@@ -72,10 +72,9 @@ def refuse_lower(lowered: Sequence[Lowered], accepts: Collection[str], *, marked
     if not lowered or LOWER in accepts:
         return
     people = len({one.key for one in lowered})
-    who = "1 student" if people == 1 else f"{people} students"
     kept = "The verdicts are kept, and nothing" if marked else "Nothing"
     raise UsageError(
-        f"{who} would get a lower grade than there is already. {kept} was written. "
+        f"{counted(people)} would get a lower grade than there is already. {kept} was written. "
         f"{_named([str(one) for one in lowered], by='; ')}",
         remedy=f"Look at them (grader grade PATH shows one report). {_go_on(LOWER)}",
     )
@@ -93,6 +92,11 @@ def _refuse_zeros(folder: ClassFolder, policy: Policy) -> None:
             f"Nothing was marked or written. Without a submission: {_named(zeros)}",
             remedy=f"Are these the submissions of the whole class? {_go_on(JOIN)}",
         )
+
+
+def counted(students: int) -> str:
+    """Return a number of students with its noun."""
+    return "1 student" if students == 1 else f"{students} students"
 
 
 def _go_on(what: str) -> str:

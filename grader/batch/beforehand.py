@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grader.assignment import Assignment
+from grader.batch.accept import counted
 from grader.batch.accept import refuse_poor_join
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
@@ -83,7 +84,7 @@ def _say_found(folder: ClassFolder, say: Callable[[str], None]) -> None:
     students = {attempt.student.key for attempt in folder.handed_in}
     attempts = len(folder.handed_in)
     more = f" in {attempts} attempts" if attempts != len(students) else ""
-    missing = f", nothing of {len(folder.missing)} others" if folder.missing else ""
-    say(f"found {len(students)} students{more}{missing} ({folder.system})")
+    missing = f", {len(folder.missing)} without a submission" if folder.missing else ""
+    say(f"found {counted(len(students))}{more}{missing} ({folder.system})")
     for note in folder.notes:
         say(f"  {one_line(note)}")

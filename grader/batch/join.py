@@ -63,7 +63,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
     students = [group[0].student for group in by_key.values()]
     roster, told = _with_groups(system, students, roster)
     match = Match()
-    match_more(match, sure_ways(system, roster), students, roster)
+    match_more(match, sure_ways(system, students, roster), students, roster)
     # a group `Team Lee` may have the number of a participant Ann Lee
     named = find_groups(students, roster.lines).rows
     for student in students:

@@ -67,16 +67,15 @@ def match_more(
                 match.by_name.add(keys[0])
 
 
-def sure_ways(system: System, roster: Roster) -> Iterator[Way]:
+def sure_ways(system: System, students: Sequence[Student], roster: Roster) -> Iterator[Way]:
     """Yield how a submission is found by more than a name, the surest way first.
 
     Moodle's and Canvas' numbers mean something only where the roster has them too: a small number
-    of another list would be somebody else's. A roster with groups may come with group submissions,
-    and the number of a group is a participant's number as well: there the names must agree.
+    of another list would be somebody else's.
     """
     numbered = system in ("moodle", "canvas")
     if system == roster.kind and numbered:
-        yield _by_number(roster)
+        yield _by_number(students, roster)
     if system == "github_classroom":
         yield Way(_username, _username)
         yield Way(_tails, _username)
@@ -89,15 +88,15 @@ def sure_ways(system: System, roster: Roster) -> Iterator[Way]:
 
 def other_ways(system: System, roster: Roster) -> Iterator[Way]:
     """Yield the ways that are taken for what is no group's either."""
-    if system == roster.kind and _has_groups(roster):
+    if system == roster.kind and system in ("moodle", "canvas"):
         yield Way(_number, _number, fits=_is_nameless)
     yield from NAME_WAYS
 
 
-def ways_of_people(system: System, roster: Roster) -> Iterator[Way]:
+def ways_of_people(system: System, students: Sequence[Student], roster: Roster) -> Iterator[Way]:
     """Yield how students of whom more is known than their folder's name are found in a sheet."""
     if system == roster.kind and system in ("moodle", "canvas"):
-        yield _by_number(roster)
+        yield _by_number(students, roster)
     for marks in (_id_number, _email, _username):
         yield Way(marks, marks)
     yield from other_ways(system, roster)
@@ -119,19 +118,23 @@ def folded(name: str) -> str:
     return "".join(c for c in plain if not unicodedata.category(c).startswith("M"))
 
 
-def _by_number(roster: Roster) -> Way:
-    if _has_groups(roster):
-        return Way(_number, _number, fits=names_agree)
-    return Way(_number, _number)
+def _by_number(students: Sequence[Student], roster: Roster) -> Way:
+    """Return the way by the system's own number.
 
-
-def _has_groups(roster: Roster) -> bool:
-    return any(line.group for line in roster.lines)
+    The number of a Moodle group is a participant's number as well. So the names must agree if the
+    roster has groups, or if the names of most numbers do not agree (nobody's name has changed then).
+    """
+    lines = {mark: line for line in roster.students for mark in _number(line)}
+    pairs = [(one, lines[mark]) for one in students for mark in _number(one) if mark in lines]
+    agree = sum(names_agree(*pair) or _is_nameless(*pair) for pair in pairs)
+    groups = any(line.group for line in roster.lines)
+    moodle = roster.kind == "moodle" and (groups or 2 * agree < len(pairs))
+    return Way(_number, _number, fits=names_agree if moodle else None)
 
 
 def _is_nameless(own: Student, line: Student) -> bool:
-    del own
-    return line.name in ("", line.key)
+    """Whether one of the two has no name but the number: a blind marker sees no other."""
+    return line.name in ("", line.key) or own.name.endswith(f" {own.key}") or own.name == own.key
 
 
 def _rows_by_mark(way: Way, lines: Sequence[Student], *, without: set[int]) -> dict[str, list[int]]:

@@ -92,7 +92,7 @@ def read_roster(path: Path) -> Roster:
     if not columns.tells_people_apart or _has_no_header(sheet):
         raise UsageError(f"{place(0)}: {_no_columns(sheet)}", remedy=_remedy())
     roster = roster_of(sheet, f"the roster {name}", columns)
-    _no_twins(roster.lines, place)
+    _no_duplicates(roster.lines, place)
     if not roster.lines:
         raise UsageError(f"{place(0)}: there is no student below the header")
     left_out = sorted(set(range(1, len(sheet.rows))) - {line.row for line in roster.lines})
@@ -224,7 +224,7 @@ def _remedy() -> str:
     )
 
 
-def _no_twins(lines: tuple[Line, ...], place: Callable[[int], str]) -> None:
+def _no_duplicates(lines: tuple[Line, ...], place: Callable[[int], str]) -> None:
     seen: dict[tuple[str, str], int] = {}
     for line in lines:
         for what, value in _marks(line.student):

@@ -61,9 +61,9 @@ class CanvasGradebook:
     def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the line of each student, by key."""
         found = Match()
-        sure = [way for way in ways_of_people(system, self.roster) if not way.by_name]
-        names = [way for way in ways_of_people(system, self.roster) if way.by_name]
-        ways = [*sure, Way(_email, _login), *names]
+        ways = list(ways_of_people(system, students, self.roster))
+        sure = [way for way in ways if not way.by_name]
+        ways = [*sure, Way(_email, _login), *(way for way in ways if way.by_name)]
         match_more(found, ways, students, self.roster)
         return found
 
@@ -182,7 +182,9 @@ def _need_gradebook(header: list[str]) -> None:
     names = "Student" in header[0] and len(header) > 3 and "ID" in header[1]
     split = header[:2] == ["LastName", "FirstName"] and len(header) > 4 and "ID" in header[2]
     if not (names or split) or "Section" not in header:
-        raise UsageError(f"{NAME} is none: it does not begin with Student, ID", remedy=REMEDY)
+        raise UsageError(
+            "this is no Canvas gradebook: it does not begin with Student, ID", remedy=REMEDY
+        )
 
 
 def _is_called(header: str, name: str) -> bool:

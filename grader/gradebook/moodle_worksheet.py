@@ -69,7 +69,8 @@ class Worksheet:
     def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the line of each student, by key."""
         found = Match()
-        match_more(found, ways_of_people(system, self.roster), students, self.roster)
+        ways = ways_of_people(system, students, self.roster)
+        match_more(found, ways, students, self.roster)
         return found
 
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:

@@ -101,6 +101,19 @@ def test_a_groups_number_is_no_participants(tmp_path: Path) -> None:
     assert [student.name for student in unknown.missing] == [p.name for p in class_[:2]]
 
 
+def test_a_number_alone_is_nobodys_if_the_names_do_not_agree(tmp_path: Path) -> None:
+    """A list without the column of groups: every group's number may be somebody's."""
+    class_ = people(6)
+    found = found_for(tmp_path, class_, ("Blue", 1003), ("Red", 1000), ("Green", 8))
+    assert members(found).keys() == {"Blue", "Red", "Green"}
+    assert len(found.missing) == 6
+    # one student who is called otherwise now is still known by the number
+    (tmp_path / "married").mkdir()
+    folders = [(p.name, p.number) for p in class_[:3]]
+    one = found_for(tmp_path / "married", class_, ("Bo Fox", 1003), *folders)
+    assert [student.name for student in one.missing] == [p.name for p in class_[4:]]
+
+
 def test_a_group_called_after_the_participant_of_its_number_is_a_group(tmp_path: Path) -> None:
     class_ = grouped(("Red", 2), ("Team Lee", 2))
     assert class_[0].name == "Ann Lee"
