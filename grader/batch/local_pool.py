@@ -123,7 +123,7 @@ class LocalPool:
                 task = next(waiting, None)
                 if task is None:
                     return
-                trial = Trial(task)
+                trial = Trial(task, self._seconds)
             worker = idle or self._start(selector)
             if trial.tries == 0:
                 started(trial.task)
@@ -180,7 +180,7 @@ class LocalPool:
                 trial = worker.trial
                 self._lose(worker, selector)
                 why = f"it was not done within {self._seconds:.0f} s, and its worker was ended"
-                yield from self._judge(trial, Answer(fault=why))
+                yield from self._judge(trial, Answer(fault=why, seconds=self._seconds))
 
     def _read(self, worker: Worker, selector: selectors.BaseSelector) -> Answer | None:
         """Return a whole answer, or that the worker has died; None while more is to come."""
