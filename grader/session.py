@@ -19,6 +19,7 @@ from grader.submission import Submission
 from grader.workspace import Build
 from grader.workspace import build
 
+WORKS_SECONDS = 10.0
 RUNS = 3  # how often a run is tried when our own side fails
 AGREE = 0.1  # of the period: two runs on the wall clock that differ by more say nothing
 
@@ -91,10 +92,17 @@ class Session:
                 self._drop_probe()
                 continue
             run.resource = run.resource or self.sandbox.resource_met()
+            if run.ended_by_itself and not run.nodes and not run.resource and not self._works():
+                failure = ProbeError(f"the sandbox starts no command any more:\n{run.transcript}")
+                continue
             return run
         if failure is None:
             raise Inconclusive("the verdict's time was used up, and a run would not have fitted in")
         raise Inconclusive(f"the probe failed in {tries} of {tries} runs, the last time: {failure}")
+
+    def _works(self) -> bool:
+        """Whether a command that does nothing succeeds: that one ended at once is the node's then."""
+        return self.sandbox.run(["true"], seconds=WORKS_SECONDS).status == 0
 
     def _has_room(self) -> bool:
         """Whether the verdict's ceiling leaves time for a whole run."""

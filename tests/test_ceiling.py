@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
@@ -25,6 +26,7 @@ from grader.report.model import CheckResult
 from grader.report.model import Mistake
 from grader.running import Run
 from grader.running import observe
+from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
 from grader.session import Session
 from tests.batch.works import ASSIGNMENT
@@ -75,12 +77,18 @@ class NoProbe:
 class NoSandbox:
     limits = LIMITS
 
+    def __init__(self, *, works: bool) -> None:
+        self._works = works
+
     def resource_met(self) -> str:
         return ""
 
+    def run(self, argv: Sequence[str], *, seconds: float) -> Outcome:
+        return Outcome(0 if self._works else 1, b"", seconds)
 
-def begun() -> Session:
-    return Session(cast("Sandbox", NoSandbox()), ASSIGNMENT)
+
+def begun(*, works: bool = True) -> Session:
+    return Session(cast("Sandbox", NoSandbox(works=works)), ASSIGNMENT)
 
 
 def unheard(event: Event) -> None:
