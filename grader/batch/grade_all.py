@@ -30,7 +30,8 @@ from grader.batch.result import class_result
 from grader.batch.students import find_student
 from grader.batch.work import Job
 from grader.batch.work import Pool
-from grader.report.plain import encodable
+from grader.report.gate import gate
+from grader.report.gate import show
 from grader.report.plain import one_line
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
@@ -171,9 +172,9 @@ def _show(
     width, styled = width_of(out), takes_styles(out)
     if plan.regrades:
         changes = changes_of(ledger, list(plan.regrades.values()))
-        _print(regrade_page(changes, width=width, styled=styled))
+        _show_page(regrade_page(changes, width=width, styled=styled))
     if not asked.quiet:
-        _print(class_page(result, width=width, styled=styled))
+        _show_page(class_page(result, width=width, styled=styled))
     place = asked.out / INDEX
     _print(f"page       {place}")
     _print(f"gradebook  {asked.out / 'gradebook.csv'}")
@@ -185,10 +186,15 @@ def _say(text: str) -> None:
     _write(sys.stderr, text)
 
 
+def _show_page(page: str) -> None:
+    show(page.rstrip("\n") + "\n", sys.stdout)
+
+
 def _print(text: str) -> None:
-    _write(sys.stdout, text.rstrip("\n"))
+    _write(sys.stdout, text)
 
 
 def _write(file: TextIO, text: str) -> None:
-    file.write(encodable(f"{text}\n", file.encoding))
-    file.flush()
+    out = gate(file)
+    out.write(f"{text}\n")
+    out.flush()

@@ -16,8 +16,8 @@ from grader.mistakes.likeness import meant
 from grader.mistakes.likeness import nearest
 from grader.mistakes.recognise import filled
 from grader.mistakes.recognise import seen_in
+from grader.report.gate import show
 from grader.report.page import Page
-from grader.report.plain import encodable
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
 
@@ -37,7 +37,7 @@ def print_entry(mistake: str, *, file: TextIO, lang: str) -> None:
             raise UsageError(none + meant(close), remedy=remedy)
     page = _page(file, lang)
     _entry(page, kind, {})
-    _write(file, page)
+    show(str(page), file)
 
 
 def print_recognised(text: str, *, file: TextIO, lang: str) -> bool:
@@ -55,7 +55,7 @@ def print_recognised(text: str, *, file: TextIO, lang: str) -> bool:
         page.gap()
         names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
         page.field(say("also"), names)
-    _write(file, page)
+    show(str(page), file)
     return bool(found)
 
 
@@ -64,7 +64,7 @@ def print_list(*, file: TextIO, lang: str) -> None:
     page = _page(file, lang)
     for kind in CATALOGUE.values():
         page.line((kind.id, "bold"), ": ", Message(kind.title))
-    _write(file, page)
+    show(str(page), file)
 
 
 def _entry(page: Page, kind: Kind, params: dict[str, str]) -> None:
@@ -76,8 +76,3 @@ def _entry(page: Page, kind: Kind, params: dict[str, str]) -> None:
 
 def _page(file: TextIO, lang: str) -> Page:
     return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(lang))
-
-
-def _write(file: TextIO, page: Page) -> None:
-    file.write(encodable(str(page), file.encoding))
-    file.flush()
