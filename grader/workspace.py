@@ -109,17 +109,10 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
 
     colcon and the student's setup.py have a command of their own: whatever it ends with is theirs.
     """
-    setup = f'. "{sandbox.ros_path}/setup.bash"'
-    _ours(
-        sandbox.run(
-            ["bash", "-c", f"tar -xf - && {setup} && command -v colcon > /dev/null"],
-            stdin=as_tar(submission, package),
-            seconds=LAY_OUT_SECONDS,
-        ),
-        say("the workspace could not be laid out"),
-    )
+    lay_out(sandbox, as_tar(submission, package))
     outcome = sandbox.run(
-        ["bash", "-c", f"{setup}; exec {BUILD} < /dev/null"], seconds=sandbox.limits.build_seconds
+        ["bash", "-c", f"{_setup(sandbox)}; exec {BUILD} < /dev/null"],
+        seconds=sandbox.limits.build_seconds,
     )
     files, entry_points = _inspect(sandbox)
     return Build(
@@ -131,6 +124,20 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
         files=files,
         entry_points=entry_points,
     )
+
+
+def lay_out(sandbox: Sandbox, files: bytes) -> None:
+    """Unpack a tar stream into the workspace, and look for colcon: SurroundingsError if that fails.
+
+    Nothing of the student's runs here.
+    """
+    script = f"tar -xf - && {_setup(sandbox)} && command -v colcon > /dev/null"
+    outcome = sandbox.run(["bash", "-c", script], stdin=files, seconds=LAY_OUT_SECONDS)
+    _ours(outcome, say("the workspace could not be laid out"))
+
+
+def _setup(sandbox: Sandbox) -> str:
+    return f'. "{sandbox.ros_path}/setup.bash"'
 
 
 def _ours(outcome: Outcome, failed: str) -> None:

@@ -16,7 +16,13 @@ from grader.report.page import Page
 from grader.report.plain import one_line
 from grader.report.plain import points
 
-STYLES = {"graded": "", "ungradable": "bold magenta", "missing": "yellow", "pending": "cyan"}
+STYLES = {
+    "graded": "",
+    "ungradable": "bold magenta",
+    "error": "bold magenta",
+    "missing": "yellow",
+    "pending": "cyan",
+}
 MOST_NAMES = 5  # of what failed, in one line
 
 
@@ -109,6 +115,8 @@ def _row(entry: Entry) -> list[tuple[str, str]]:
 
 
 def _reason(entry: Entry) -> str:
+    if entry.status == "error":
+        return one_line(f"not marked: {entry.notes[0] if entry.notes else entry.problem}", most=160)
     if entry.status != "graded":
         return one_line(entry.problem or entry.status, most=120)
     failed = [mark.check.id for mark in marks(entry) if mark.check.status == "failed"]
@@ -128,6 +136,7 @@ def _totals(entries: Sequence[Entry]) -> str:
     full = sum(1 for e in entries if e.report is not None and e.report.all_passed)
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
     words = {"ungradable": "cannot be marked", "missing": "handed in nothing"}
+    words["error"] = "not marked, a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
     return ", ".join(parts) + "."

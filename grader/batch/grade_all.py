@@ -30,6 +30,7 @@ from grader.batch.result import class_result
 from grader.batch.students import find_student
 from grader.batch.work import Job
 from grader.batch.work import Pool
+from grader.errors import SurroundingsError
 from grader.report.gate import gate
 from grader.report.gate import show
 from grader.report.plain import one_line
@@ -61,7 +62,8 @@ class ClassOrder:
 def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
     """Mark what is not marked yet, write everything, and return the exit status.
 
-    Ctrl+C ends the marking: what was marked is kept and written, then KeyboardInterrupt goes on.
+    Ctrl+C and surroundings that fail end the marking: what was marked is kept and written, then
+    KeyboardInterrupt or SurroundingsError goes on.
     """
     started = datetime.now(timezone.utc)
     order = asked.order
@@ -69,7 +71,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
         order.path, system=asked.system, roster=asked.roster, unpack=asked.out / UNPACKED
     )
     _say_found(folder)
-    interrupted = False
+    ended: KeyboardInterrupt | SurroundingsError | None = None
     with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
         with ClassProgress(sys.stderr) as progress:
             plan = run.make_plan(ledger, folder, setting, listener=progress)
@@ -88,8 +90,8 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
             try:
                 if plan.todo:
                     run.carry_out(ledger, plan, setting, pool, listener=progress)
-            except KeyboardInterrupt:
-                interrupted = True
+            except (KeyboardInterrupt, SurroundingsError) as why:
+                ended = why
         result = class_result(
             ledger,
             folder,
@@ -102,11 +104,12 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
         )
         written = write_all(result, asked.out, asked.sheets, ledger, say=_say)
         _show(result, plan, ledger, asked, written=written)
-        failed = any(ledger.fault(item.student, item.key) for item in plan.todo)
-        status = _status(result, failed=failed)
-    if interrupted:
+        status = _status(result)
+    if isinstance(ended, KeyboardInterrupt):
         _say("interrupted: what was marked is kept, and the same command goes on from there")
-        raise KeyboardInterrupt
+    if ended is not None:
+        raise ended
+    _say_faults(result)
     return status
 
 
@@ -141,10 +144,18 @@ def _chosen(words: Sequence[str], plan: run.Plan) -> list[str]:
     return [find_student(word, list(students.values())).key for word in words]
 
 
-def _status(result: ClassResult, *, failed: bool) -> int:
+def _say_faults(result: ClassResult) -> None:
+    count = sum(entry.status == "error" for entry in result.entries)
+    if count:
+        who, it = (
+            ("1 submission was", "it") if count == 1 else (f"{count} submissions were", "them")
+        )
+        _say(f"{who} not marked: the grader failed on {it}, try by try, and works without {it}")
+        _say("the reasons are in the gradebook's notes; the same command tries again")
+
+
+def _status(result: ClassResult) -> int:
     """Return the worst of the students; who handed in nothing is no student's fault of marking."""
-    if failed:
-        return 3
     marked = [entry for entry in result.entries if entry.status != "missing"]
     return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
 

@@ -18,7 +18,7 @@ from typing import overload
 from grader.report.model import Report
 
 System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
-EntryStatus = Literal["graded", "ungradable", "missing", "pending"]
+EntryStatus = Literal["graded", "ungradable", "error", "missing", "pending"]
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,8 @@ class Entry:
 
     `score` is the report's with overrides (None where there is none); `penalty` the points taken
     for lateness; `final` what goes into the gradebook, None if nothing does (an ungradable
-    submission waits for the instructor; a missing one follows the assignment's policy).
+    submission waits for the instructor, one with `error` for another try of the grader; a missing
+    one follows the assignment's policy). `problem` is for the student, `notes` are not.
     """
 
     student: Student

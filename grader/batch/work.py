@@ -150,7 +150,7 @@ class Pool(Protocol):
         ...
 
     def prove(self) -> None:
-        """Raise SurroundingsError if it is not the submissions that fail."""
+        """Raise SurroundingsError if it is our side that fails, and not the submissions."""
         ...
 
 

@@ -126,7 +126,7 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
         "identical": _identical(result),
         **{
             status: [entry for entry in entries if entry.status == status]
-            for status in ("ungradable", "missing", "pending")
+            for status in ("ungradable", "error", "missing", "pending")
         },
     }
     return renderer.page(
@@ -169,8 +169,8 @@ def _cards(entries: Sequence[Entry]) -> list[tuple[str, int]]:
         ("ungradable", count("ungradable")),
         ("missing", count("missing")),
     ]
-    pending = count("pending")
-    return [*cards, ("not marked yet", pending)] if pending else cards
+    open_ = (("a fault of the grader", count("error")), ("not marked yet", count("pending")))
+    return [*cards, *((name, number) for name, number in open_ if number)]
 
 
 def _identical(result: ClassResult) -> list[list[Entry]]:
