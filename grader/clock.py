@@ -128,7 +128,8 @@ class VirtualClock:
     def _find_period(self, watch: Watch, tell: Callable[[Event], None]) -> None:
         """Find out at which instants the ticks do come: small steps, then exactly if it is P."""
         step = max(self._period // GRID, MILLISECOND)
-        seen: list[float] = [e.virtual for e in watch.counted if e not in watch.before_start]
+        before = {id(event) for event in watch.before_start}
+        seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
         stop = self._at + 12 * self._period
         fresh: list[float] = []
         while self._at < stop and len(fresh) < 6 and not self._over():
@@ -168,9 +169,9 @@ class VirtualClock:
 
     def _unmask(self, watch: Watch, tell: Callable[[Event], None]) -> None:
         """Let the clock stand still: what comes now follows the wall clock."""
-        deadline = time.monotonic() + STILL * self._output.period
+        deadline = min(self._deadline, time.monotonic() + STILL * self._output.period)
         still: list[Event] = []
-        while time.monotonic() < deadline and not self._observer.terminal.ended:
+        while time.monotonic() < deadline and not self._observer.over:
             still += self._observer.take(self._observer.probe.ask("wait", seconds=0.1))
         watch.events += still
         if any(event.n is not None for event in still) or (still and not watch.dues):
@@ -219,9 +220,8 @@ class VirtualClock:
         ]
 
     def _over(self) -> bool:
-        terminal = self._observer.terminal
         stuck = self._unanswered >= UNANSWERED and self._at > MILLISECOND
-        return stuck or terminal.ended or terminal.flooded or time.monotonic() > self._deadline
+        return stuck or self._observer.over or time.monotonic() > self._deadline
 
 
 class ForeignClock(Exception):  # noqa: N818
@@ -244,7 +244,7 @@ def watch_wall(
     watch.clock = "wall"
     watch.dues, watch.missing, watch.early = [], [], []
     end = min(deadline, time.monotonic() + (WALL_TICKS + 1) * output.period + WALL_SPARE)
-    while time.monotonic() < end and not observer.terminal.ended and not observer.terminal.flooded:
+    while time.monotonic() < end and not observer.over:
         if len(watch.counted) > WALL_TICKS and any(e.n is not None for e in watch.events):
             break
         events = observer.take(observer.probe.ask("wait", seconds=0.05))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import traceback
 from types import FrameType
 
 import click
@@ -15,6 +16,10 @@ from grader.locale.command_line import said_in
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import chosen_language
+from grader.report.gate import gated_output
+from grader.report.plain import first_lines
+
+MOST_LINES = 60  # of an error's message
 
 
 class Terminated(BaseException):
@@ -31,7 +36,7 @@ def run(command: click.Command, name: str, argv: list[str] | None) -> int:
     signal.signal(signal.SIGTERM, _terminated)
     signal.signal(signal.SIGHUP, _terminated)
     words = sys.argv[1:] if argv is None else argv
-    with said_in(language_of(words), command):
+    with gated_output(), said_in(language_of(words), command):
         return _run(command, name, words)
 
 
@@ -45,7 +50,8 @@ def _run(command: click.Command, name: str, argv: list[str]) -> int:
         error.show()
         return 2
     except GraderError as error:
-        click.echo(f"{name}: {error}", err=True)
+        lines = first_lines(f"{name}: {error}", lines=MOST_LINES)
+        click.echo("\n".join(lines), err=True)
         return error.exit_status
     except (KeyboardInterrupt, click.Abort):
         _tell(say("{name}: interrupted; nothing was left running", name=name))
@@ -56,6 +62,15 @@ def _run(command: click.Command, name: str, argv: list[str]) -> int:
     except BrokenPipeError:  # the reader of our output has gone (| head)
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+    except Exception:  # a fault of ours: its traceback passes the gate, as it may quote anything
+        traceback.print_exc()
+        _tell(
+            say(
+                "{name}: this is a fault of the program: please report it with all of the above",
+                name=name,
+            )
+        )
+        return 3
 
 
 def _tell(text: str) -> None:

@@ -1,7 +1,7 @@
 """The limits on a submission: each a number in one place.
 
 Seconds and bytes. An assignment (`limits:`) or the command line (`--limit name=value`) overrides
-any of them; the report says what held each one.
+any of them; the report says what held each one. Each in time is a deadline that no output extends.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from grader.locale.message import joined
 from grader.locale.message import say
 
 MEGABYTE = 1_000_000
+RUNS = 2  # for which a verdict has time: a run, and a second opinion on it
+OVERRUN_SECONDS = 30.0  # of a run, beyond its limits: the probe's answers, and the end of it all
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,19 @@ class Limits:
     """Of the workspace, a file system in memory; `/tmp`, `/dev/shm` and home have a tenth each."""
     output: float = 1 * MEGABYTE
     """What a command may print before it is stopped."""
+
+    @property
+    def a_run(self) -> float:
+        """Seconds of wall time that one run has room for; none is begun with less left."""
+        return self.start_seconds + self.run_seconds + self.stop_seconds + OVERRUN_SECONDS
+
+    @property
+    def verdict_seconds(self) -> float:
+        """The ceiling of a verdict in seconds of wall time, from the open sandbox to the last check.
+
+        It holds whatever is repeated inside: runs, second opinions, and tries after faults of ours.
+        """
+        return self.build_seconds + OVERRUN_SECONDS + RUNS * self.a_run
 
     def override(self, values: Mapping[str, float]) -> Limits:
         """Return these limits with some changed; UsageError for an unknown name or no number > 0."""

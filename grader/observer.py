@@ -23,6 +23,7 @@ from grader.terminal import Terminal
 SECOND = 1_000_000_000
 GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
 LATE_GRACE = 1.0  # the same for what was logged before the probe had found the node
+PREFIX = 60  # bytes, about, that a log record has on a terminal beside its text
 
 Source = Literal["logger", "print", "faked"]
 
@@ -65,7 +66,8 @@ class Watch:
         own = [event for event in self.events if event.n is not None]
         if own:
             return own
-        others = [e for e in without_tracebacks(self.events) if e not in self.before_start]
+        before = {id(event) for event in self.before_start}
+        others = [e for e in without_tracebacks(self.events) if id(e) not in before]
         moments = {event.due if self.clock == "virtual" else event.wall for event in others}
         # what comes once only is a message or a traceback, and no count
         return others if len(moments - {None}) > 1 else []
@@ -98,6 +100,17 @@ class Observer:
         self.now = 0.0  # virtual seconds
         self._linked: float | None = None
         self._mirrored = True  # whether the terminal shows what the logger says
+        self.logged = 0  # bytes that the log records would have on a terminal
+
+    @property
+    def flooded(self) -> bool:
+        """Whether the node has put out more than it may: on the terminal, or on /rosout alone."""
+        return self.terminal.flooded or self.logged >= self.terminal.most
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more is to be seen: the command has ended, or was stopped for its output."""
+        return self.terminal.ended or self.flooded
 
     def linked(self, nodes: Sequence[NodeSeen]) -> None:
         """Note when the probe could first hear a node's log records: older ones come late."""
@@ -115,14 +128,16 @@ class Observer:
         """Return the new events of an answer and of the terminal, in order."""
         events = [self._of_record(record) for record in (answer.logs if answer else ())]
         for line in self.terminal.read(seconds):
-            if line.log is not None:
-                self._unmatched.append(line)
-            elif line.text.strip():
-                events.append(self._event(line.text, line.wall, "print", None))
+            for part in line.parts():
+                if part.log is not None:
+                    self._unmatched.append(part)
+                elif part.text.strip():
+                    events.append(self._event(part.text, part.wall, "print", None))
         return events + self._match()
 
     def _of_record(self, record: LogRecord) -> Event:
         self.records.append(record)
+        self.logged += len(record.text.encode()) + PREFIX
         return self._event(record.text, record.stamp / SECOND, "logger", record)
 
     def _event(self, text: str, wall: float, source: Source, record: LogRecord | None) -> Event:
@@ -182,7 +197,7 @@ class Observer:
         deadline = time.monotonic() + 2 * LATE_GRACE
         while (
             (self._unmatched or self._has_unshown(self.records[-4000:]))
-            and not self.terminal.flooded
+            and not self.flooded
             and time.monotonic() < deadline
         ):
             events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
@@ -190,7 +205,4 @@ class Observer:
 
     def _has_unshown(self, records: Sequence[LogRecord]) -> bool:
         """Whether a record's line may still come on the terminal."""
-        terminal = self.terminal
-        return not (terminal.ended or terminal.flooded) and any(
-            record.stamp not in self._shown for record in records
-        )
+        return not self.over and any(record.stamp not in self._shown for record in records)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -68,6 +69,8 @@ class ProbeLink:
         self._pipe = sandbox.pipe(["bash", "-c", script + setup], role="probe")
         self._buffer = b""
         self._ready = False
+        self.until = math.inf
+        """The instant of time.monotonic() after which no answer is waited for."""
 
     def ready(self) -> None:
         """Wait until rclpy is up in the probe."""
@@ -96,10 +99,11 @@ class ProbeLink:
             raise self._lost("its answer is not one of a probe") from error
 
     def _read(self, seconds: float) -> dict[str, Any]:
-        deadline = time.monotonic() + seconds
+        deadline = min(time.monotonic() + seconds, self.until)
         while b"\n" not in self._buffer:
-            data = self._pipe.read(deadline - time.monotonic())
-            if data is None:
+            left = deadline - time.monotonic()
+            data = self._pipe.read(left) if left > 0 else None
+            if data is None:  # (a part of an answer, however fast more of it comes, is none)
                 raise self._lost(f"no answer within {seconds:.0f} s")
             if not data or len(self._buffer) > LONGEST_ANSWER:
                 raise self._lost("it has ended")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 import time
 from collections.abc import Callable
@@ -26,11 +27,15 @@ from grader.terminal import Terminal
 UNSEEN_SECONDS = 5.0  # wall time after its first line in which a node is on the graph, if it is one
 COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen
 OWN_TRACEBACK = '/bin/ros2", line '  # of the command itself
+END_SECONDS = 10.0  # of a run's room, for ending what does not end by itself
 
 
 @dataclass
 class Run:
-    """What one run showed. Times in seconds: `first_line` since `ros2 run` was started."""
+    """What one run showed. Times in seconds: `first_line` since `ros2 run` was started.
+
+    `logged` is how many bytes its log records would have on a terminal.
+    """
 
     command: str
     watch: Watch = field(default_factory=Watch)
@@ -43,6 +48,7 @@ class Run:
     signal: int | None = None
     transcript: str = ""
     flooded: bool = False
+    logged: int = 0
     resource: str = ""
     inconsistent: bool = False
     seconds: float = 0
@@ -68,24 +74,28 @@ def observe(
     probe: ProbeLink,
     tell: Callable[[Event], None],
     *,
+    until: float = math.inf,
     fine: bool = False,
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, say what was seen.
 
-    Raises ProbeError where our own side failed; a probe that met a limit was fed too much by the
-    node, and that is the run's `resource`.
+    It is over at `until` (of time.monotonic()), whatever happens. Raises ProbeError if our own side
+    failed. If the probe met a limit, the node fed it too much; if the node runs on beyond its
+    limits when the probe fails, that is what ends the run: both are the run's `resource`.
     """
     limits = sandbox.limits
     run = Run(command=ros2_run(assignment))
+    probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
     script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {run.command}'
     begin = time.monotonic()
+    longest = limits.run_seconds + limits.stop_seconds
     terminal = Terminal(sandbox.console(["bash", "-c", script]), most=int(limits.output))
     try:
         observer = Observer(terminal, probe, assignment.output)
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)
         if run.nodes and not terminal.ended:
-            deadline = begin + limits.run_seconds
+            deadline = min(begin + limits.run_seconds, probe.until)
             clock = VirtualClock(observer, assignment.output, deadline=deadline, fine=fine)
             _watch(run, observer, clock, tell, follows=follows, deadline=deadline)
         run.watch.events += observer.settle()
@@ -95,18 +105,22 @@ def observe(
         counted = watch.counted
         if counted:
             run.first_line_seconds = counted[0].wall - terminal.started
-        run.ended_by_itself = terminal.ended
+        run.ended_by_itself, run.flooded = terminal.ended, observer.flooded
+        run.logged = observer.logged
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
         _stop(run, terminal, limits.stop_seconds)
         run.watch.events += observer.take()
     except ProbeError:
-        run.resource = sandbox.probe_met()
+        overdue = time.monotonic() - begin > longest
+        terminal.read()  # so that it is known whether the node runs on
+        overdue = overdue and not terminal.ended
+        run.resource = sandbox.probe_met() or ("wall time" if overdue else "")
         if not run.resource:
             raise
     finally:
         terminal.close()
         run.transcript = terminal.transcript
-        run.flooded = terminal.flooded
+        run.flooded = run.flooded or terminal.flooded
         run.seconds = time.monotonic() - begin
     return run
 
@@ -115,7 +129,7 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
     """Wait for a node on the graph; return whether it follows `/clock`."""
     first_seen: float | None = None
     first_line = begin
-    while not observer.terminal.ended and not observer.terminal.flooded:
+    while not observer.over:
         answer = observer.probe.ask("wait", seconds=0.02)
         events = observer.take(answer)
         run.watch.before_start += events
@@ -165,7 +179,7 @@ def _watch(
 def _stop(run: Run, terminal: Terminal, seconds: float) -> None:
     """Press Ctrl+C and see how it ends."""
     pressed = time.monotonic()
-    if terminal.flooded:
+    if run.flooded:
         return
     if not terminal.ended:
         run.interrupted = True

@@ -20,18 +20,24 @@ from grader.submission import Submission
 from grader.workspace import Build
 from grader.workspace import build
 
+WORKS_SECONDS = 10.0
 RUNS = 3  # how often a run is tried when our own side fails
 AGREE = 0.1  # of the period: two runs on the wall clock that differ by more say nothing
 
 
 class Session:
-    """Builds and runs one package in an opened sandbox; `timing` has the seconds of each stage."""
+    """Builds and runs one package in an opened sandbox; `timing` has the seconds of each stage.
+
+    All of it has the limits' `verdict_seconds`: nothing is begun, or begun again, for which what is
+    left of them has no room.
+    """
 
     def __init__(self, sandbox: Sandbox, assignment: Assignment) -> None:
         self.sandbox = sandbox
         self.assignment = assignment
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
+        self._ceiling = time.monotonic() + sandbox.limits.verdict_seconds
 
     def __enter__(self) -> Session:
         return self
@@ -64,7 +70,8 @@ class Session:
         """Run the node; a run that our own side spoilt is repeated, Inconclusive if all were.
 
         A run that would cost points for its timing is repeated too, with the clock in fine steps:
-        neither the load of the machine nor a jump of the clock may look like the node's fault.
+        neither the load of the machine nor a jump of the clock may look like the node's fault. What
+        the verdict's ceiling leaves no time for is not repeated.
         Raises BrokenRosError if it is ros2 that does not run.
         """
         begin = time.monotonic()
@@ -80,18 +87,36 @@ class Session:
 
     def _run(self, tell: Callable[[Event], None], *, fine: bool = False) -> Run:
         failure: ProbeError | None = None
-        for _ in range(RUNS):
+        tries = 0
+        while tries < RUNS and self._has_room():
+            tries += 1
             self._probe = self._probe or ProbeLink(self.sandbox)
+            until = min(time.monotonic() + self.sandbox.limits.a_run, self._ceiling)
             try:
-                run = observe(self.sandbox, self.assignment, self._probe, tell, fine=fine)
+                run = observe(
+                    self.sandbox, self.assignment, self._probe, tell, until=until, fine=fine
+                )
             except ProbeError as error:
                 failure = error
                 self._drop_probe()
                 continue
             run.resource = run.resource or self.sandbox.resource_met()
+            if run.ended_by_itself and not run.nodes and not run.resource and not self._works():
+                failure = ProbeError(f"the sandbox starts no command any more:\n{run.transcript}")
+                continue
             return run
+        if failure is None:
+            raise Inconclusive("the verdict's time was used up, and a run would not have fitted in")
         prove_again(self.sandbox)
-        raise Inconclusive(f"the probe failed {RUNS} times, the last time: {failure}")
+        raise Inconclusive(f"the probe failed in {tries} of {tries} runs, the last time: {failure}")
+
+    def _works(self) -> bool:
+        """Whether a command that does nothing succeeds: that one ended at once is the node's then."""
+        return self.sandbox.run(["true"], seconds=WORKS_SECONDS).status == 0
+
+    def _has_room(self) -> bool:
+        """Whether the verdict's ceiling leaves time for a whole run."""
+        return self._ceiling - time.monotonic() >= self.sandbox.limits.a_run
 
     def _doubtful(self, run: Run) -> bool:
         """Whether load could have made this run look worse than the node is."""

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from grader.sandbox.base import Console
 
 ANSI = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])")
-LOG_LINE = re.compile(r"^\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)$")
+LOG_LINE = re.compile(r"\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)")
 LONGEST_LINE = 4_000  # characters; what a line has beyond them is left out
 POLL_SECONDS = 0.002  # between two looks at a process that is ending
+DRAIN_SECONDS = 0.05  # beyond its time, in which a read takes what has come already
 
 
 @dataclass(frozen=True)
@@ -24,11 +25,19 @@ class Line:
     @property
     def log(self) -> tuple[str, int, str, str] | None:
         """Level, stamp (ns), logger and text, if the line looks like a log record."""
-        match = LOG_LINE.match(self.text)
+        match = LOG_LINE.fullmatch(self.text)
         if match is None:
             return None
         level, seconds, nanoseconds, name, text = match.groups()
         return level, int(seconds) * 1_000_000_000 + int(nanoseconds), name, text
+
+    def parts(self) -> list[Line]:
+        """Return what was printed without a line end before a log record, and the record."""
+        match = LOG_LINE.search(self.text)
+        if match is None or match.start() == 0:
+            return [self]
+        at = match.start()
+        return [Line(self.text[:at], self.wall), Line(self.text[at:], self.wall)]
 
 
 class Terminal:
@@ -37,7 +46,7 @@ class Terminal:
     def __init__(self, console: Console, *, most: int) -> None:
         self.started = time.time()
         self._console = console
-        self._most = most
+        self.most = most
         self._raw = bytearray()
         self._rest = b""
         self.ended = False
@@ -49,19 +58,25 @@ class Terminal:
         return _clean(bytes(self._raw))
 
     def read(self, seconds: float = 0) -> list[Line]:
-        """Return the lines that have come, waiting up to `seconds` for the first."""
+        """Return the lines that have come, waiting up to `seconds` for the first.
+
+        No output can extend that: dots without a line end are no line, and they may never cease.
+        """
+        deadline = time.monotonic() + max(0.0, seconds)
         lines: list[Line] = []
-        while not self.ended and not self.flooded:
-            if not self._console.wait(0 if lines else seconds):
+        left = seconds
+        while not self.ended and not self.flooded and left > -DRAIN_SECONDS:
+            if not self._console.wait(0 if lines else max(0.0, left)):
                 break
             data = self._console.read()
             if not data:
                 self.ended = True
                 break
-            data = data[: self._most - len(self._raw)]
+            data = data[: self.most - len(self._raw)]
             self._raw += data
-            self.flooded = len(self._raw) >= self._most
+            self.flooded = len(self._raw) >= self.most
             lines += self._split(data)
+            left = deadline - time.monotonic()
         if self.ended and self._rest:
             lines += self._split(b"\n")
         return lines

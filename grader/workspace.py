@@ -14,15 +14,18 @@ from dataclasses import dataclass
 from dataclasses import field
 
 from grader.errors import SurroundingsError
+from grader.locale.message import joined
+from grader.locale.message import say
 from grader.sandbox.base import UNRUNNABLE
 from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
 from grader.submission import Submission
 
 BUILD = "colcon build --symlink-install"
-LAID_OUT = "grader: the workspace is laid out"  # said before any code of the student's runs
 SUMMARY = "\nSummary: "  # colcon's last words, however the packages fared
 MOST_LISTED = 2_000_000  # bytes of the listing of what was built
+MOST_SAID = 2_000  # characters of what a command of ours that failed has said
+LAY_OUT_SECONDS = 60.0
 INSPECT_SECONDS = 20.0
 HOOK = re.compile(r"^install/([^/]+)/share/\1/hook/ament_prefix_path\.")
 PREFIX = re.compile(r"^install/[^/]+/")
@@ -110,25 +113,20 @@ def _entry(name: str, kind: bytes, mode: int, now: int) -> tarfile.TarInfo:
 
 
 def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
-    """Lay out the workspace and build it; SurroundingsError only where our own side failed."""
-    script = (
-        f'tar -xf - && . "{sandbox.ros_path}/setup.bash" || exit; '
-        f"echo '{LAID_OUT}'; exec {BUILD} < /dev/null"
-    )
+    """Lay out the workspace and build it; SurroundingsError only if our own side failed.
+
+    colcon and the student's setup.py have a command of their own: whatever it ends with is theirs.
+    """
+    lay_out(sandbox, as_tar(submission, package))
     outcome = sandbox.run(
-        ["bash", "-c", script],
-        stdin=as_tar(submission, package),
+        ["bash", "-c", f"{_setup(sandbox)}; exec {BUILD} < /dev/null"],
         seconds=sandbox.limits.build_seconds,
     )
-    log = outcome.output.decode("utf-8", errors="replace").replace("\r\n", "\n")
-    begun, laid_out, said = log.partition(f"{LAID_OUT}\n")
-    if not laid_out and not outcome.stopped_by:
-        raise SurroundingsError(f"the workspace could not be laid out:\n{log[-2000:]}")
     files, entry_points = _inspect(sandbox)
     return Build(
         command=BUILD,
         status=outcome.status,
-        log=begun + said,
+        log=_text(outcome),
         seconds=outcome.seconds,
         stopped_by=outcome.stopped_by,
         files=files,
@@ -136,10 +134,37 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
     )
 
 
+def lay_out(sandbox: Sandbox, files: bytes) -> None:
+    """Unpack a tar stream into the workspace; SurroundingsError if that fails.
+
+    Nothing of the student's runs here.
+    """
+    script = f"tar -xf - && {_setup(sandbox)}"
+    outcome = sandbox.run(["bash", "-c", script], stdin=files, seconds=LAY_OUT_SECONDS)
+    _ours(outcome, say("the workspace could not be laid out"))
+
+
+def _setup(sandbox: Sandbox) -> str:
+    return f'. "{sandbox.ros_path}/setup.bash"'
+
+
+def _ours(outcome: Outcome, failed: str) -> None:
+    """Raise SurroundingsError if a command that runs nothing of the student's has not succeeded."""
+    if outcome.status != 0:
+        said = _text(outcome)[-MOST_SAID:].strip() or outcome.stopped_by or f"{outcome.status}"
+        raise SurroundingsError(joined(failed, said, by=":\n"))
+
+
+def _text(outcome: Outcome) -> str:
+    return outcome.output.decode("utf-8", errors="replace").replace("\r\n", "\n")
+
+
 def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], str]:
     outcome: Outcome = sandbox.run(
         ["sh", "-c", INSPECT], seconds=INSPECT_SECONDS, output=MOST_LISTED
     )
+    if not outcome.stopped_by:  # (a limit that ends it is met by what the build has left)
+        _ours(outcome, say("what was built could not be listed"))
     listing, _, rest = outcome.output.decode("utf-8", errors="replace").partition("\0\0\n")
     if not rest and "\0\n" in listing:
         listing, _, rest = listing.partition("\0\n")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -131,6 +132,48 @@ def test_a_command_that_dies_of_ctrl_c_shows_it(sandbox: Sandbox) -> None:
     assert ended
     assert opened.status == (130, None)
     opened.close()
+
+
+DOTS = "trap '' INT; while :; do printf .; sleep 0.01; done"
+
+
+def test_dots_without_a_line_end_extend_no_wait(sandbox: Sandbox) -> None:
+    opened = terminal(sandbox, DOTS, most=400)  # (four seconds of them)
+    while "." not in opened.transcript:
+        assert opened.read(0.2) == []
+    begin = time.monotonic()
+    assert opened.read(0.3) == []
+    opened.interrupt()
+    _, ended = opened.finish(0.5)
+    assert not ended
+    assert time.monotonic() - begin < 2
+    assert not opened.flooded, "a read went on until the limit on output"
+    opened.close()
+    assert "." * 20 in opened.transcript
+
+
+def test_a_pipe_that_never_says_a_line_extends_no_wait(sandbox: Sandbox) -> None:
+    """On stdout it is read in pieces; what comes on stderr alone is nothing that is waited for."""
+    pipe = sandbox.pipe(["bash", "-c", f"{DOTS} >&2"], role="probe")
+    begin = time.monotonic()
+    assert pipe.read(0.5) is None
+    assert time.monotonic() - begin < 2
+    pipe.kill()
+    assert b"." in pipe.errors()
+    pipe.finish(0.1)
+
+
+def test_what_nobody_reads_on_stderr_stops_no_pipe(sandbox: Sandbox) -> None:
+    """(A full pipe would stop a probe that a node has brought to complain.)"""
+    pipe = sandbox.pipe(["bash", "-c", "head -c 300000 /dev/zero >&2; echo done"], role="probe")
+    assert pipe.read(20) == b"done\n"
+    pipe.finish(1)
+
+
+@pytest.mark.parametrize("status", [0, 1, 2, 125, 126, 127, 128, 130, 137, 143, 250, 251, 254, 255])
+def test_a_status_is_the_commands_own(sandbox: Sandbox, status: int) -> None:
+    outcome = sandbox.run(["sh", "-c", f"echo said; exit {status}"], seconds=20)
+    assert (outcome.status, outcome.output, outcome.stopped_by) == (status, b"said\n", "")
 
 
 def test_output_is_cut_while_it_is_read(sandbox: Sandbox) -> None:

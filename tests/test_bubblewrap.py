@@ -17,6 +17,7 @@ from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.processes import adopt_orphans
 from tests import stage
+from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 
 
 def test_closing_ends_everything_and_leaves_no_control_group(ros_jazzy: Ros) -> None:

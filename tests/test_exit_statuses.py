@@ -9,9 +9,7 @@ import pytest
 
 from grader.validate.tree import Replace
 from grader.validate.tree import Write
-from grader.workspace import LAID_OUT
 from tests.corpus.build import write
-from tests.corpus.model import MARKER
 from tests.corpus.model import NODE
 from tests.corpus.model import SETUP
 from tests.corpus.model import Package
@@ -82,11 +80,3 @@ def test_a_status_of_the_node_is_the_students(status: int, tmp_path: Path) -> No
     assert found.status == "failed", told(report)
     assert "run.exits_at_once" in [mistake.id for mistake in found.mistakes]
     assert f"with status {status}" in found.actual
-
-
-@pytest.mark.prefix
-def test_what_says_that_the_workspace_is_laid_out_is_not_in_the_log(tmp_path: Path) -> None:
-    """It is the grader's own word, by which a failure of its own is told from the student's."""
-    report = mark(write(package(Write(MARKER, b"")), tmp_path))
-    assert LAID_OUT not in report.evidence.build_log
-    assert "Summary: 1 package finished" in report.evidence.build_log

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import secrets
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,10 @@ from grader.ros.cache import cache_root
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.ros.prefix import prefix_path
+from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.plain import Bare
+from tests import sandbox_contract as contract
 from tests import stage
 from tests.test_cli import solution
 
@@ -144,6 +147,21 @@ def test_no_sandbox_needs_a_tame_path(
     done = stage.run(command, env={"TMPDIR": str(odd)})
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 / 100" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "holds",
+    [
+        contract.test_dots_without_a_line_end_extend_no_wait,
+        contract.test_a_pipe_that_never_says_a_line_extends_no_wait,
+        contract.test_what_nobody_reads_on_stderr_stops_no_pipe,
+    ],
+)
+def test_without_a_sandbox_no_output_extends_a_wait(
+    ros_jazzy: Ros, holds: Callable[[Sandbox], None]
+) -> None:
+    with Bare(ros_jazzy, Limits()) as opened:
+        holds(opened)
 
 
 def test_auto_never_marks_without_a_sandbox(

@@ -116,3 +116,22 @@ def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Pat
     done = stage.run(command, cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)})
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith(str(tmp_path))
+
+
+def test_nothing_is_printed_past_the_gate() -> None:
+    """(See grader.report.gate: what is printed with styles has a console that is a gate, too.)"""
+    ways = (
+        "rich.console import Console",
+        "sys.__std",
+        "os.write(1",
+        "os.write(2",
+        ".stdout.buffer",
+    )
+    own = {"grader/report/console.py", "grader/probe.py", "lab/keeper.py"}  # two speak to a program
+    found = {
+        path.relative_to(stage.ROOT).as_posix()
+        for folder in ("grader", "lab")
+        for path in (stage.ROOT / folder).rglob("*.py")
+        if any(way in path.read_text(encoding="utf-8") for way in ways)
+    }
+    assert found <= own

@@ -19,6 +19,7 @@ from grader.report.plain import points
 STYLES = {
     "graded": "",
     "ungradable": "bold magenta",
+    "error": "bold magenta",
     "missing": "yellow",
     "elsewhere": "yellow",
     "pending": "cyan",
@@ -117,6 +118,8 @@ def _row(entry: Entry) -> list[tuple[str, str]]:
 def _reason(entry: Entry) -> str:
     if entry.status == "elsewhere":
         return one_line("; ".join(entry.notes), most=120)
+    if entry.status == "error":
+        return one_line(f"not marked: {entry.notes[0] if entry.notes else entry.problem}", most=160)
     if entry.status != "graded":
         return one_line(entry.problem or entry.status, most=120)
     failed = [mark.check.id for mark in marks(entry) if mark.check.status == "failed"]
@@ -137,6 +140,7 @@ def _totals(entries: Sequence[Entry]) -> str:
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
     words = {"ungradable": "cannot be marked", "missing": "handed in nothing"}
     words["elsewhere"] = "handed in elsewhere"
+    words["error"] = "not marked, a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
     return ", ".join(parts) + "."

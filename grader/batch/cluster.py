@@ -108,7 +108,7 @@ class Cluster:
                 with self._scheduler_there():
                     again.extend(self._stranded(running))
                     room = self._room() - len(running)
-                for trial in _next(waiting, again, room, started):
+                for trial in _next(waiting, again, room, self._job.seconds, started):
                     with self._scheduler_there():
                         running[self._submit(trial)] = trial
                 if not running:
@@ -279,7 +279,11 @@ def _connect(scheduler: str) -> Client:
 
 
 def _next(
-    waiting: Iterable[Task], again: deque[Trial], room: int, started: Callable[[Task], None]
+    waiting: Iterable[Task],
+    again: deque[Trial],
+    room: int,
+    seconds: float,
+    started: Callable[[Task], None],
 ) -> Iterator[Trial]:
     """Yield as many as there is room for, those that are tried again first."""
     for _ in range(room):
@@ -290,7 +294,7 @@ def _next(
             if task is None:
                 return
             started(task)
-            yield Trial(task)
+            yield Trial(task, seconds)
 
 
 def _heard(future: Future[str]) -> Answer:

@@ -9,6 +9,7 @@ from grader.batch.keys import GRADER
 from grader.batch.keys import NOT_MARKING
 from grader.batch.keys import source_digest
 from grader.batch.keys import surroundings_key
+from grader.batch.proof import try_out
 from grader.batch.work import Job
 from grader.batch.work import Task
 from grader.batch.work import answer
@@ -33,13 +34,16 @@ class Checked:
 
 
 def check_here(job: str) -> str:
-    """Say what this machine would mark with: runs on a worker, and opens the sandbox once."""
+    """Say what this machine would mark with: runs on a worker, and tries its sandbox once."""
     wanted = Job.from_text(job)
     own = source_digest(GRADER, NOT_MARKING)
     try:
         distro = find_distro(wanted.distro)
         sandbox = open_sandbox(wanted.sandbox, distro, wanted.limits, say=_unheard)
-        sandbox.close()
+        try:
+            try_out(sandbox)
+        finally:
+            sandbox.close()
     except GraderError as error:
         return Checked(grader=own, problem=str(error)).to_text()
     key = surroundings_key(wanted.assignment, sandbox.ros, wanted.limits, lang=wanted.lang)

@@ -33,8 +33,10 @@ from grader.batch.sheets import Sheets
 from grader.batch.students import find_student
 from grader.batch.work import Job
 from grader.batch.work import Pool
+from grader.errors import SurroundingsError
 from grader.gradebook.written import raise_failures
-from grader.report.plain import encodable
+from grader.report.gate import gate
+from grader.report.gate import show
 from grader.report.plain import one_line
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
@@ -68,7 +70,8 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
     """Mark what is not marked yet, write everything, and return the exit status.
 
     The teacher's files, the roster and what fits them are looked at before anything is marked.
-    Ctrl+C ends the marking: what was marked is kept and written, then KeyboardInterrupt goes on.
+    Ctrl+C and surroundings that fail end the marking: what was marked is kept and written, then
+    KeyboardInterrupt or SurroundingsError goes on.
     """
     started = datetime.now(timezone.utc)
     order = asked.order
@@ -82,7 +85,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
         accepts=asked.accepts,
         say=_say,
     )
-    interrupted = False
+    ended: KeyboardInterrupt | SurroundingsError | None = None
     with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
         outputs = Outputs(asked.out, asked.sheets, known, ledger, asked.accepts)
         with ClassProgress(sys.stderr) as progress:
@@ -105,22 +108,27 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
                     if outputs.can_lower:
                         outputs.refuse_lower(result_now(), but=plan.students)
                     run.carry_out(ledger, plan, setting, pool, listener=progress)
-            except KeyboardInterrupt:
-                interrupted = True
+            except (KeyboardInterrupt, SurroundingsError) as why:
+                ended = why
         result = result_now()
         written = outputs.write(result, say=_say)
         _show(result, plan, ledger, asked, written)
-        failed = any(ledger.fault(item.student, item.key) for item in plan.todo)
-        status = _status(result, failed=failed)
-    if interrupted:
-        for failure in written.failures:
-            _say(str(failure))
-        _say("interrupted: what was marked is kept, and the same command goes on from there")
-        raise KeyboardInterrupt
+        status = _status(result)
+    if ended is not None:
+        _say_ended(ended, written)
+        raise ended
+    _say_faults(result)
     if written.state == "refused":
         raise written.failures[0]
     raise_failures(written.failures)
     return status
+
+
+def _say_ended(ended: KeyboardInterrupt | SurroundingsError, written: Outcome) -> None:
+    for failure in written.failures:
+        _say(str(failure))
+    if isinstance(ended, KeyboardInterrupt):
+        _say("interrupted: what was marked is kept, and the same command goes on from there")
 
 
 def _result(
@@ -170,10 +178,18 @@ def _chosen(words: Sequence[str], plan: run.Plan) -> list[str]:
     return [find_student(word, list(students.values())).key for word in words]
 
 
-def _status(result: ClassResult, *, failed: bool) -> int:
+def _say_faults(result: ClassResult) -> None:
+    count = sum(entry.status == "error" for entry in result.entries)
+    if count:
+        who, it = (
+            ("1 submission was", "it") if count == 1 else (f"{count} submissions were", "them")
+        )
+        _say(f"{who} not marked: the grader failed on {it}, try by try, and works without {it}")
+        _say("the reasons are in the gradebook's notes; the same command tries again")
+
+
+def _status(result: ClassResult) -> int:
     """Return the worst of the students; who handed in nothing is no student's fault of marking."""
-    if failed:
-        return 3
     marked = [e for e in result.entries if e.status not in ("missing", "elsewhere")]
     return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
 
@@ -191,9 +207,9 @@ def _show(
     width, styled = width_of(out), takes_styles(out)
     if plan.regrades:
         changes = changes_of(ledger, list(plan.regrades.values()))
-        _print(regrade_page(changes, width=width, styled=styled))
+        _show_page(regrade_page(changes, width=width, styled=styled))
     if not asked.quiet:
-        _print(class_page(result, width=width, styled=styled))
+        _show_page(class_page(result, width=width, styled=styled))
     if written.state == "refused":
         return
     _print(f"page       {asked.out / INDEX}")
@@ -206,10 +222,15 @@ def _say(text: str) -> None:
     _write(sys.stderr, text)
 
 
+def _show_page(page: str) -> None:
+    show(page.rstrip("\n") + "\n", sys.stdout)
+
+
 def _print(text: str) -> None:
-    _write(sys.stdout, text.rstrip("\n"))
+    _write(sys.stdout, text)
 
 
 def _write(file: TextIO, text: str) -> None:
-    file.write(encodable(f"{text}\n", file.encoding))
-    file.flush()
+    out = gate(file)
+    out.write(f"{text}\n")
+    out.flush()

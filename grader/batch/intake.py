@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Callable
 from collections.abc import Iterable
 from collections.abc import Iterator
@@ -19,12 +20,16 @@ from grader.submission import take_in
 
 @dataclass(frozen=True)
 class Item:
-    """One attempt: `submission` is its hash and `key` its verdict's, "" if it cannot be taken in."""
+    """One attempt: `submission` is its hash and `key` its verdict's, "" if it cannot be taken in.
+
+    `problem` says why it cannot, `fault` how our own side failed to.
+    """
 
     handed_in: HandedIn
     submission: str = ""
     key: str = ""
     problem: str = ""
+    fault: str = ""
 
     @property
     def student(self) -> str:
@@ -46,11 +51,14 @@ def take_in_class(
             continue
         try:
             submission = _take_in(attempt, assignment)
+            seen(submission)
         except UsageError as error:  # one that cannot be read stops nobody else
             problem = joined(error.message, error.remedy, by="\n")
             yield Item(attempt, problem=problem)
             continue
-        seen(submission)
+        except Exception:  # nor does one on which we fail ourselves
+            yield Item(attempt, fault=traceback.format_exc(limit=-6))
+            continue
         yield Item(attempt, submission.sha256, verdict_key(submission.sha256, surroundings))
 
 

@@ -25,13 +25,12 @@ from typing import IO
 
 import grader
 from grader.batch.idleness import Idleness
+from grader.batch.proof import prove
 from grader.batch.trial import Trial
 from grader.batch.work import Answer
 from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Task
-from grader.ros.distro import find_distro
-from grader.sandbox.choose import open_sandbox
 
 ROOT = Path(grader.__file__).resolve().parent.parent
 END_SECONDS = 10.0  # in which a worker that is asked to ends, with its sandbox
@@ -101,10 +100,8 @@ class LocalPool:
             selector.close()
 
     def prove(self) -> None:
-        """Open the sandbox once more; SurroundingsError if it does not open."""
-        job = self._job
-        sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, say=_unheard)
-        sandbox.close()
+        """Open the sandbox once more and try it; SurroundingsError if it does not work."""
+        prove(self._job)
 
     def _feed(
         self,
@@ -123,7 +120,7 @@ class LocalPool:
                 task = next(waiting, None)
                 if task is None:
                     return
-                trial = Trial(task)
+                trial = Trial(task, self._seconds)
             worker = idle or self._start(selector)
             if trial.tries == 0:
                 started(trial.task)
@@ -180,7 +177,7 @@ class LocalPool:
                 trial = worker.trial
                 self._lose(worker, selector)
                 why = f"it was not done within {self._seconds:.0f} s, and its worker was ended"
-                yield from self._judge(trial, Answer(fault=why))
+                yield from self._judge(trial, Answer(fault=why, seconds=self._seconds))
 
     def _read(self, worker: Worker, selector: selectors.BaseSelector) -> Answer | None:
         """Return a whole answer, or that the worker has died; None while more is to come."""
@@ -254,8 +251,3 @@ def _close(worker: Worker) -> None:
 def _python_path() -> list[str]:
     """Return where a worker finds this grader: a checkout need not be the current folder."""
     return [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH", "")])]
-
-
-def _unheard(text: str) -> None:
-    """What is made on the way was said when it was first made."""
-    del text

@@ -19,7 +19,7 @@ from typing import overload
 from grader.report.model import Report
 
 System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
-EntryStatus = Literal["graded", "ungradable", "missing", "elsewhere", "pending"]
+EntryStatus = Literal["graded", "ungradable", "error", "missing", "elsewhere", "pending"]
 
 
 @dataclass(frozen=True)
@@ -132,8 +132,9 @@ class Entry:
 
     `score` is the report's with overrides (None where there is none); `penalty` the points taken
     for lateness; `final` what goes into the gradebook, None if nothing does (an ungradable
-    submission waits for the instructor; a missing one follows the assignment's policy; who handed
-    in elsewhere, where the grader has not looked, keeps what he or she has).
+    submission waits for the instructor, one with `error` for another try of the grader; a missing
+    one follows the assignment's policy; a student whose submission is elsewhere, where the grader
+    has not looked, keeps the grade that is there). `problem` is for the student, `notes` are not.
     """
 
     student: Student

@@ -26,7 +26,10 @@ from grader.report.model import Report
 
 DAY, HOUR = 86_400.0, 3_600.0
 UNKNOWN_TIME = say("it is not known when it was handed in: nothing was taken for lateness")
-NO_VERDICT = say("the grader failed on it")
+OUR_FAULT = say(
+    "Not marked: the grader failed on this submission. That is no fault of yours, and your "
+    "instructor knows of it."
+)
 CALLED_LATE = say("the course's system calls it late")
 
 
@@ -34,8 +37,8 @@ CALLED_LATE = say("the course's system calls it late")
 class Attempt:
     """One thing that a student handed in, and the verdict on it if there is one.
 
-    `problem` says why there is none and never will be as it is; without both it waits for its
-    turn. `late` is the course system's own word.
+    `problem` says why there is none and never will be as it is, `fault` how our own side failed;
+    without any of them it waits for its turn. `late` is the course system's own word.
     """
 
     number: int
@@ -44,6 +47,7 @@ class Attempt:
     report: Report | None
     problem: str = ""
     notes: tuple[str, ...] = ()
+    fault: str = ""
 
 
 def lateness(submitted: datetime | None, policy: Policy) -> float | None:
@@ -124,6 +128,8 @@ def _rate(
     """Return what a student would get for this attempt, but for a correction of the total."""
     late = lateness(attempt.submitted, policy)
     notes = list(attempt.notes)
+    if attempt.fault and attempt.report is None:
+        notes.insert(0, f"the grader failed on it: {attempt.fault}")
     if late is None:
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = Entry(
@@ -138,11 +144,13 @@ def _rate(
         notes=tuple(notes),
         overrides=tuple(overrides),
     )
+    if attempt.fault and attempt.report is None:
+        return replace(entry, status="error", problem=OUR_FAULT)
     if attempt.report is None:
         return entry
     if attempt.report.status == "error":
-        problem = attempt.problem or attempt.report.message or NO_VERDICT
-        return replace(entry, status="ungradable", problem=problem)
+        problem = attempt.problem or attempt.report.message or OUR_FAULT
+        return replace(entry, status="error", problem=problem)
     score = rounded(sum(mark.points or 0 for mark in marks(entry)))
     taken = penalty(score, max_score, attempt.submitted, policy)
     final = rounded(score - taken)

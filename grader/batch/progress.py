@@ -9,7 +9,7 @@ from typing import TextIO
 
 from grader.batch.run import Listener
 from grader.batch.work import Done
-from grader.report.plain import encodable
+from grader.report.gate import gate
 from grader.report.plain import one_line
 from grader.report.surface import is_terminal
 
@@ -25,7 +25,7 @@ class ClassProgress(Listener):
     """Shows how far a class run is; a context manager. Nothing of it is needed for the work."""
 
     def __init__(self, file: TextIO) -> None:
-        self._file = file
+        self._file = gate(file)
         self._bar: Progress | None = None
         self._line: TaskID | None = None
         self._total = self._done = self._faults = 0
@@ -94,7 +94,7 @@ class ClassProgress(Listener):
         return words
 
     def _print(self, text: str) -> None:
-        self._file.write(encodable(f"{text}\n", self._file.encoding))
+        self._file.write(f"{text}\n")
         self._file.flush()
 
 
@@ -107,17 +107,18 @@ def rough(seconds: float) -> str:
 
 def _bar(file: TextIO) -> Progress:
     # rich costs 35 ms, and nobody needs it where nothing is to be marked
-    from rich.console import Console  # noqa: PLC0415
     from rich.progress import BarColumn  # noqa: PLC0415
     from rich.progress import MofNCompleteColumn  # noqa: PLC0415
     from rich.progress import Progress  # noqa: PLC0415
     from rich.progress import TextColumn  # noqa: PLC0415
+
+    from grader.report.console import GatedConsole  # noqa: PLC0415
 
     return Progress(
         MofNCompleteColumn(),
         BarColumn(bar_width=30),
         TextColumn("marked{task.fields[rest]}", markup=False),
         TextColumn("{task.fields[names]}", style="dim", markup=False),
-        console=Console(file=file),
+        console=GatedConsole(file),
         transient=True,
     )

@@ -28,7 +28,6 @@ from grader.batch.model import Student
 from grader.batch.policy import Attempt
 from grader.batch.policy import standing
 from grader.batch.similar import groups
-from grader.locale.message import say
 from grader.report.model import Report
 
 MOST_SAME = 10  # of the others with the same content, in one student's line
@@ -129,19 +128,18 @@ def _of_item(
 ) -> Found:
     given = item.handed_in
     row = verdicts.get((item.student, item.key))
-    notes, problem = list(given.notes), item.problem
-    fault = ledger.fault(item.student, item.key) if item.key else ""
-    if fault and row is None:
-        problem = say("the grader failed on it: {fault}", fault=fault)
-    elif fault:
+    notes = list(given.notes)
+    fault = ledger.fault(item.student, item.key) if item.key else item.fault
+    if fault and row is not None:
         notes.append(f"marking it again failed, the verdict before stands: {fault}")
     attempt = Attempt(
         number=given.attempt,
         submitted=given.submitted,
         late=given.late,
         report=_report(ledger, row),
-        problem=problem,
+        problem=item.problem,
         notes=tuple(notes),
+        fault=fault,
     )
     noted = seen.get((item.student, item.submission))
     at = given.submitted or (noted.first_seen if noted else None)

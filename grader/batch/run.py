@@ -33,13 +33,14 @@ from grader.batch.similar import fingerprint
 from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Pool
+from grader.errors import SurroundingsError
 from grader.limits import Limits
 from grader.ros.distro import Distro
 from grader.runner import Order
 from grader.sandbox.choose import open_sandbox
 from grader.submission import Submission
 
-FAULTS_IN_A_ROW = 3  # after so many, the sandbox is proven anew before the next
+FAULTS_IN_A_ROW = 3  # after so many, the sandbox is tried without a submission before the next
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,24 +173,33 @@ def carry_out(
 ) -> None:
     """Mark what is to be marked.
 
-    A verdict is on the disk before it is said to be done. Raises SurroundingsError where the
-    sandbox does not open any more; what was reached until then is kept.
+    A verdict is on the disk before it is said to be done. A submission on which our side fails, try
+    by try, has no verdict, and the others go on: it is at fault itself if the sandbox works without
+    it (`Pool.prove`). Raises SurroundingsError if that does not work, or if nothing of a class can
+    be marked; what was reached until then is kept.
     """
     listener.begins(len(plan.todo))
     names = {item.student: item.handed_in.student.name or item.student for item in plan.todo}
-    in_a_row = 0
+    reached, faults, in_a_row = plan.marked, 0, 0
     waiting = tasks(plan.todo, setting.assignment, setting.key)
     running = pool.run(waiting, started=lambda task: listener.started(names[task.student]))
     with contextlib.closing(running):
         for done in running:
             if _keep(ledger, done, plan.sharing):
-                in_a_row = 0
+                reached, in_a_row = reached + 1, 0
             else:
-                in_a_row += 1
+                faults, in_a_row = faults + 1, in_a_row + 1
             listener.finished(names[done.task.student], done)
             if in_a_row >= FAULTS_IN_A_ROW:
                 pool.prove()
                 in_a_row = 0
+    if faults:
+        pool.prove()
+    if faults >= FAULTS_IN_A_ROW and not reached:
+        raise SurroundingsError(
+            f"the grader failed on all {faults} submissions, and its sandbox works",
+            remedy="The reasons are in gradebook.csv: please report them.",
+        )
 
 
 def cores_here() -> int:

@@ -12,15 +12,22 @@ from grader.batch.work import Task
 
 @dataclass(eq=False)
 class Trial:
-    """How often a task was tried, and the best that came of it."""
+    """How often a task was tried, and the best that came of it.
+
+    `most` is how many seconds one try takes at the longest: when the tries together have taken more,
+    there is no other.
+    """
 
     task: Task
+    most: float
     tries: int = 0
+    spent: float = 0
     best: Answer | None = None
 
     def hear(self, answer: Answer) -> Done | None:
-        """Take in an answer; return what is done with it, None where another try may tell more."""
+        """Take in an answer; return what is done with it, None if another try may tell more."""
         self.best = answer.better(self.best)
-        if self.best.doubtful and self.tries < TRIES:
+        self.spent += answer.seconds
+        if self.best.doubtful and self.tries < TRIES and self.spent <= self.most:
             return None
         return Done(self.task, self.best, self.tries)

@@ -7,6 +7,7 @@ where the folder has changed meanwhile.
 from __future__ import annotations
 
 import json
+import time
 import traceback
 from collections.abc import Callable
 from collections.abc import Generator
@@ -30,7 +31,7 @@ from grader.runner import mark
 from grader.submission import Submission
 
 TRIES = 3  # how often a submission is marked where our own side fails
-MARGIN_SECONDS = 120.0  # beyond a submission's own limits, before its worker counts as hung
+MARGIN_SECONDS = 60.0  # beyond a verdict's ceiling, before its worker counts as hung
 
 
 @dataclass(frozen=True)
@@ -45,10 +46,8 @@ class Job:
 
     @property
     def seconds(self) -> float:
-        """Wall time in which one submission is done, whatever it does: builds, and runs twice."""
-        limits = self.limits
-        run = limits.start_seconds + limits.run_seconds + limits.stop_seconds
-        return limits.build_seconds + 2 * run + MARGIN_SECONDS
+        """Wall time in which one submission is done, whatever it does, or its worker hangs."""
+        return self.limits.verdict_seconds + MARGIN_SECONDS
 
     def to_text(self) -> str:
         """Return it as JSON on one line."""
@@ -89,30 +88,36 @@ class Task:
 
 @dataclass(frozen=True)
 class Answer:
-    """A report, or the reason why our own side failed to make one."""
+    """A report, or the reason why our own side failed to make one; `seconds` is what it took."""
 
     report: Report | None = None
     fault: str = ""
+    seconds: float = 0
 
     def to_text(self) -> str:
         """Return it as JSON on one line."""
         report = self.report.model_dump_json(by_alias=True) if self.report else None
-        return json.dumps({"report": report, "fault": self.fault})
+        return json.dumps({"report": report, "fault": self.fault, "seconds": self.seconds})
 
     @classmethod
     def from_text(cls, text: str) -> Answer:
         """Return what `to_text` wrote. Raises ValueError for anything else."""
         found = json.loads(text)
         try:
-            report, fault = found["report"], str(found["fault"])
+            report, fault, seconds = found["report"], str(found["fault"]), float(found["seconds"])
         except (KeyError, TypeError) as error:
             raise ValueError("this is no answer") from error
-        return cls(Report.model_validate_json(report) if report else None, fault)
+        return cls(Report.model_validate_json(report) if report else None, fault, seconds)
 
     @property
     def doubtful(self) -> bool:
-        """Whether another try may know more: our side failed, or kept points from being known."""
-        return self.report is None or self.report.inconclusive > 0
+        """Whether another try may know more: our side failed, or kept points from being known.
+
+        What met a limit of its own meets it again: that was the submission, and not our side.
+        """
+        if self.report is None:
+            return True
+        return self.report.inconclusive > 0 and not self.report.met_a_limit
 
     def better(self, other: Answer | None) -> Answer:
         """Return which of two tries knows more: this one unless the other does."""
@@ -145,13 +150,14 @@ class Pool(Protocol):
         ...
 
     def prove(self) -> None:
-        """Raise SurroundingsError if it is not the submissions that fail."""
+        """Raise SurroundingsError if it is our side that fails, and not the submissions."""
         ...
 
 
 def answer(job: Job, task: Task) -> Answer:
     """Mark one submission here; whatever goes wrong on our side is in the answer."""
     submission = task.submission
+    begin = time.monotonic()
     order = Order(
         path=submission.path,
         assignment=job.assignment,
@@ -162,12 +168,14 @@ def answer(job: Job, task: Task) -> Answer:
         student_id=task.student_id,
         lang=job.lang,
     )
+    report, fault = None, ""
     try:
-        return Answer(mark(submission, order, _unheard))
+        report = mark(submission, order, _unheard)
     except GraderError as error:
-        return Answer(fault=Speaker(job.lang)(joined(error.message, error.remedy, by="\n")))
+        fault = Speaker(job.lang)(joined(error.message, error.remedy, by="\n"))
     except Exception:  # a fault of ours must cost nobody but this one submission
-        return Answer(fault=traceback.format_exc(limit=-6))
+        fault = traceback.format_exc(limit=-6)
+    return Answer(report, fault, time.monotonic() - begin)
 
 
 def _unheard(event: Event) -> None:

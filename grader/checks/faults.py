@@ -53,7 +53,8 @@ def words(evidence: Evidence) -> dict[str, Value]:
 
 def flood(evidence: Evidence, expected: str) -> Failed:
     """Return the verdict on a node that printed more than the limit."""
-    size = f"{len(evidence.run.transcript.encode()) / 1e6:.1f}"
+    run = evidence.run
+    size = f"{max(len(run.transcript.encode()), run.logged) / 1e6:.1f}"
     return Failed(
         "run.too_much_output",
         expected=expected,

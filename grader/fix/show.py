@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TextIO
 
-from rich.console import Console
 from rich.text import Text
+
+from grader.report.console import GatedConsole
+from grader.report.gate import bytes_of
 
 STYLES = {"+": "green", "-": "red", "@": "cyan", "d": "bold"}
 """By a line's first character; of the lines with names (`---`, `+++`) see below."""
@@ -15,10 +17,11 @@ def show_diff(patch: bytes, file: TextIO) -> None:
     """Write a diff: a terminal sees it in colours, and no control characters of the student's."""
     if not file.isatty():
         file.flush()
-        file.buffer.write(patch)
-        file.buffer.flush()
+        raw = bytes_of(file)
+        raw.write(patch)
+        raw.flush()
         return
-    console = Console(file=file, highlight=False, soft_wrap=True)
+    console = GatedConsole(file, soft_wrap=True)
     for line in patch.decode("utf-8", "backslashreplace").split("\n")[:-1]:
         named = line.startswith(("--- ", "+++ "))
         style = "bold" if named else STYLES.get(line[:1], "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +14,7 @@ from grader import options
 from grader.errors import SurroundingsError
 from grader.errors import UsageError
 from grader.locale.speaker import chosen_language
+from grader.report.gate import bytes_of
 
 if TYPE_CHECKING:
     from grader.report.model import Report
@@ -99,7 +101,12 @@ def convert(form: str, report: Path, show_hidden: bool) -> int:
 
     `github` prints the line for $GITHUB_OUTPUT: grader convert github REPORT >> "$GITHUB_OUTPUT".
     """
-    click.echo(_forms(show_hidden=show_hidden)[form](_read(report)), nl=False)
+    made = _forms(show_hidden=show_hidden)[form](_read(report))
+    content = made.encode() if isinstance(made, str) else made
+    if sys.stdout.isatty():
+        click.echo(content.decode(), nl=False)
+    else:  # for a program: byte for byte
+        bytes_of(sys.stdout).write(content)
     return 0
 
 

@@ -57,7 +57,7 @@ def results_json(found: dict[str, Any]) -> str:
 
 def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
     report = entry.report
-    if report is None or entry.status == "ungradable" or entry.final is None:
+    if report is None or entry.status in ("ungradable", "error") or entry.final is None:
         return _ungradable(entry)
     most = entry.max_score
     score = min(max(entry.final / most, 0.0), 1.0) if most > 0 else 0.0

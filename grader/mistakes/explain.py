@@ -23,8 +23,8 @@ from grader.mistakes.recognise import filled
 from grader.mistakes.recognise import seen_in
 from grader.mistakes.wanted import EXAMPLE
 from grader.mistakes.wanted import words_of
+from grader.report.gate import show
 from grader.report.page import Page
-from grader.report.plain import encodable
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
 from grader.ros.distro import Distro
@@ -63,7 +63,7 @@ def print_entry(mistake: str, *, file: TextIO, reader: Reader) -> None:
             raise UsageError(none + meant(close), remedy=remedy)
     page = _page(file, reader)
     _entry(page, kind, {}, reader)
-    _write(file, page)
+    show(str(page), file)
 
 
 def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
@@ -81,7 +81,7 @@ def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
         page.gap()
         names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
         page.field(say("also"), names)
-    _write(file, page)
+    show(str(page), file)
     return bool(found)
 
 
@@ -90,7 +90,7 @@ def print_list(*, file: TextIO, reader: Reader) -> None:
     page = _page(file, reader)
     for kind in CATALOGUE.values():
         page.line((kind.id, "bold"), ": ", Message(kind.title))
-    _write(file, page)
+    show(str(page), file)
 
 
 def _entry(page: Page, kind: Kind, params: Mapping[str, str], reader: Reader) -> None:
@@ -103,8 +103,3 @@ def _entry(page: Page, kind: Kind, params: Mapping[str, str], reader: Reader) ->
 
 def _page(file: TextIO, reader: Reader) -> Page:
     return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(reader.lang))
-
-
-def _write(file: TextIO, page: Page) -> None:
-    file.write(encodable(str(page), file.encoding))
-    file.flush()

@@ -20,6 +20,8 @@ from grader.events import StageStarted
 from grader.events import TickSeen
 from grader.locale.message import say
 from grader.locale.speaker import Speaker
+from grader.report.gate import behind
+from grader.report.gate import gate
 from grader.report.plain import encodable
 from grader.report.plain import one_line
 from grader.report.surface import is_terminal
@@ -45,7 +47,7 @@ class LiveProgress:
     def __init__(
         self, file: TextIO | None = None, *, show_hidden: bool = False, lang: str = "en"
     ) -> None:
-        self._file = file or sys.stderr
+        self._file = gate(file or sys.stderr)
         self._show_hidden = show_hidden
         self._live: Live | None = None
         self._speak = Speaker(lang)
@@ -115,19 +117,17 @@ class LiveProgress:
         return line
 
     def _start(self) -> Live:
-        from rich.console import Console  # noqa: PLC0415 - only where there is a terminal
-        from rich.live import Live  # noqa: PLC0415
+        from rich.live import Live  # noqa: PLC0415 - only if there is a terminal
+
+        from grader.report.console import GatedConsole  # noqa: PLC0415
 
         styled = takes_styles(self._file)
-        console = Console(
-            file=cast("TextIO", _Sturdy(self._file)),
+        console = GatedConsole(
+            cast("TextIO", _Sturdy(behind(self._file))),
             force_terminal=True,
             force_jupyter=False,
             color_system="standard" if styled else None,
             no_color=not styled,
-            markup=False,
-            emoji=False,
-            highlight=False,
         )
         live = Live(
             get_renderable=self._line,

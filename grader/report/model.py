@@ -17,6 +17,8 @@ CheckStatus = Literal["passed", "failed", "skipped", "inconclusive", "error"]
 Visibility = Literal["visible", "hidden", "after_due_date"]
 Origin = Literal["directory", "zip", "tar", "git"]
 Modes = Literal["recorded", "unknown"]
+LIMITS_MET = ("build.timeout", "build.resource", "run.resource", "run.too_much_output")
+"""The mistakes by which a limit on the submission ended what it did."""
 
 
 class _Part(BaseModel):
@@ -189,6 +191,11 @@ class Report(_Part):
     def inconclusive(self) -> float:
         """The points that could be neither given nor taken."""
         return sum(c.max_score for c in self.checks if c.status in ("inconclusive", "error"))
+
+    @property
+    def met_a_limit(self) -> bool:
+        """Whether the submission met a limit of its own, which ended what it did."""
+        return any(m.id in LIMITS_MET for check in self.checks for m in check.mistakes)
 
     @property
     def all_passed(self) -> bool:

@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from rich.cells import cell_len
 from rich.cells import chop_cells
 from rich.cells import set_cell_size
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
+
+from grader.report.console import GatedConsole
 
 NARROW = 60  # columns; below, what stands side by side comes one below the other
 WIDEST = 100  # columns; longer lines are hard to read
@@ -47,17 +48,14 @@ class Page:
         self._speak = speak
         self._styled = styled
         self._width = max(20, min(width, WIDEST))
-        self._console = Console(
-            file=self._out,
+        self._console = GatedConsole(
+            self._out,
             width=self._width,
             height=25,
             force_terminal=styled,
             force_jupyter=False,
             color_system="standard" if styled else None,
             no_color=not styled,
-            markup=False,
-            emoji=False,
-            highlight=False,
             legacy_windows=False,
         )
 

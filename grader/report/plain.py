@@ -8,6 +8,7 @@ What cannot be seen is written as Python writes it in a string: `\x1b`, `\u202e`
 from __future__ import annotations
 
 TAB = 4  # columns
+MOST_LINES, LONGEST_LINE = 5_000, 5_000  # of a text, and characters: nobody reads more
 
 
 def visible(text: str) -> str:
@@ -56,6 +57,21 @@ def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], in
             start = min(start, number)
             break
     return [visible(shorten(line, most=most)) for line in found[start:]], len(found)
+
+
+def bounded(text: str) -> str:
+    """Return a text of any origin as it may be shown: visible, with a bounded length.
+
+    Newlines at its ends stay: it may be a piece of what is written.
+    """
+    if len(text) <= LONGEST_LINE and text.isprintable():
+        return text
+    lines = text.replace("\r\n", "\n").split("\n")
+    if len(lines) > MOST_LINES:
+        half = MOST_LINES // 2
+        left_out = f"[... {len(lines) - 2 * half:,} lines left out ...]"
+        lines = [*lines[:half], left_out, *lines[-half:]]
+    return "\n".join(visible(shorten(line, most=LONGEST_LINE)) for line in lines)
 
 
 def points(value: float) -> str:

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 from typing import TextIO
 
+from grader.report.gate import show
 from grader.report.live import LiveProgress
-from grader.report.plain import encodable
 from grader.report.surface import takes_styles
 from grader.report.surface import width_of
 
@@ -80,7 +80,7 @@ def print_report(
         show_hidden=show_hidden,
         path=path,
     )
-    _write(file, text)
+    show(text, file)
 
 
 def print_matrix(
@@ -99,9 +99,4 @@ def print_matrix(
         show_hidden=show_hidden,
         path=path,
     )
-    _write(file, text)
-
-
-def _write(file: TextIO, text: str) -> None:
-    file.write(encodable(text, file.encoding))
-    file.flush()
+    show(text, file)

@@ -188,12 +188,13 @@ class Sandbox(ABC):
         return ""
 
     def limit_report(self) -> dict[str, LimitInfo]:
-        """Return every limit with what holds it."""
+        """Return every limit with what holds it, and the ceiling that follows from them."""
         by = dict.fromkeys(UNITS, "grader") | {"cpus": "none"} | self.held()
+        ceiling = LimitInfo(value=self.limits.verdict_seconds, unit="s", held_by="grader")
         return {
             name: LimitInfo(value=getattr(self.limits, name), unit=unit, held_by=by[name])
             for name, unit in UNITS.items()
-        }
+        } | {"verdict_seconds": ceiling}
 
     def environment(self, role: Role) -> dict[str, str]:
         """Return the environment of a command inside: this list and nothing else."""

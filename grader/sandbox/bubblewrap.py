@@ -144,7 +144,7 @@ class Bubblewrap(LocalSandbox):
         # command inside has the default again (env --default-signal)
         script = "trap '' INT; "
         if role == "student":
-            script += "".join(f'echo 0 > "{entry}"; ' for entry in self._group.entries)
+            script += "".join(f'echo 0 > "{entry}" || exit; ' for entry in self._group.entries)
         return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *enter, "--", *inner]
 
     def resource_met(self) -> str:

@@ -50,8 +50,7 @@ if TYPE_CHECKING:
 
 Slot = Literal["build", "run"]
 USERS: dict[Role, int] = {"student": STUDENT, "probe": PROBE}
-SPARE_SECONDS = 120.0  # of a container's life beyond the limits of what may run in it
-RUNS = 6  # that a session may make: RUNS tries, and a second opinion on each
+SPARE_SECONDS = 120.0  # of a container's life beyond the ceiling of the verdict
 
 
 class Containers(Sandbox):
@@ -92,8 +91,7 @@ class Containers(Sandbox):
     def _plan(self) -> Plan:
         """Return the plan of the holder, in which the probe runs."""
         limits = self.limits
-        run = limits.start_seconds + limits.run_seconds + limits.stop_seconds
-        lifetime = limits.build_seconds + RUNS * run + SPARE_SECONDS
+        lifetime = limits.verdict_seconds + SPARE_SECONDS
         options = f"size={int(limits.workspace)},uid={STUDENT},gid={STUDENT},mode=0700,nosuid,nodev"
         driver = {"type": "tmpfs", "device": "tmpfs", "o": options}
         volume = {"NoCopy": True, "DriverConfig": {"Name": "local", "Options": driver}}

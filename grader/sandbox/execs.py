@@ -193,7 +193,8 @@ def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outco
             ended = time.monotonic() if command.status() is not None else None
         elif ended is not None and time.monotonic() - ended > DRAIN_SECONDS:
             break
-    return outcome(command.wait(STATUS_SECONDS))
+    status = command.wait(max(STATUS_SECONDS, begin + seconds - time.monotonic()))
+    return outcome(status, "wall time" if status is None else "")
 
 
 def _send(line: socket.socket, rest: memoryview) -> memoryview:
@@ -256,10 +257,11 @@ class ExecPipe(Pipe):
         self._command.socket.sendall(data)
 
     def read(self, seconds: float) -> bytes | None:
-        deadline = time.monotonic() + seconds
+        left, deadline = seconds, time.monotonic() + seconds
         output = b""
         while not output:
-            if not self._command.wait_for_output(deadline - time.monotonic()):
+            # frames of stderr alone, however fast they come, do not extend the time
+            if left < 0 or not self._command.wait_for_output(left):
                 return None
             data = self._command.receive()
             if not data:
@@ -269,6 +271,7 @@ class ExecPipe(Pipe):
                     self._errors = (self._errors + text)[-MOST_ERRORS:]
                 else:
                     output += text
+            left = deadline - time.monotonic()
         return output
 
     def errors(self) -> bytes:

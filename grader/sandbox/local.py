@@ -151,6 +151,8 @@ class LocalPipe(Pipe):
             start_new_session=True,
             env=dict(env),
         )
+        self._errors = b""
+        self._errors_end = False
 
     def write(self, data: bytes) -> None:
         assert self._process.stdin is not None
@@ -159,14 +161,37 @@ class LocalPipe(Pipe):
 
     def read(self, seconds: float) -> bytes | None:
         assert self._process.stdout is not None
-        descriptor = self._process.stdout.fileno()
-        if not select.select([descriptor], [], [], max(0.0, seconds))[0]:
-            return None
-        return os.read(descriptor, 1 << 20)
+        output = self._process.stdout.fileno()
+        left, deadline = seconds, time.monotonic() + seconds
+        while True:
+            # stderr is taken as well: a command that nobody hears there would stop at a full pipe
+            ready = select.select([output, *self._errors_from], [], [], max(0.0, left))[0]
+            if output in ready:
+                return os.read(output, 1 << 20)
+            if ready:
+                self._take_errors()
+            left = deadline - time.monotonic()
+            if left <= 0 or not ready:
+                return None
+
+    @property
+    def _errors_from(self) -> list[int]:
+        assert self._process.stderr is not None
+        return [] if self._errors_end else [self._process.stderr.fileno()]
+
+    def _take_errors(self) -> None:
+        (descriptor,) = self._errors_from
+        data = os.read(descriptor, 1 << 16)
+        self._errors = (self._errors + data)[-MOST_ERRORS:]
+        self._errors_end = not data
 
     def errors(self) -> bytes:
-        assert self._process.stderr is not None
-        return self._process.stderr.read(MOST_ERRORS)
+        deadline = time.monotonic() + END_SECONDS
+        while self._errors_from and time.monotonic() < deadline:
+            if not select.select(self._errors_from, [], [], 0)[0]:
+                break
+            self._take_errors()
+        return self._errors
 
     def finish(self, seconds: float) -> None:
         with contextlib.suppress(OSError, ValueError, subprocess.TimeoutExpired):

@@ -123,7 +123,7 @@ class Bare(LocalSandbox):
         words += [f"{name}={value}" for name, value in environment.items()]
         inner = [*self._become(role), *self._rlimits(role), *words, *argv]
         entries = self._group.entries if role == "student" else []
-        script = "".join(f'echo 0 > "{entry}"; ' for entry in entries)
+        script = "".join(f'echo 0 > "{entry}" || exit; ' for entry in entries)
         return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *inner]
 
     def resource_met(self) -> str:

@@ -23,6 +23,7 @@ UNITS = (
 STATES: dict[EntryStatus, str] = {
     "graded": say("graded"),
     "ungradable": say("ungradable"),
+    "error": say("not marked, a fault of the grader"),
     "missing": say("nothing handed in"),
     "elsewhere": say("handed in elsewhere"),
     "pending": say("not marked yet"),

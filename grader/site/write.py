@@ -126,7 +126,7 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
         "identical": _identical(result),
         **{
             status: [entry for entry in entries if entry.status == status]
-            for status in ("ungradable", "elsewhere", "missing", "pending")
+            for status in ("ungradable", "error", "elsewhere", "missing", "pending")
         },
     }
     return renderer.page(
@@ -169,7 +169,11 @@ def _cards(entries: Sequence[Entry]) -> list[tuple[str, int]]:
         ("ungradable", count("ungradable")),
         ("missing", count("missing")),
     ]
-    rare = {"handed in elsewhere": count("elsewhere"), "not marked yet": count("pending")}
+    rare = {
+        "a fault of the grader": count("error"),
+        "handed in elsewhere": count("elsewhere"),
+        "not marked yet": count("pending"),
+    }
     return [*cards, *((name, number) for name, number in rare.items() if number)]
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.markdown import Markdown
 from rich.rule import Rule
 from rich.text import Text
@@ -23,6 +23,7 @@ from grader.locale.message import say
 from grader.locale.speaker import Speaker
 from grader.locale.speaker import chosen_language
 from grader.locale.speaker import errors_in
+from grader.report.console import GatedConsole
 from grader.ros.distro import DEFAULT
 from lab.guide.lesson import Lesson
 from lab.guide.lesson import Step
@@ -71,15 +72,15 @@ def command(workspace: Path, assignment: str | None, lang: str | None, what: str
         _show(what, _console(), lesson, [speak(action) for action in found], speak)
 
 
-def _console() -> Console:
-    console = Console(highlight=False, soft_wrap=True)
+def _console() -> GatedConsole:
+    console = GatedConsole(sys.stdout, soft_wrap=True)
     if console.is_terminal:
-        return Console(highlight=False, width=min(console.width, WIDEST))
+        return GatedConsole(sys.stdout, width=min(console.width, WIDEST))
     return console
 
 
 def _show(
-    what: str | None, console: Console, lesson: Lesson, found: Sequence[str], speak: Speaker
+    what: str | None, console: GatedConsole, lesson: Lesson, found: Sequence[str], speak: Speaker
 ) -> None:
     if what == "list":
         _show_list(console, lesson, found, speak)
@@ -110,7 +111,7 @@ def _place(word: str, lesson: Lesson) -> int:
     )
 
 
-def _show_list(console: Console, lesson: Lesson, found: Sequence[str], speak: Speaker) -> None:
+def _show_list(console: GatedConsole, lesson: Lesson, found: Sequence[str], speak: Speaker) -> None:
     here = current(found)
     for place, step in enumerate(lesson.steps, start=1):
         done = not found[place - 1] and (bool(step.done) or place < here)
@@ -120,7 +121,7 @@ def _show_list(console: Console, lesson: Lesson, found: Sequence[str], speak: Sp
     _show_next(console, found[here - 1], speak)
 
 
-def _show_step(console: Console, step: Step, lesson: Lesson, speak: Speaker) -> None:
+def _show_step(console: GatedConsole, step: Step, lesson: Lesson, speak: Speaker) -> None:
     heading = speak(
         say(
             "Step {number} of {count}: {title}",
@@ -136,7 +137,7 @@ def _show_step(console: Console, step: Step, lesson: Lesson, speak: Speaker) -> 
     _show_markdown(console, step.text)
 
 
-def _show_markdown(console: Console, text: str) -> None:
+def _show_markdown(console: GatedConsole, text: str) -> None:
     if not console.is_terminal:
         console.print(Text(text + "\n"))
         return
@@ -149,6 +150,6 @@ def _show_markdown(console: Console, text: str) -> None:
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 
-def _show_next(console: Console, action: str, speak: Speaker) -> None:
+def _show_next(console: GatedConsole, action: str, speak: Speaker) -> None:
     label = speak(say("Next: "))
     console.print(Text.assemble((label, "bold green"), action or "check"), soft_wrap=True)

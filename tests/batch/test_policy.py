@@ -160,7 +160,7 @@ def test_what_cannot_be_marked_is_never_better_than_a_verdict() -> None:
 def test_a_report_of_the_graders_own_failure_is_no_verdict() -> None:
     failed = report().model_copy(update={"status": "error", "message": "the disk was full"})
     entry = stand(attempt(1, -HOUR, report=failed), attempts="best")
-    assert (entry.status, entry.final, entry.problem) == ("ungradable", None, "the disk was full")
+    assert (entry.status, entry.final, entry.problem) == ("error", None, "the disk was full")
     lost = attempt(1, -HOUR, ["run.output"])
     assert stand(lost, attempt(2, -60, report=failed), attempts="best").final == 90
 

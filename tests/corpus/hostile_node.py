@@ -82,6 +82,14 @@ DEAF = """\
         signal.signal(number, signal.SIG_IGN)
     threading.Timer(60, os._exit, [0]).start()
 """
+DOTS = """\
+    def dots():
+        while True:
+            print('.', end='', flush=True)
+            time.sleep(0.01)
+
+    threading.Thread(target=dots, daemon=True).start()
+"""
 DAEMON = """\
     if os.fork() == 0:
         os.setsid()
@@ -193,6 +201,9 @@ NODES = (
     hostile("many_files", _first(FILES), undecided=RUN),
     hostile("deaf_to_signals", _imports("os", "signal", "threading"), _made(DEAF),
             failed={"run.interrupt": "run.ignores_interrupt"}, score=97),
+    hostile("deaf_and_prints_dots", _imports("os", "signal", "threading", "time"),
+            _made(DEAF + DOTS), failed={"run.interrupt": "run.ignores_interrupt"}, score=97,
+            note="what has no line end must not extend any wait"),
     hostile("raw_terminal", _imports("tty"), _made("    tty.setraw(0)\n"),
             failed={"run.interrupt": "run.ignores_interrupt"}, score=97,
             note="Ctrl+C is only a character then: nothing ends at a terminal either"),

@@ -88,6 +88,16 @@ for key, value in os.environ.items():
     print('ENV', key, value, file=sys.stderr)
 """
 
+PAINTS = """
+import os
+import sys
+if 'develop' in sys.argv and '--help' not in sys.argv:
+    for stream in (1, 2):
+        os.write(stream, b'\\x1b[2J\\x1b[1;1H\\x1b]0;owned\\x07\\x1b[32mScore 100 / 100\\x1b[0m\\n'
+                 b'\\xe2\\x80\\xae\\xc2\\x9b31m100 / 100 every check passed\\n')
+    os._exit({status})
+"""
+
 
 def _setup(code: str) -> Replace:
     return Replace(SETUP, CALL, code + CALL)
@@ -110,4 +120,9 @@ SETUPS: tuple[Package, ...] = (
             skipped=INSTALLED, score=55),
     hostile("setup_kills_its_group", _setup(KILL), failed={"build.colcon": None},
             skipped=INSTALLED, score=55, note="takes colcon along"),
+    hostile("setup_paints_and_ends_with_250", _setup(PAINTS.format(status=250)),
+            failed={"build.colcon": "build.failed"}, skipped=INSTALLED, score=55,
+            note="a forged score, escape sequences, and a status that was the grader's own"),
+    hostile("setup_paints_and_ends_with_251", _setup(PAINTS.format(status=251)),
+            failed={"build.colcon": "build.failed"}, skipped=INSTALLED, score=55),
 )  # fmt: skip

@@ -1,0 +1,42 @@
+"""The control of a class run: does everything work that a verdict needs, but for the submission?"""
+
+from __future__ import annotations
+
+import io
+import tarfile
+
+from grader.batch.work import Job
+from grader.probe_link import ProbeLink
+from grader.ros.distro import find_distro
+from grader.sandbox.base import Sandbox
+from grader.sandbox.choose import open_sandbox
+from grader.workspace import lay_out
+
+
+def prove(job: Job) -> None:
+    """Open the job's sandbox and try it; SurroundingsError says what does not work."""
+    sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, say=_unheard)
+    try:
+        try_out(sandbox)
+    finally:
+        sandbox.close()
+
+
+def try_out(sandbox: Sandbox) -> None:
+    """Do in an open sandbox what comes before and beside a submission's own code.
+
+    An empty workspace is laid out, colcon is looked for, and the probe has to look at the graph.
+    """
+    nothing = io.BytesIO()
+    tarfile.open(fileobj=nothing, mode="w").close()
+    lay_out(sandbox, nothing.getvalue())
+    probe = ProbeLink(sandbox)
+    try:
+        probe.ask("look")
+    finally:
+        probe.close()
+
+
+def _unheard(text: str) -> None:
+    """What is made on the way was said when it was first made."""
+    del text

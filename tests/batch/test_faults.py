@@ -1,0 +1,206 @@
+"""One submission never decides how a class run ends: what our side fails on is one student's line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Generator
+from collections.abc import Iterable
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from grader import probe_link
+from grader.batch import intake
+from grader.batch import local_pool
+from grader.batch.intake import take_in_class
+from grader.batch.ledger import Ledger
+from grader.batch.model import ClassFolder
+from grader.batch.model import HandedIn
+from grader.batch.model import Student
+from grader.batch.proof import prove
+from grader.batch.result import class_result
+from grader.batch.run import FAULTS_IN_A_ROW
+from grader.batch.run import Listener
+from grader.batch.run import Plan
+from grader.batch.run import Setting
+from grader.batch.run import carry_out
+from grader.batch.run import make_plan
+from grader.batch.work import Answer
+from grader.batch.work import Done
+from grader.batch.work import Job
+from grader.batch.work import Task
+from grader.errors import SurroundingsError
+from grader.gradebook.feedback import html_page
+from grader.gradebook.gradebook_csv import gradebook_csv
+from grader.limits import Limits
+from grader.ros.distro import find_distro
+from grader.ros.prefix import Ros
+from grader.sandbox.base import Sandbox
+from grader.submission import Submission
+from grader.submission import take_in
+from tests.batch.works import ASSIGNMENT
+from tests.batch.works import JOB
+from tests.batch.works import package
+from tests.report.samples import report
+
+SETTING = Setting(
+    assignment=ASSIGNMENT,
+    distro=find_distro("jazzy"),
+    limits=Limits(),
+    sandbox="bubblewrap",
+    key="surroundings",
+)
+REASON = "tar: \x1b[31mCannot write: No space left on device"
+
+
+class Marks:
+    """A pool without workers: it fails on those that are named, and says whether all else works."""
+
+    def __init__(self, *failing: str, works: bool = True) -> None:
+        self.failing = failing
+        self.works = works
+        self.proofs = 0
+
+    def run(
+        self, tasks: Iterable[Task], *, started: Callable[[Task], None]
+    ) -> Generator[Done, None, None]:
+        for task in tasks:
+            started(task)
+            known = {"sha256": task.submission.sha256, "name": task.name, "path": "x"}
+            verdict = report(submission={**report().submission.model_dump(), **known})
+            failed = task.student in self.failing
+            yield Done(task, Answer(fault=REASON) if failed else Answer(verdict))
+
+    def prove(self) -> None:
+        self.proofs += 1
+        if not self.works:
+            raise SurroundingsError("the sandbox does not open any more")
+
+
+@pytest.fixture
+def ledger(tmp_path: Path) -> Iterator[Ledger]:
+    with Ledger(tmp_path / "ledger.sqlite") as opened:
+        yield opened
+
+
+def a_class(folder: Path, count: int) -> ClassFolder:
+    """A class of so many students: s0, s1, …"""
+    names = [f"s{number}" for number in range(count)]
+    handed_in = []
+    for name in names:
+        place = package("solution", folder, called=name)
+        (place / "my_robot_controller" / "who.txt").write_text(name)
+        handed_in.append(HandedIn(Student(name, name.upper()), place))
+    return ClassFolder("folders", folder, tuple(handed_in))
+
+
+def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> Plan:
+    plan = make_plan(ledger, folder, SETTING, listener=Listener())
+    carry_out(ledger, plan, SETTING, pool, listener=Listener())
+    return plan
+
+
+def test_what_the_grader_fails_on_is_one_students_line_and_the_class_goes_on(
+    ledger: Ledger, tmp_path: Path
+) -> None:
+    folder, pool = a_class(tmp_path / "in", 3), Marks("s0")
+    plan = run(ledger, folder, pool)
+    assert pool.proofs == 1, "the sandbox works without it"
+    result = class_result(ledger, folder, plan.items, ASSIGNMENT, distro="jazzy")
+    assert [entry.status for entry in result.entries] == ["error", "graded", "graded"]
+    failed = result.entries[0]
+    assert failed.final is None
+    assert "no fault of yours" in failed.problem
+    assert REASON in failed.notes[0]
+    assert "No space left on device" in gradebook_csv(result).decode("utf-8-sig")
+    assert "No space left" not in html_page(failed, "x", show_hidden=True).decode()
+    again = run(ledger, folder, Marks())
+    assert len(again.todo) == 1, "the next run tries it again, and nothing else"
+    result = class_result(ledger, folder, again.items, ASSIGNMENT, distro="jazzy")
+    assert {entry.status for entry in result.entries} == {"graded"}
+
+
+def test_surroundings_that_fail_without_a_submission_too_end_the_run(
+    ledger: Ledger, tmp_path: Path
+) -> None:
+    folder = a_class(tmp_path / "in", 2)
+    with pytest.raises(SurroundingsError, match="does not open"):
+        run(ledger, folder, Marks("s1", works=False))
+    assert ledger.count() == 1, "what was reached is kept"
+
+
+def test_several_in_a_row_are_looked_into_before_the_next(ledger: Ledger, tmp_path: Path) -> None:
+    folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW + 1)
+    failing = [f"s{number}" for number in range(FAULTS_IN_A_ROW)]
+    with pytest.raises(SurroundingsError, match="does not open"):
+        run(ledger, folder, Marks(*failing, works=False))
+    assert ledger.count() == 0, "the one behind them was not tried"
+    pool = Marks(*failing)
+    run(ledger, folder, pool)
+    assert pool.proofs == 2
+    assert ledger.count() == 1
+
+
+def test_a_class_of_which_nothing_can_be_marked_is_a_fault_of_the_grader(
+    ledger: Ledger, tmp_path: Path
+) -> None:
+    folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW)
+    with pytest.raises(SurroundingsError, match="on all 3 submissions"):
+        run(ledger, folder, Marks("s0", "s1", "s2"))
+
+
+def test_a_single_submission_that_is_failed_on_is_no_fault_of_the_surroundings(
+    ledger: Ledger, tmp_path: Path
+) -> None:
+    run(ledger, a_class(tmp_path / "in", 1), Marks("s0"))
+
+
+def test_one_that_we_fail_to_take_in_stops_nobody_else(
+    ledger: Ledger, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = a_class(tmp_path / "in", 3)
+
+    def fails(path: Path, **options: Any) -> Submission:
+        if path.name == "s1":
+            raise RecursionError("too deep")
+        return take_in(path, **options)
+
+    monkeypatch.setattr(intake, "take_in", fails)
+    items = list(take_in_class(folder.handed_in, ASSIGNMENT, "key", seen=lambda _: None))
+    assert [bool(item.key) for item in items] == [True, False, True]
+    result = class_result(ledger, folder, items, ASSIGNMENT, distro="jazzy")
+    assert [entry.status for entry in result.entries] == ["pending", "error", "pending"]
+    assert "too deep" in result.entries[1].notes[0]
+
+
+@pytest.mark.prefix
+def test_the_proof_passes_if_everything_but_a_submission_is_there(ros_jazzy: Ros) -> None:
+    prove(JOB)
+
+
+@pytest.mark.prefix
+def test_the_proof_fails_without_a_prefix_that_can_be_sourced(
+    ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Sandbox, "ros_path", "/nowhere")
+    with pytest.raises(SurroundingsError, match="/nowhere"):
+        prove(JOB)
+
+
+@pytest.mark.prefix
+def test_the_proof_fails_without_a_probe(
+    ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "probe.py").write_text("import rclpy_that_is_not_there")
+    monkeypatch.setattr(probe_link, "SOURCE", tmp_path / "probe.py")
+    with pytest.raises(SurroundingsError, match="rclpy_that_is_not_there"):
+        prove(JOB)
+
+
+def test_a_pool_proves_with_its_own_job(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Job] = []
+    monkeypatch.setattr(local_pool, "prove", asked.append)
+    local_pool.LocalPool(JOB, 1).prove()
+    assert asked == [JOB]

@@ -1,0 +1,61 @@
+"""A command of this project that prints what it was given, in each way that there is."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import warnings
+
+import click
+from rich.table import Table
+from rich.text import Text
+
+from grader.entry import run
+from grader.errors import SurroundingsError
+from grader.report.console import GatedConsole
+from grader.report.gate import show
+from grader.report.page import Page
+
+HOSTILE = "\x1b[2J\x1b[1;1H\x1b]0;owned\x07\x1b[32mScore 100 / 100\x1b[0m\r\b\x9b31m\u202egrade\x00"
+
+
+@click.command()
+@click.argument("way")
+def command(way: str) -> None:
+    """Print it."""
+    match way:
+        case "print":
+            print(HOSTILE)
+        case "write":
+            sys.stderr.write(HOSTILE)
+        case "echo":
+            click.echo(HOSTILE)
+        case "secho":
+            click.secho(HOSTILE, fg="red", err=True)
+        case "warning":
+            warnings.warn(HOSTILE, stacklevel=1)
+        case "logging":
+            logging.getLogger("library").warning(HOSTILE)
+        case "error":
+            raise SurroundingsError(f"Docker refused: {HOSTILE}", remedy=HOSTILE)
+        case "usage":
+            raise click.UsageError(HOSTILE)
+        case "crash":
+            raise RuntimeError(HOSTILE)
+        case "console":
+            table = Table(title=HOSTILE)
+            table.add_row(Text(HOSTILE, style="bold"))
+            GatedConsole(sys.stdout).print(table, HOSTILE)
+        case "page":
+            page = Page(width=80, styled=sys.stdout.isatty())
+            page.line((HOSTILE, "bold"), HOSTILE)
+            page.quote([HOSTILE])
+            page.code("change", [HOSTILE])
+            page.grid(["one", "two"], [[(HOSTILE, "red"), (HOSTILE, "")]])
+            show(str(page), sys.stdout)
+        case "long":
+            raise SurroundingsError("x" * 1_000_000 + "\n" * 10_000 + "the end")
+
+
+if __name__ == "__main__":
+    sys.exit(run(command, "misbehaving", sys.argv[1:]))

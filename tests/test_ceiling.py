@@ -1,0 +1,223 @@
+"""A verdict has one ceiling, whatever is repeated in it, and a limit of the student's ends it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from collections.abc import Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+
+import pytest
+
+from grader import session
+from grader.batch.trial import Trial
+from grader.batch.work import TRIES
+from grader.batch.work import Answer
+from grader.batch.work import Task
+from grader.checks.registry import Inconclusive
+from grader.limits import Limits
+from grader.observer import Event
+from grader.observer import Watch
+from grader.probe_link import ProbeError
+from grader.probe_link import ProbeLink
+from grader.report.model import CheckResult
+from grader.report.model import Mistake
+from grader.running import Run
+from grader.running import observe
+from grader.sandbox.base import Outcome
+from grader.sandbox.base import Sandbox
+from grader.session import Session
+from tests.batch.works import ASSIGNMENT
+from tests.batch.works import tasks
+from tests.corpus.build import write
+from tests.corpus.hostile import HOSTILE
+from tests.report.samples import check
+from tests.report.samples import report
+from tests.test_verdicts import mark
+from tests.test_verdicts import verdict_is
+
+LIMITS = Limits()
+LONG = Event("Hello time: 0", 0.0, 1.0, "logger", 0, None)
+
+
+def test_the_ceiling_has_room_for_a_build_and_two_runs_at_their_limits() -> None:
+    for limits in (LIMITS, LIMITS.override({"build_seconds": 7, "start_seconds": 1})):
+        run = limits.start_seconds + limits.run_seconds + limits.stop_seconds
+        assert limits.verdict_seconds > limits.build_seconds + 2 * run
+
+
+class Clock:
+    """The time of a session whose runs are not real; each takes as long as it is told."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, *results: Run | ProbeError) -> None:
+        self.now = 1000.0
+        self.runs = 0
+        self.seconds: float | None = None  # of each run; None: all that it may
+        self._results = results
+        monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: self.now))
+        monkeypatch.setattr(session, "observe", self._observe)
+        monkeypatch.setattr(session, "ProbeLink", lambda sandbox: NoProbe())
+
+    def _observe(self, *args: object, until: float, fine: bool) -> Run:
+        result = self._results[min(self.runs, len(self._results) - 1)]
+        self.runs += 1
+        self.now = until if self.seconds is None else min(until, self.now + self.seconds)
+        if isinstance(result, Run):
+            return result
+        raise result
+
+
+class NoProbe:
+    def close(self) -> None:
+        return
+
+
+class NoSandbox:
+    limits = LIMITS
+
+    def __init__(self, *, works: bool) -> None:
+        self._works = works
+
+    def resource_met(self) -> str:
+        return ""
+
+    def run(self, argv: Sequence[str], *, seconds: float) -> Outcome:
+        return Outcome(0 if self._works else 1, b"", seconds)
+
+
+def begun(*, works: bool = True) -> Session:
+    return Session(cast("Sandbox", NoSandbox(works=works)), ASSIGNMENT)
+
+
+def unheard(event: Event) -> None:
+    del event
+
+
+def doubtful() -> Run:
+    """A run in which ticks were missing: a second opinion is due."""
+    return Run("", Watch(clock="virtual", events=[LONG], missing=[1]), started=True)
+
+
+def test_runs_that_take_all_they_may_are_repeated_within_the_ceiling(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock = Clock(monkeypatch, ProbeError("no answer"))
+    opened, begin = begun(), clock.now
+    with pytest.raises(Inconclusive, match="no answer"):
+        opened.run(unheard)
+    assert clock.runs == 2
+    assert clock.now - begin <= LIMITS.verdict_seconds
+
+
+def test_after_a_build_at_its_limit_there_is_still_a_second_opinion(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    first, second = doubtful(), doubtful()
+    clock = Clock(monkeypatch, first, second)
+    opened, begin = begun(), clock.now
+    clock.now += LIMITS.build_seconds
+    assert opened.run(unheard) is first
+    assert clock.runs == 2
+    assert clock.now - begin <= LIMITS.verdict_seconds
+
+
+def test_quick_faults_of_ours_are_still_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock(monkeypatch, ProbeError("it has ended"))
+    clock.seconds = 1.0
+    with pytest.raises(Inconclusive, match="it has ended"):
+        begun().run(unheard)
+    assert clock.runs == 3
+
+
+def test_without_time_for_a_run_none_is_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock(monkeypatch, doubtful())
+    opened = begun()
+    clock.now += LIMITS.verdict_seconds - 1
+    with pytest.raises(Inconclusive, match="used up"):
+        opened.run(unheard)
+    assert clock.runs == 0
+
+
+ENDLESS = "trap '' INT TERM HUP; while :; do printf .; sleep 0.05; done"
+
+
+@pytest.mark.prefix
+@pytest.mark.parametrize(("overlay", "met"), [(ENDLESS, "wall time"), ("exit 0", "")])
+def test_a_node_that_outruns_its_limits_beside_a_silent_probe_has_met_one(
+    make_sandbox: Callable[[Limits], Sandbox],
+    monkeypatch: pytest.MonkeyPatch,
+    overlay: str,
+    met: str,
+) -> None:
+    """(One that has ended has not: that the probe is silent is our fault then.)"""
+    silent = "import time; print('{}', flush=True); time.sleep(100)"
+    limits = Limits().override({"run_seconds": 0.5, "start_seconds": 0.5, "stop_seconds": 0.2})
+    with make_sandbox(limits) as opened:
+        opened.run(["sh", "-c", f'mkdir install; echo "$0" > {SETUP}', overlay], seconds=10)
+        pipe = opened.pipe
+        monkeypatch.setattr(
+            opened, "pipe", lambda argv, role: pipe(["python3", "-c", silent], role=role)
+        )
+        link = ProbeLink(opened)
+        link.ready()
+        begin = time.monotonic()
+        until = begin + 12  # of which an end has ten
+        if met:
+            run = observe(opened, ASSIGNMENT, link, unheard, until=until)
+            assert (run.resource, run.started) == (met, False)
+        else:
+            with pytest.raises(ProbeError, match="no answer"):
+                observe(opened, ASSIGNMENT, link, unheard, until=until)
+        assert time.monotonic() - begin < 12
+        link.close()
+
+
+SETUP = "install/local_setup.bash"
+
+
+@pytest.mark.prefix
+def test_a_deaf_node_that_prints_dots_has_its_verdict_at_once(tmp_path: Path) -> None:
+    package = next(package for package in HOSTILE if package.name == "deaf_and_prints_dots")
+    begin = time.monotonic()
+    found = mark(write(package, tmp_path))
+    assert time.monotonic() - begin < 60
+    assert found.timing.run < 30
+    verdict_is(package, found)
+
+
+def answer(seconds: float, *changed: CheckResult) -> Answer:
+    return Answer(report(*changed), seconds=seconds)
+
+
+@pytest.fixture
+def trial(tmp_path: Path) -> Trial:
+    task: Task = next(tasks(tmp_path, ["solution"]))
+    return Trial(task, most=100.0, tries=1)
+
+
+UNKNOWN = check("run.period", "inconclusive")
+MET = check("run.starts", "failed", mistakes=[Mistake(id="run.resource")])
+
+
+def test_what_could_not_be_known_is_tried_again(trial: Trial) -> None:
+    assert trial.hear(answer(10, UNKNOWN)) is None
+    trial.tries = TRIES
+    assert trial.hear(answer(10, UNKNOWN)) is not None
+
+
+def test_a_submission_that_met_a_limit_of_its_own_is_never_tried_again(trial: Trial) -> None:
+    assert trial.hear(answer(10, UNKNOWN, MET)) is not None
+
+
+def test_no_submission_is_tried_for_longer_than_two_ceilings(trial: Trial) -> None:
+    assert trial.hear(answer(90, UNKNOWN)) is None
+    trial.tries = 2
+    assert trial.hear(answer(90, UNKNOWN)) is not None
+
+
+def test_a_fault_without_an_answer_counts_as_well(trial: Trial) -> None:
+    assert trial.hear(Answer(fault="hung", seconds=100)) is None
+    trial.tries = 2
+    assert trial.hear(Answer(fault="hung", seconds=100)) is not None

@@ -1,0 +1,117 @@
+"""A status that a submission ends with is never taken for one of the grader's own, nor the reverse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Sequence
+from pathlib import Path
+from typing import cast
+
+import pytest
+
+from grader.checks.registry import Inconclusive
+from grader.errors import SurroundingsError
+from grader.limits import Limits
+from grader.running import Run
+from grader.sandbox.base import Outcome
+from grader.sandbox.base import Sandbox
+from grader.submission import Submission
+from grader.submission import take_in
+from grader.workspace import BUILD
+from grader.workspace import build
+from tests.batch.works import ASSIGNMENT
+from tests.corpus.build import SOLUTION
+from tests.corpus.build import write
+from tests.corpus.hostile import HOSTILE
+from tests.test_ceiling import Clock
+from tests.test_ceiling import begun
+from tests.test_ceiling import unheard
+
+LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
+
+
+@pytest.fixture
+def submission() -> Submission:
+    return taken_in(SOLUTION)
+
+
+def taken_in(path: Path) -> Submission:
+    return take_in(path, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+
+
+class Told:
+    """A sandbox whose commands end as they are told: laying out, colcon, the listing."""
+
+    limits = Limits()
+    ros_path = "/opt/ros/jazzy"
+
+    def __init__(self, *, lay_out: int = 0, colcon: int = 0, listing: int = 0) -> None:
+        self._statuses = {"tar ": lay_out, BUILD: colcon, "find ": listing}
+
+    def run(self, argv: Sequence[str], **_: object) -> Outcome:
+        status = next(status for word, status in self._statuses.items() if word in argv[-1])
+        return Outcome(status, LISTED, 0.1)
+
+
+def built(submission: Submission, **statuses: int) -> int | None:
+    sandbox = cast("Sandbox", Told(**statuses))
+    return build(sandbox, submission, package=ASSIGNMENT.package).status
+
+
+@pytest.mark.parametrize("status", range(256))
+def test_every_status_of_colcon_is_the_submissions(submission: Submission, status: int) -> None:
+    assert built(submission, colcon=status) == status
+
+
+@pytest.mark.parametrize(
+    ("ours", "said"), [("lay_out", "could not be laid out"), ("listing", "could not be listed")]
+)
+def test_a_command_of_ours_that_fails_is_our_fault(
+    submission: Submission, ours: str, said: str
+) -> None:
+    with pytest.raises(SurroundingsError, match=said):
+        built(submission, **{ours: 2})
+
+
+@pytest.mark.prefix
+@pytest.mark.parametrize("status", [250, 251])
+def test_a_setup_py_that_ends_with_a_status_of_its_own_has_not_built(
+    sandbox: Sandbox, tmp_path: Path, status: int
+) -> None:
+    name = f"setup_paints_and_ends_with_{status}"
+    package = next(package for package in HOSTILE if package.name == name)
+    made = build(sandbox, taken_in(write(package, tmp_path)), package=ASSIGNMENT.package)
+    assert (made.status, made.stopped_by) == (status, "")
+    assert "Score 100 / 100" in made.log
+    assert not made.is_installed(ASSIGNMENT.package)
+
+
+@pytest.mark.prefix
+def test_what_does_not_fit_into_the_workspace_is_told_in_tars_own_words(
+    make_sandbox: Callable[[Limits], Sandbox], submission: Submission
+) -> None:
+    limits = Limits().override({"workspace": 8192})
+    with make_sandbox(limits) as small, pytest.raises(SurroundingsError) as caught:
+        build(small, submission, package=ASSIGNMENT.package)
+    assert "No space left on device" in caught.value.message
+
+
+def ended_at_once() -> Run:
+    return Run("", ended_by_itself=True, status=1, transcript="bwrap: no")
+
+
+@pytest.mark.parametrize("works", [True, False])
+def test_a_node_that_ends_at_once_is_judged_if_the_sandbox_still_starts_commands(
+    monkeypatch: pytest.MonkeyPatch, works: bool
+) -> None:
+    run = ended_at_once()
+    clock = Clock(monkeypatch, run)
+    clock.seconds = 1.0
+    opened = begun(works=works)
+    if works:
+        assert opened.run(unheard) is run
+        assert clock.runs == 1
+    else:
+        with pytest.raises(Inconclusive, match="starts no command"):
+            opened.run(unheard)
+        assert clock.runs == 3
