@@ -34,5 +34,5 @@ setup(
     description="A ROS 2 teaching lab, and the autograder that marks its exercises.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"], "cluster": ["distributed"]},
-    entry_points={"console_scripts": ["grader = grader.cli:main"]},
+    entry_points={"console_scripts": ["grader = grader.cli.main:main"]},
 )

@@ -16,9 +16,8 @@ from collections.abc import Iterator
 from collections.abc import Mapping
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.limits import Limits
-from grader.locale.message import say
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import say
 from grader.ros.prefix import Ros
 from grader.ros.prefix import base_interpreter
 from grader.sandbox.base import HOME
@@ -27,6 +26,7 @@ from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.bubblewrap import memory_file
 from grader.sandbox.bubblewrap import parents_of as parents
 from grader.sandbox.bubblewrap import system_mounts
+from grader.sandbox.limits import Limits
 from grader.sandbox.local import need
 from grader.sandbox.processes import kill_with_children
 from lab.terminal import foreground_again

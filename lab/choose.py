@@ -6,11 +6,11 @@ import difflib
 from collections.abc import Callable
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.locale.message import joined
-from grader.locale.message import say
-from grader.ros.cache import Say
+from grader.base.cache import Say
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
 from grader.ros.distro import Distro
 from lab.visit import Visit
 

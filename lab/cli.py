@@ -11,12 +11,12 @@ from pathlib import Path
 import click
 
 import grader
-from grader import options
-from grader.entry import run
-from grader.locale.message import msg
-from grader.locale.speaker import Speaker
-from grader.locale.speaker import chosen_language
-from grader.locale.speaker import errors_in
+from grader.base.i18n.message import msg
+from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import chosen_language
+from grader.base.i18n.translator import errors_in
+from grader.cli import options
+from grader.cli.invoke import run
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -25,8 +25,8 @@ from docker.models.containers import Container
 from docker.models.images import Image
 from docker.types import Mount
 
-from grader.errors import SurroundingsError
-from grader.locale.message import say
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import say
 from grader.sandbox.base import HOME
 from lab.exec_stream import ExecStream
 from lab.keeper import LAST

@@ -17,7 +17,7 @@ from typing import Any
 import docker
 from docker.errors import APIError
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
 from grader.sandbox.execs import Frames
 from grader.sandbox.execs import already_read
 from grader.sandbox.execs import socket_of

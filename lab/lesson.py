@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.lessons import COURSE
-from grader.lessons import FILE
-from grader.lessons import LESSON
-from grader.lessons import assignment_file
-from grader.lessons import is_file
-from grader.lessons import own_course
-from grader.locale.message import say
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
+from grader.course.find import COURSE
+from grader.course.find import FILE
+from grader.course.find import LESSON
+from grader.course.find import assignment_file
+from grader.course.find import is_file
+from grader.course.find import own_course
 
 INSIDE = "/opt/ros2_teaching_lab/course"
 
@@ -47,7 +47,7 @@ class OpenedLesson:
 
 
 def lesson_meant(assignment: str | None) -> OpenedLesson:
-    """Return the lesson that is meant (see `grader.lessons.chosen`).
+    """Return the lesson that is meant (see `grader.course.find.chosen`).
 
     UsageError if there is no such lesson, or if its folder is all that this person has.
     """

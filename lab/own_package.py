@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from grader.cli import main as grader
+from grader.cli.main import main as grader
 
 OF_A_DISTRO = ("check", "fix")
 

@@ -6,8 +6,8 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.locale.speaker import OWN
-from grader.locale.speaker import SOURCE
+from grader.base.i18n.translator import OWN
+from grader.base.i18n.translator import SOURCE
 from grader.ros.distro import Distro
 from grader.sandbox.base import HOME
 from grader.sandbox.base import PATH

@@ -8,8 +8,8 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.locale.message import say
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 
 FIRST_USER = 1000  # the first ordinary user of Debian, Ubuntu and the images
 

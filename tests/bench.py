@@ -22,20 +22,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.assignment import load_assignment
-from grader.limits import Limits
-from grader.probe_link import ProbeLink
+from grader.course.assignment import load_assignment
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 from grader.ros import images
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
-from grader.running import observe
-from grader.running import ros2_run
+from grader.run.probe_link import ProbeLink
+from grader.run.run import observe
+from grader.run.run import ros2_run
+from grader.run.terminal import Terminal
+from grader.run.workspace import build
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
-from grader.submission import Submission
-from grader.submission import take_in
-from grader.terminal import Terminal
-from grader.workspace import build
 from tests import engine
 from tests import stage
 
@@ -183,7 +183,7 @@ def _shell(ros: Ros, script: str, stdin: bytes = b"") -> Cost:
 
 
 def _tar(submission: Submission) -> bytes:
-    from grader.workspace import as_tar
+    from grader.run.workspace import as_tar
 
     return as_tar(submission, ASSIGNMENT.package)
 
@@ -267,7 +267,7 @@ def peak_memory() -> float:
     """Return the peak resident memory of the grader's own process in MB."""
     with tempfile.TemporaryDirectory() as out:
         code = (
-            "import resource, sys; from grader.cli import main; main(sys.argv[1:]); "
+            "import resource, sys; from grader.cli.main import main; main(sys.argv[1:]); "
             "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
         )
         command = [sys.executable, "-c", code, "grade", str(SOLUTION), "--out", str(Path(out))]

@@ -13,10 +13,10 @@ import tempfile
 import time
 from pathlib import Path
 
+from grader.package.submission import take_in
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.sandbox.proof import proven_ros
-from grader.submission import take_in
 from tests.batch import classes
 from tests.bench import ASSIGNMENT
 from tests.bench import at_least

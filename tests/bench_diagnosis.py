@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from grader import asking
-from grader import runner
-from grader.fix.plan import patch_for
-from grader.mistakes.diagnose import diagnose
+from grader.verdict import ask as asking
+from grader.verdict import mark as runner
+from grader.verdict.diagnose import diagnose
+from grader.verdict.fix import patch_for
 from tests.bench import bound
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from grader import lessons
-from grader.limits import Limits
+from grader.course import find as lessons
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent

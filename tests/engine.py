@@ -22,10 +22,10 @@ from pathlib import Path
 
 from docker import DockerClient
 
-from grader.errors import GraderError
-from grader.errors import SurroundingsError
+from grader.base.cache import cache_root
+from grader.base.errors import GraderError
+from grader.base.errors import SurroundingsError
 from grader.ros import images
-from grader.ros.cache import cache_root
 from grader.ros.distro import find_distro
 from grader.ros.image_build import Network
 from grader.ros.image_build import build_image

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 
 PACKAGE = "my_robot_controller"
 NODE = "my_first_node.py"

@@ -10,8 +10,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from grader.ros.cache import cache_root
-from grader.ros.cache import make_once
+from grader.base.cache import cache_root
+from grader.base.cache import make_once
 
 FILES = ("package.json", "package-lock.json")
 

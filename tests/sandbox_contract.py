@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from grader.limits import MEGABYTE
-from grader.limits import Limits
+from grader.run.terminal import Terminal
 from grader.sandbox.base import Role
 from grader.sandbox.base import Sandbox
-from grader.terminal import Terminal
+from grader.sandbox.limits import MEGABYTE
+from grader.sandbox.limits import Limits
 from tests import stage
 
 Make = Callable[[Limits], Sandbox]

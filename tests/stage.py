@@ -12,7 +12,7 @@ from collections.abc import Collection
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.ros.cache import cache_root
+from grader.base.cache import cache_root
 from grader.ros.prefix import base_interpreter
 from grader.sandbox.processes import stat_fields
 

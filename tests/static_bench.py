@@ -9,18 +9,18 @@ from typing import cast
 
 import pytest
 
-from grader.assignment import Assignment
-from grader.assignment import load_assignment
-from grader.checks.entry_point import mapping_from_source
-from grader.checks.registry import Check
-from grader.checks.registry import Failed
-from grader.checks.registry import Passed
-from grader.submission import Submission
-from grader.submission import take_in
-from grader.workspace import Build
+from grader.course.assignment import Assignment
+from grader.course.assignment import load_assignment
+from grader.package.submission import Submission
+from grader.package.submission import take_in
+from grader.run.workspace import Build
+from grader.verdict.checks.entry_point import mapping_from_source
+from grader.verdict.registry import Check
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
 
 if TYPE_CHECKING:
-    from grader.evidence import Evidence
+    from grader.verdict.evidence import Evidence
 
 ROOT = Path(__file__).resolve().parent.parent
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.gradebook.gradescope_zip import gradescope_zip
+from grader.batch.systems.gradescope.archive import gradescope_zip
 from tests import stage
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.limits import Limits
 from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
 from tests import stage
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
@@ -37,7 +37,7 @@ def test_closing_ends_everything_and_leaves_no_control_group(ros_jazzy: Ros) -> 
 
 KILLED = """
 import sys, subprocess
-from grader.limits import Limits
+from grader.sandbox.limits import Limits
 from grader.ros.distro import find_distro
 from grader.sandbox.proof import proven_ros
 from grader.sandbox.bubblewrap import Bubblewrap
@@ -100,7 +100,7 @@ def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) 
 def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
     code = (
         "import json\n"
-        "from grader.limits import Limits\n"
+        "from grader.sandbox.limits import Limits\n"
         "from grader.ros.distro import find_distro\n"
         "from grader.ros.prefix import Ros, base_interpreter\n"
         "from grader.sandbox.bubblewrap import Bubblewrap\n"
@@ -131,7 +131,7 @@ def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
 def test_a_machine_that_forbids_namespaces_is_told_why(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from grader.errors import SurroundingsError
+    from grader.base.errors import SurroundingsError
 
     fake = tmp_path / "bwrap"
     fake.write_text("#!/bin/sh\necho 'bwrap: setting up uid map: Permission denied' >&2\nexit 1\n")

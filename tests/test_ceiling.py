@@ -11,24 +11,24 @@ from typing import cast
 
 import pytest
 
-from grader import session
 from grader.batch.trial import Trial
 from grader.batch.work import TRIES
 from grader.batch.work import Answer
 from grader.batch.work import Task
-from grader.checks.registry import Inconclusive
-from grader.limits import Limits
-from grader.observer import Event
-from grader.observer import Watch
-from grader.probe_link import ProbeError
-from grader.probe_link import ProbeLink
 from grader.report.model import CheckResult
 from grader.report.model import Mistake
-from grader.running import Run
-from grader.running import observe
+from grader.run import session
+from grader.run.observer import Event
+from grader.run.observer import Watch
+from grader.run.probe_link import ProbeError
+from grader.run.probe_link import ProbeLink
+from grader.run.run import Run
+from grader.run.run import observe
+from grader.run.session import Session
 from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
-from grader.session import Session
+from grader.sandbox.limits import Limits
+from grader.verdict.registry import Inconclusive
 from tests.batch.works import ASSIGNMENT
 from tests.batch.works import tasks
 from tests.corpus.build import write

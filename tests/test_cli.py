@@ -176,13 +176,13 @@ def test_two_distros_give_a_matrix(tmp_path: Path) -> None:
 
 
 def test_start_up_imports_nothing_that_a_help_text_does_not_need() -> None:
-    code = "import sys, grader.cli; print([m for m in ('pydantic', 'rich', 'yaml', 'pexpect') "
+    code = "import sys, grader.cli.main; print([m for m in ('pydantic', 'rich', 'yaml', 'pexpect') "
     done = stage.run([sys.executable, "-c", code + "if m in sys.modules])"])
     assert done.stdout.strip() == "[]"
 
 
 def _cache() -> Path:
-    from grader.ros.cache import cache_root
+    from grader.base.cache import cache_root
 
     return cache_root()
 

@@ -8,16 +8,16 @@ from dataclasses import field
 
 import pytest
 
-from grader.assignment import load_assignment
-from grader.clock import VirtualClock
-from grader.observer import SECOND
-from grader.observer import Observer
-from grader.observer import Watch
-from grader.probe_link import Answer
-from grader.probe_link import LogRecord
-from grader.probe_link import ProbeLink
+from grader.course.assignment import load_assignment
+from grader.run.clock import VirtualClock
+from grader.run.observer import SECOND
+from grader.run.observer import Observer
+from grader.run.observer import Watch
+from grader.run.probe_link import Answer
+from grader.run.probe_link import LogRecord
+from grader.run.probe_link import ProbeLink
+from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
-from grader.terminal import Terminal
 from tests.test_observer import COURSE
 
 OUTPUT = load_assignment(COURSE).output

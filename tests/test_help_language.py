@@ -10,9 +10,9 @@ import sys
 import click
 import pytest
 
-from grader.cli import commands
-from grader.locale.command_line import language_of
-from grader.locale.command_line import said_in
+from grader.cli.localized import language_of
+from grader.cli.localized import said_in
+from grader.cli.main import commands
 from tests import stage
 
 KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""}

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from grader.intake.modes import git_ignores_modes
-from grader.intake.modes import git_modes
-from grader.intake.modes import keeps_modes
-from grader.intake.naming import sanitise
-from grader.intake.naming import submission_name
+from grader.package.intake.modes import git_ignores_modes
+from grader.package.intake.modes import git_modes
+from grader.package.intake.modes import keeps_modes
+from grader.package.intake.naming import sanitise
+from grader.package.intake.naming import submission_name
 
 from .handed_in import NODE
 from .handed_in import NODE_PATH

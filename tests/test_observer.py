@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from grader.assignment import load_assignment
-from grader.checks.counting import logger
-from grader.checks.registry import Failed
-from grader.evidence import Evidence
-from grader.observer import Event
-from grader.observer import Source
-from grader.observer import Watch
-from grader.running import Run
-from grader.submission import take_in
+from grader.course.assignment import load_assignment
+from grader.package.submission import take_in
+from grader.run.observer import Event
+from grader.run.observer import Source
+from grader.run.observer import Watch
+from grader.run.run import Run
+from grader.verdict.checks.counting import logger
+from grader.verdict.evidence import Evidence
+from grader.verdict.registry import Failed
 from tests.conftest import ROOT
 from tests.static_bench import BUILT
 

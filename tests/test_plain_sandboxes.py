@@ -10,15 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.limits import Limits
-from grader.ros.cache import cache_root
+from grader.base.cache import cache_root
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.ros.prefix import prefix_path
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
+from grader.sandbox.limits import Limits
 from grader.sandbox.plain import Bare
 from tests import sandbox_contract as contract
 from tests import stage
@@ -26,7 +26,7 @@ from tests.test_cli import solution
 
 ACCOUNT = """
 import json, sys
-from grader.limits import Limits
+from grader.sandbox.limits import Limits
 from grader.ros.distro import find_distro
 from grader.sandbox.proof import proven_ros
 from grader.sandbox.plain import Account
@@ -72,7 +72,7 @@ def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> No
 
 TWO_ACCOUNTS = """
 from pathlib import Path
-from grader.limits import Limits
+from grader.sandbox.limits import Limits
 from grader.ros.distro import find_distro
 from grader.sandbox.plain import Account
 from grader.sandbox.proof import proven_ros

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.ros import cache
+from grader.base import cache
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.ros.distro import distros
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
@@ -159,7 +159,7 @@ def test_the_cache_is_where_it_was_asked_to_be(monkeypatch: pytest.MonkeyPatch) 
 MAKING = """
 import sys, time
 from pathlib import Path
-from grader.ros.cache import make_once
+from grader.base.cache import make_once
 
 def make(staging):
     print("making", flush=True)

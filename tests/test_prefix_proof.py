@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
 from grader.ros import prefix
 from grader.ros.distro import Distro
 from grader.ros.distro import find_distro

@@ -119,7 +119,7 @@ def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Pat
 
 
 def test_nothing_is_printed_past_the_gate() -> None:
-    """(See grader.report.gate: what is printed with styles has a console that is a gate, too.)"""
+    """(See grader.base.gate: what is printed with styles has a console that is a gate, too.)"""
     ways = (
         "rich.console import Console",
         "sys.__std",
@@ -127,7 +127,11 @@ def test_nothing_is_printed_past_the_gate() -> None:
         "os.write(2",
         ".stdout.buffer",
     )
-    own = {"grader/report/console.py", "grader/probe.py", "lab/keeper.py"}  # two speak to a program
+    own = {
+        "grader/base/gated_console.py",
+        "grader/run/probe.py",
+        "lab/keeper.py",
+    }  # two speak to a program
     found = {
         path.relative_to(stage.ROOT).as_posix()
         for folder in ("grader", "lab")

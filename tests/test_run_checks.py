@@ -7,16 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from grader.checks.registry import Blocked
-from grader.checks.registry import Check
-from grader.checks.registry import Failed
-from grader.checks.registry import Passed
-from grader.checks.starting import interrupt
-from grader.checks.timing import period
-from grader.evidence import Evidence
-from grader.observer import Event
-from grader.observer import Watch
-from grader.running import Run
+from grader.run.observer import Event
+from grader.run.observer import Watch
+from grader.run.run import Run
+from grader.verdict.checks.starting import interrupt
+from grader.verdict.checks.timing import period
+from grader.verdict.evidence import Evidence
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Check
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
 from tests.corpus.build import SOLUTION
 from tests.static_bench import BUILT
 from tests.static_bench import NODE

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.checks import package
-from grader.checks import source
+from grader.verdict.checks import package
+from grader.verdict.checks import source
 
 from .static_bench import ASSIGNMENT
 from .static_bench import FILES

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.checks import package
+from grader.verdict.checks import package
 
 from .static_bench import ENTRY
 from .static_bench import FILES

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.checks import source
-from grader.checks.registry import Blocked
+from grader.verdict.checks import source
+from grader.verdict.registry import Blocked
 
 from .static_bench import ASSIGNMENT
 from .static_bench import NAME

@@ -9,16 +9,16 @@ from typing import cast
 
 import pytest
 
-from grader.checks.registry import Inconclusive
-from grader.errors import SurroundingsError
-from grader.limits import Limits
-from grader.running import Run
+from grader.base.errors import SurroundingsError
+from grader.package.submission import Submission
+from grader.package.submission import take_in
+from grader.run.run import Run
+from grader.run.workspace import BUILD
+from grader.run.workspace import build
 from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
-from grader.submission import Submission
-from grader.submission import take_in
-from grader.workspace import BUILD
-from grader.workspace import build
+from grader.sandbox.limits import Limits
+from grader.verdict.registry import Inconclusive
 from tests.batch.works import ASSIGNMENT
 from tests.corpus.build import SOLUTION
 from tests.corpus.build import write

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import UsageError
+from grader.base.errors import UsageError
 
 from .handed_in import NODE
 from .handed_in import NODE_PATH

@@ -6,9 +6,9 @@ import time
 
 import pytest
 
+from grader.run.terminal import Line
+from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
-from grader.terminal import Line
-from grader.terminal import Terminal
 
 RECORD = "[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0"
 

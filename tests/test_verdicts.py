@@ -11,15 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from grader.assignment import load_assignment
-from grader.events import Listener
-from grader.limits import Limits
+from grader.base.cache import cache_root
+from grader.course.assignment import load_assignment
+from grader.report.events import Listener
 from grader.report.model import Report
-from grader.ros.cache import cache_root
 from grader.ros.distro import find_distro
-from grader.runner import Order
-from grader.runner import grade
+from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
+from grader.verdict.mark import Order
+from grader.verdict.mark import grade
 from tests import stage
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write

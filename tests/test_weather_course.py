@@ -11,28 +11,28 @@ from pathlib import Path
 
 import pytest
 
-from grader.asking import ask
-from grader.assignment import Assignment
-from grader.checks.all import CHECKS
-from grader.evidence import Evidence
-from grader.fix.plan import patch_for
-from grader.locale.message import Message
-from grader.locale.speaker import Speaker
+from grader.base.i18n.message import Message
+from grader.base.i18n.translator import Speaker
+from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
 from grader.mistakes.recognise import filled
 from grader.mistakes.wanted import words_of
-from grader.observer import Event
-from grader.observer import Watch
-from grader.probe_link import NodeSeen
 from grader.report.model import CheckResult
 from grader.ros.distro import find_distro
-from grader.running import Run
+from grader.run.observer import Event
+from grader.run.observer import Watch
+from grader.run.probe_link import NodeSeen
+from grader.run.run import Run
+from grader.run.workspace import Build
 from grader.validate.tree import Delete
 from grader.validate.tree import Edit
 from grader.validate.tree import Replace
-from grader.workspace import Build
+from grader.verdict.ask import ask
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.evidence import Evidence
+from grader.verdict.fix import patch_for
 from tests import stage
 from tests import weather
 from tests.weather import LOG

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.assignment import Assignment
-from grader.assignment import load_assignment
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.course.assignment import Assignment
+from grader.course.assignment import load_assignment
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 from grader.validate.tree import Edit
 from grader.validate.tree import Entry
 from grader.validate.tree import apply_all

@@ -16,14 +16,14 @@ from collections.abc import Collection
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.assignment_policy import Policy
+from grader.base.errors import UsageError
+from grader.base.plain_text import one_line
 from grader.batch.model import ClassFolder
 from grader.batch.model import OnRoster
-from grader.errors import UsageError
-from grader.report.plain import one_line
+from grader.course.policy import Policy
 
 if TYPE_CHECKING:
-    from grader.gradebook.lowered import Lowered
+    from grader.batch.lowered import Lowered
 
 JOIN, LOWER = "join", "lower"
 KNOWN = (JOIN, LOWER)

@@ -11,17 +11,17 @@ from dataclasses import dataclass
 from dataclasses import replace
 from pathlib import Path
 
-from grader.assignment import Assignment
+from grader.base.plain_text import one_line
 from grader.batch.accept import counted
 from grader.batch.accept import refuse_poor_join
 from grader.batch.discover import discover
+from grader.batch.gradebook_before import Before
+from grader.batch.gradebook_before import read_before
 from grader.batch.model import ClassFolder
 from grader.batch.sheets import OpenSheets
 from grader.batch.sheets import Sheets
 from grader.batch.sheets import open_sheets
-from grader.gradebook.before import Before
-from grader.gradebook.before import read_before
-from grader.report.plain import one_line
+from grader.course.assignment import Assignment
 
 UNPACKED = "unpacked"
 GRADEBOOK = "gradebook.csv"

@@ -23,6 +23,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 from typing import Any
 
+from grader.base.errors import GraderError
+from grader.base.errors import SurroundingsError
 from grader.batch.cluster_worker import Checked
 from grader.batch.cluster_worker import check_here
 from grader.batch.cluster_worker import mark_here
@@ -34,8 +36,6 @@ from grader.batch.work import Answer
 from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Task
-from grader.errors import GraderError
-from grader.errors import SurroundingsError
 
 if TYPE_CHECKING:
     from distributed import Client

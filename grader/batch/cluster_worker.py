@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 
+from grader.base.errors import GraderError
 from grader.batch.keys import GRADER
 from grader.batch.keys import NOT_MARKING
 from grader.batch.keys import source_digest
@@ -13,7 +14,6 @@ from grader.batch.proof import try_out
 from grader.batch.work import Job
 from grader.batch.work import Task
 from grader.batch.work import answer
-from grader.errors import GraderError
 from grader.ros.distro import find_distro
 from grader.sandbox.choose import open_sandbox
 

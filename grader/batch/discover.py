@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from dataclasses import replace
 from pathlib import Path
 
+from grader.base.errors import UsageError
+from grader.base.shown import shown
 from grader.batch.join import join
 from grader.batch.model import ClassFolder
 from grader.batch.model import HandedIn
@@ -36,9 +38,7 @@ from grader.batch.systems.words import plain as plainly
 from grader.batch.unpack import Unpacked
 from grader.batch.unpack import unpack_class
 from grader.batch.unpack_members import NOT_UNPACKED
-from grader.errors import UsageError
-from grader.intake.given import resolved
-from grader.intake.notes import shown
+from grader.package.intake.given import resolved
 
 DEEPEST = 2  # folders around the class' folder that hold nothing else
 NO_BITS = (

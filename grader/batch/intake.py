@@ -8,14 +8,14 @@ from collections.abc import Iterable
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from grader.assignment import Assignment
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
 from grader.batch.keys import verdict_key
 from grader.batch.model import HandedIn
 from grader.batch.work import Task
-from grader.errors import UsageError
-from grader.locale.message import joined
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.course.assignment import Assignment
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 
 
 @dataclass(frozen=True)

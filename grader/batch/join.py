@@ -11,6 +11,7 @@ from dataclasses import field
 from dataclasses import replace
 from datetime import datetime
 
+from grader.base.plain_text import one_line
 from grader.batch.groups import Groups
 from grader.batch.groups import find_groups
 from grader.batch.groups import group_column
@@ -26,7 +27,6 @@ from grader.batch.model import OnRoster
 from grader.batch.model import Student
 from grader.batch.model import System
 from grader.batch.roster import Roster
-from grader.report.plain import one_line
 
 STRANGER = "this student is on no line of the roster"
 DOUBTFUL = "more than one line of the roster fits, or more than one submission fits its line"

@@ -14,9 +14,9 @@ from dataclasses import asdict
 from pathlib import Path
 
 import grader
-from grader.assignment import Assignment
-from grader.limits import Limits
+from grader.course.assignment import Assignment
 from grader.ros.prefix import Ros
+from grader.sandbox.limits import Limits
 
 GRADER = Path(grader.__file__).resolve().parent
 NOT_MARKING = ("batch", "gradebook", "site", "keys")  # folders that only hand verdicts on

@@ -17,6 +17,7 @@ from datetime import timezone
 from pathlib import Path
 from types import TracebackType
 
+from grader.base.errors import SurroundingsError
 from grader.batch.ledger_file import LedgerFile
 from grader.batch.ledger_rows import AlreadyMarkedError
 from grader.batch.ledger_rows import HandedInRow
@@ -24,7 +25,6 @@ from grader.batch.ledger_rows import Regrade
 from grader.batch.ledger_rows import VerdictRow
 from grader.batch.model import Override
 from grader.batch.model import Student
-from grader.errors import SurroundingsError
 from grader.report.model import Report
 
 MOST_KEPT = 250  # reports in memory: up to 0.1 MB each

@@ -15,9 +15,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.batch.ledger_schema import bring_up_to_date
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
 
 BUSY_SECONDS = 20.0
 OWNER_ONLY = 0o600

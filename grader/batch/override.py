@@ -10,14 +10,14 @@ from datetime import datetime
 from datetime import timezone
 from pathlib import Path
 
-from grader.assignment import Assignment
+from grader.base.errors import UsageError
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
 from grader.batch.ledger import Ledger
 from grader.batch.model import Override
 from grader.batch.model import Student
 from grader.batch.students import find_student
-from grader.errors import UsageError
-from grader.report.plain import one_line
-from grader.report.plain import points
+from grader.course.assignment import Assignment
 
 LEDGER = "ledger.sqlite"
 

@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from dataclasses import replace
 from datetime import datetime
 
-from grader.assignment_policy import Policy
-from grader.assignment_policy import amount
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
 from grader.batch.model import Elsewhere
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
-from grader.gradebook.points import marks
-from grader.gradebook.points import rounded
-from grader.locale.message import joined
-from grader.locale.message import say
+from grader.batch.points import marks
+from grader.batch.points import rounded
+from grader.course.policy import Policy
+from grader.course.policy import amount
 from grader.report.model import Report
 
 DAY, HOUR = 86_400.0, 3_600.0

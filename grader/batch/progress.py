@@ -7,11 +7,11 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 from typing import TextIO
 
+from grader.base.gate import gate
+from grader.base.plain_text import one_line
+from grader.base.stream import is_terminal
 from grader.batch.run import Listener
 from grader.batch.work import Done
-from grader.report.gate import gate
-from grader.report.plain import one_line
-from grader.report.surface import is_terminal
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -112,7 +112,7 @@ def _bar(file: TextIO) -> Progress:
     from rich.progress import Progress  # noqa: PLC0415
     from rich.progress import TextColumn  # noqa: PLC0415
 
-    from grader.report.console import GatedConsole  # noqa: PLC0415
+    from grader.base.gated_console import GatedConsole  # noqa: PLC0415
 
     return Progress(
         MofNCompleteColumn(),

@@ -6,11 +6,11 @@ import io
 import tarfile
 
 from grader.batch.work import Job
-from grader.probe_link import ProbeLink
 from grader.ros.distro import find_distro
+from grader.run.probe_link import ProbeLink
+from grader.run.workspace import lay_out
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
-from grader.workspace import lay_out
 
 
 def prove(job: Job) -> None:

@@ -12,7 +12,6 @@ from dataclasses import replace
 from datetime import datetime
 from functools import partial
 
-from grader.assignment import Assignment
 from grader.batch.handed_in_before import HandedInBefore
 from grader.batch.intake import Item
 from grader.batch.ledger import Ledger
@@ -28,6 +27,7 @@ from grader.batch.model import Student
 from grader.batch.policy import Attempt
 from grader.batch.policy import standing
 from grader.batch.similar import groups
+from grader.course.assignment import Assignment
 from grader.report.model import Report
 
 MOST_SAME = 10  # of the others with the same content, in one student's line

@@ -12,6 +12,11 @@ from dataclasses import field
 from datetime import datetime
 from pathlib import Path
 
+from grader.base.errors import UsageError
+from grader.base.plain_text import one_line
+from grader.base.shown import shown
+from grader.batch.decoded import AS_CSV
+from grader.batch.decoded import decoded
 from grader.batch.model import Student
 from grader.batch.roster_columns import KNOWN
 from grader.batch.roster_columns import Columns
@@ -19,17 +24,12 @@ from grader.batch.roster_columns import Kind
 from grader.batch.roster_columns import columns_of
 from grader.batch.roster_columns import participant
 from grader.batch.roster_guess import EMAIL
-from grader.batch.systems.gradescope_yaml import instant
-from grader.errors import UsageError
-from grader.gradebook.decoded import AS_CSV
-from grader.gradebook.decoded import decoded
-from grader.gradebook.moodle_words import says_submitted
-from grader.gradebook.sheet import Sheet
-from grader.intake.notes import shown
-from grader.intake.reading import MEGABYTE
-from grader.intake.reading import Unread
-from grader.intake.reading import read_bytes
-from grader.report.plain import one_line
+from grader.batch.sheet import Sheet
+from grader.batch.systems.gradescope.metadata import instant
+from grader.batch.systems.moodle.words import says_submitted
+from grader.package.intake.reading import MEGABYTE
+from grader.package.intake.reading import Unread
+from grader.package.intake.reading import read_bytes
 
 LARGEST = 20 * MEGABYTE
 LONGEST = 300  # characters of a cell

@@ -9,14 +9,14 @@ from typing import Literal
 from grader.batch.roster_guess import PARTICIPANT
 from grader.batch.roster_guess import PEEKED
 from grader.batch.roster_guess import guessed
-from grader.gradebook.moodle_words import FEEDBACK
-from grader.gradebook.moodle_words import GRADE
-from grader.gradebook.moodle_words import IDENTIFIER
-from grader.gradebook.moodle_words import MAXIMUM
-from grader.gradebook.moodle_words import STATUS
-from grader.gradebook.moodle_words import SUBMITTED_ON
-from grader.gradebook.moodle_words import TEAM
-from grader.gradebook.sheet import Sheet
+from grader.batch.sheet import Sheet
+from grader.batch.systems.moodle.words import FEEDBACK
+from grader.batch.systems.moodle.words import GRADE
+from grader.batch.systems.moodle.words import IDENTIFIER
+from grader.batch.systems.moodle.words import MAXIMUM
+from grader.batch.systems.moodle.words import STATUS
+from grader.batch.systems.moodle.words import SUBMITTED_ON
+from grader.batch.systems.moodle.words import TEAM
 
 Kind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
 

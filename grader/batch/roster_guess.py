@@ -10,7 +10,7 @@ from collections.abc import Callable
 from collections.abc import Collection
 from collections.abc import Sequence
 
-from grader.gradebook.sheet import Sheet
+from grader.batch.sheet import Sheet
 
 PEEKED = 50  # rows
 MOST = 0.9  # of the rows, for a column that people may have typed

@@ -13,7 +13,7 @@ from dataclasses import field
 from datetime import datetime
 from datetime import timezone
 
-from grader.assignment import Assignment
+from grader.base.errors import SurroundingsError
 from grader.batch.handed_in_before import HandedInBefore
 from grader.batch.intake import Item
 from grader.batch.intake import take_in_class
@@ -33,12 +33,12 @@ from grader.batch.similar import fingerprint
 from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Pool
-from grader.errors import SurroundingsError
-from grader.limits import Limits
+from grader.course.assignment import Assignment
+from grader.package.submission import Submission
 from grader.ros.distro import Distro
-from grader.runner import Order
 from grader.sandbox.choose import open_sandbox
-from grader.submission import Submission
+from grader.sandbox.limits import Limits
+from grader.verdict.mark import Order
 
 FAULTS_IN_A_ROW = 3  # after so many, the sandbox is tried without a submission before the next
 

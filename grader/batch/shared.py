@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from grader.batch.intake import Item
 from grader.batch.ledger import Ledger
 from grader.batch.model import Student
-from grader.intake.naming import sanitise
+from grader.package.intake.naming import sanitise
 from grader.report.model import Report
 
 Pair = tuple[str, str]  # a student's key, and the key of a verdict

@@ -9,19 +9,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.assignment import Assignment
+from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
 from grader.batch.model import Elsewhere
 from grader.batch.model import OnRoster
 from grader.batch.model import Student
 from grader.batch.model import System
-from grader.errors import UsageError
+from grader.course.assignment import Assignment
 
 if TYPE_CHECKING:
+    from grader.batch.lowered import Lowered
     from grader.batch.roster import Roster
-    from grader.gradebook.canvas import CanvasGradebook
-    from grader.gradebook.lowered import Lowered
-    from grader.gradebook.moodle_worksheet import Worksheet
+    from grader.batch.systems.canvas.write import CanvasGradebook
+    from grader.batch.systems.moodle.worksheet import Worksheet
 
 MOST_INPUT = 50_000_000  # bytes of a file of the teacher's
 
@@ -83,8 +83,8 @@ class OpenSheets:
 def open_sheets(sheets: Sheets, assignment: Assignment) -> OpenSheets:
     """Read the files and find their columns; UsageError for one that cannot be filled in."""
     # each brings a library or templates that a class without these files does not need
-    from grader.gradebook.canvas import read_gradebook  # noqa: PLC0415
-    from grader.gradebook.moodle_worksheet import read_worksheet  # noqa: PLC0415
+    from grader.batch.systems.canvas.write import read_gradebook  # noqa: PLC0415
+    from grader.batch.systems.moodle.worksheet import read_worksheet  # noqa: PLC0415
 
     contents = [
         b"" if path is None else _content(path) for path in (sheets.worksheet, sheets.canvas)

@@ -15,8 +15,8 @@ from collections import defaultdict
 from collections.abc import Iterator
 from collections.abc import Mapping
 
-from grader.submission import SourceFile
-from grader.submission import Submission
+from grader.package.submission import SourceFile
+from grader.package.submission import Submission
 
 LAYOUT = (tokenize.COMMENT, tokenize.NL, tokenize.ENCODING)
 BLOCK = (tokenize.INDENT, tokenize.DEDENT, tokenize.NEWLINE)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Sequence
 
+from grader.base.errors import UsageError
 from grader.batch.model import Student
-from grader.errors import UsageError
 
 MOST_NAMED = 5
 

@@ -9,9 +9,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from grader.intake.model import Candidate
-from grader.intake.model import SourceFile
-from grader.intake.model import Submission
+from grader.package.intake.model import Candidate
+from grader.package.intake.model import SourceFile
+from grader.package.intake.model import Submission
 
 TUPLES = ("notes", "hints", "node_files", "links_out")
 

@@ -9,15 +9,15 @@ from collections import Counter
 from pathlib import Path
 from typing import IO
 
-from grader.intake.archive import TWICE
-from grader.intake.archive_limits import ArchiveLimits
-from grader.intake.archive_member import Member
-from grader.intake.archive_member import inside
-from grader.intake.archive_problems import ENCRYPTED
-from grader.intake.archive_problems import ArchiveError
-from grader.intake.archive_problems import too_large
-from grader.intake.notes import shown
-from grader.intake.reading import MEGABYTE
+from grader.base.shown import shown
+from grader.package.intake.archive import TWICE
+from grader.package.intake.archive_limits import ArchiveLimits
+from grader.package.intake.archive_member import Member
+from grader.package.intake.archive_member import inside
+from grader.package.intake.archive_problems import ENCRYPTED
+from grader.package.intake.archive_problems import ArchiveError
+from grader.package.intake.archive_problems import too_large
+from grader.package.intake.reading import MEGABYTE
 
 MOST_REMARKS = 2_000
 OURS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO)

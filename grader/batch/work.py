@@ -16,19 +16,19 @@ from dataclasses import asdict
 from dataclasses import dataclass
 from typing import Protocol
 
-from grader.assignment import Assignment
+from grader.base.errors import GraderError
+from grader.base.i18n.message import joined
+from grader.base.i18n.translator import Speaker
 from grader.batch.submission_text import from_text
 from grader.batch.submission_text import to_text
-from grader.errors import GraderError
-from grader.events import Event
-from grader.limits import Limits
-from grader.locale.message import joined
-from grader.locale.speaker import Speaker
+from grader.course.assignment import Assignment
+from grader.package.submission import Submission
+from grader.report.events import Event
 from grader.report.model import Report
 from grader.ros.distro import find_distro
-from grader.runner import Order
-from grader.runner import mark
-from grader.submission import Submission
+from grader.sandbox.limits import Limits
+from grader.verdict.mark import Order
+from grader.verdict.mark import mark
 
 TRIES = 3  # how often a submission is marked where our own side fails
 MARGIN_SECONDS = 60.0  # beyond a verdict's ceiling, before its worker counts as hung

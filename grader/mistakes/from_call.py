@@ -6,8 +6,8 @@ import ast
 import re
 
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import dotted
 from grader.mistakes.raised import Raised
+from grader.package.source.node import dotted
 
 
 def called(raised: Raised, match: re.Match[str]) -> Finding | None:

@@ -6,9 +6,9 @@ import ast
 from dataclasses import dataclass
 
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import dotted
 from grader.mistakes.suspect import Suspect
 from grader.mistakes.wanted import logged_counter
+from grader.package.source.node import dotted
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,10 @@ from grader.mistakes.from_counter import constant
 from grader.mistakes.from_counter import wrong_start
 from grader.mistakes.from_counter import wrong_step
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import NodeSource
-from grader.mistakes.node_source import calls_in
-from grader.mistakes.node_source import dotted
 from grader.mistakes.suspect import Suspect
+from grader.package.source.node import NodeSource
+from grader.package.source.node import calls_in
+from grader.package.source.node import dotted
 
 SLEEPS = ("time.sleep", "sleep")
 WAITS = ("input", *SLEEPS)

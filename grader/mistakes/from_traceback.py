@@ -9,13 +9,13 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 
+from grader.base.nearest import nearest
 from grader.mistakes import from_call
 from grader.mistakes.kind import Finding
-from grader.mistakes.likeness import nearest
-from grader.mistakes.node_source import LOG_METHODS
-from grader.mistakes.node_source import dotted
 from grader.mistakes.raised import Raised
 from grader.mistakes.wanted import CLASS
+from grader.package.source.node import LOG_METHODS
+from grader.package.source.node import dotted
 
 MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
 NODE_METHODS = (

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import ast
 
-from grader.locale.message import Message
-from grader.locale.message import joined
-from grader.locale.message import say
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.nearest import compared
+from grader.base.nearest import nearest
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.likeness import compared
-from grader.mistakes.likeness import nearest
-from grader.mistakes.node_source import NodeSource
-from grader.mistakes.node_source import dotted
+from grader.package.source.node import NodeSource
+from grader.package.source.node import dotted
 
 GUARD = "__main__"
 

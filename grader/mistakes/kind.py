@@ -9,8 +9,8 @@ from dataclasses import field
 from functools import cached_property
 from typing import Literal
 
-from grader.locale.message import Message
-from grader.locale.message import Value
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import Value
 from grader.report.model import Mistake
 from grader.report.model import Where
 
@@ -40,7 +40,7 @@ Stage = Literal[
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """One kind of mistake. Its texts are templates of `grader.locale.message`.
+    """One kind of mistake. Its texts are templates of `grader.base.i18n.message`.
 
     `why` says why ROS behaves so, `fix` the change that mends it; `whys` and `fixes` hold others,
     by the name of a variant. `link` leads to the documentation. `seen` is a pattern by which the

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.assignment import Assignment
-from grader.locale.message import Value
+from grader.base.i18n.message import Value
+from grader.course.assignment import Assignment
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import NodeSource
 from grader.mistakes.wanted import words_of
+from grader.package.source.node import NodeSource
 from grader.report.model import Where
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from grader.locale.message import Value
+from grader.base.i18n.message import Value
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 

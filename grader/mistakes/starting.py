@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.locale.message import msg
+from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.kind import Family
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grader.assignment import Assignment
-from grader.assignment import Output
+from grader.course.assignment import Assignment
+from grader.course.assignment import Output
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import Function
-from grader.mistakes.node_source import NodeSource
 from grader.mistakes.wanted import words_of
+from grader.package.source.node import Function
+from grader.package.source.node import NodeSource
 from grader.report.model import Where
 
 

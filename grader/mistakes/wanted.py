@@ -8,12 +8,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping
 
-from grader.assignment import Assignment
-from grader.assignment import Output
-from grader.locale.message import Value
-from grader.mistakes.node_source import Function
-from grader.mistakes.node_source import NodeSource
-from grader.mistakes.node_source import dotted
+from grader.base.i18n.message import Value
+from grader.course.assignment import Assignment
+from grader.course.assignment import Output
+from grader.package.source.node import Function
+from grader.package.source.node import NodeSource
+from grader.package.source.node import dotted
 
 CALLBACK = "callback"  # names for what the student's source does not have yet
 COUNTER = "self.counter"

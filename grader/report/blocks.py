@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.locale.message import joined
-from grader.locale.message import say
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import last_lines
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
 from grader.report.page import Row
-from grader.report.plain import first_lines
-from grader.report.plain import last_lines
-from grader.report.plain import one_line
-from grader.report.plain import points
 
 if TYPE_CHECKING:
     from grader.report.model import CheckResult

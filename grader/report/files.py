@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.report.folder import Folder
+from grader.base.errors import SurroundingsError
+from grader.base.folder import Folder
 from grader.report.matrix import matrix_of
 from grader.report.model import Report
 

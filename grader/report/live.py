@@ -11,22 +11,22 @@ from typing import TYPE_CHECKING
 from typing import TextIO
 from typing import cast
 
-from grader.events import CheckFinished
-from grader.events import CheckStarted
-from grader.events import Event
-from grader.events import Note
-from grader.events import StageFinished
-from grader.events import StageStarted
-from grader.events import TickSeen
-from grader.locale.message import say
-from grader.locale.speaker import Speaker
-from grader.report.gate import behind
-from grader.report.gate import gate
-from grader.report.plain import encodable
-from grader.report.plain import one_line
-from grader.report.surface import is_terminal
-from grader.report.surface import takes_styles
-from grader.report.surface import width_of
+from grader.base.gate import behind
+from grader.base.gate import gate
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import encodable
+from grader.base.plain_text import one_line
+from grader.base.stream import is_terminal
+from grader.base.stream import takes_styles
+from grader.base.stream import width_of
+from grader.report.events import CheckFinished
+from grader.report.events import CheckStarted
+from grader.report.events import Event
+from grader.report.events import Note
+from grader.report.events import StageFinished
+from grader.report.events import StageStarted
+from grader.report.events import TickSeen
 
 if TYPE_CHECKING:
     from rich.live import Live
@@ -119,7 +119,7 @@ class LiveProgress:
     def _start(self) -> Live:
         from rich.live import Live  # noqa: PLC0415 - only if there is a terminal
 
-        from grader.report.console import GatedConsole  # noqa: PLC0415
+        from grader.base.gated_console import GatedConsole  # noqa: PLC0415
 
         styled = takes_styles(self._file)
         console = GatedConsole(

@@ -17,7 +17,7 @@ from rich.cells import set_cell_size
 from rich.table import Table
 from rich.text import Text
 
-from grader.report.console import GatedConsole
+from grader.base.gated_console import GatedConsole
 
 NARROW = 60  # columns; below, what stands side by side comes one below the other
 WIDEST = 100  # columns; longer lines are hard to read
@@ -39,7 +39,7 @@ class Row:
 class Page:
     """A page of `width` columns; without `styled` it has no control sequence at all.
 
-    Every string that it is given must be fit to be shown (see `grader.report.plain`); markup is
+    Every string that it is given must be fit to be shown (see `grader.base.plain_text`); markup is
     never interpreted. What is a `Message` is said by `speak`, in the reader's language.
     """
 

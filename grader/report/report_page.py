@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.locale.message import joined
-from grader.locale.message import say
-from grader.locale.speaker import Speaker
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
 from grader.report.blocks import UNSEEN
 from grader.report.blocks import WORDS
 from grader.report.blocks import block
@@ -16,9 +19,6 @@ from grader.report.blocks import quotation
 from grader.report.blocks import roots
 from grader.report.blocks import row
 from grader.report.page import Page
-from grader.report.plain import first_lines
-from grader.report.plain import one_line
-from grader.report.plain import points
 
 if TYPE_CHECKING:
     from pathlib import Path

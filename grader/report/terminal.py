@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 from typing import TextIO
 
-from grader.report.gate import show
+from grader.base.gate import show
+from grader.base.stream import takes_styles
+from grader.base.stream import width_of
 from grader.report.live import LiveProgress
-from grader.report.surface import takes_styles
-from grader.report.surface import width_of
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.locale.message import joined
-from grader.locale.message import say
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
 
 if sys.version_info >= (3, 11):
     import tomllib

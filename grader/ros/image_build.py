@@ -15,9 +15,9 @@ from typing import IO
 from typing import TYPE_CHECKING
 
 import grader
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.ros.cache import Say
+from grader.base.cache import Say
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.ros.distro import Distro
 from grader.ros.images import Base
 from grader.ros.images import Stage

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from typing import Literal
 from typing import get_args
 
-from grader.errors import SurroundingsError
-from grader.locale.message import joined
-from grader.locale.message import say
-from grader.ros.cache import cache_root
+from grader.base.cache import cache_root
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
 from grader.ros.distro import Distro
 from grader.ros.distro import distros
 

@@ -12,10 +12,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.locale.message import Message
+from grader.base.cache import Say
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
-from grader.ros.cache import Say
 from grader.ros.distro import HERE
 from grader.ros.distro import Distro
 from grader.ros.scripts import HEADER

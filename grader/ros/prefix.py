@@ -21,13 +21,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.locale.message import Message
+from grader.base.cache import Say
+from grader.base.cache import cache_root
+from grader.base.cache import discard
+from grader.base.cache import make_once
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
-from grader.ros.cache import Say
-from grader.ros.cache import cache_root
-from grader.ros.cache import discard
-from grader.ros.cache import make_once
 from grader.ros.distro import HERE
 from grader.ros.distro import Distro
 from grader.ros.making import COMMAND

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.locale.message import msg
+from grader.base.i18n.message import msg
 
 NO_ROS = msg("there is no ROS {distro} at {path}")
 OTHER_DISTRO = msg(

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from typing import Literal
 
-from grader.limits import UNITS
-from grader.limits import Limits
 from grader.report.model import LimitInfo
 from grader.ros.prefix import Ros
+from grader.sandbox.limits import UNITS
+from grader.sandbox.limits import Limits
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -23,9 +23,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
-from grader.errors import SurroundingsError
-from grader.limits import Limits
-from grader.locale.message import say
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import say
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE
 from grader.sandbox.base import HOME
@@ -33,6 +32,7 @@ from grader.sandbox.base import WORKSPACE
 from grader.sandbox.base import Role
 from grader.sandbox.cgroups import Group
 from grader.sandbox.cgroups import open_group
+from grader.sandbox.limits import Limits
 from grader.sandbox.local import LocalSandbox
 from grader.sandbox.local import need
 from grader.sandbox.processes import adopt_orphans

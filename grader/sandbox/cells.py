@@ -20,13 +20,13 @@ from typing import Any
 import docker.errors
 from docker.types import LogConfig
 
-from grader.errors import SurroundingsError
-from grader.limits import Limits
+from grader.base.errors import SurroundingsError
 from grader.sandbox.base import HOME
 from grader.sandbox.execs import Exec
 from grader.sandbox.execs import Frames
 from grader.sandbox.execs import converse
 from grader.sandbox.execs import socket_of
+from grader.sandbox.limits import Limits
 
 if TYPE_CHECKING:
     from docker import APIClient

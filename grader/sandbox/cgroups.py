@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from dataclasses import field
 from pathlib import Path
 
-from grader.limits import Limits
+from grader.sandbox.limits import Limits
 
 ROOT = Path("/sys/fs/cgroup")
 GROUP = "ros2_grader"

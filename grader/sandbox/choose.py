@@ -7,15 +7,15 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.limits import Limits
-from grader.locale.message import joined
-from grader.locale.message import say
-from grader.ros.cache import Say
+from grader.base.cache import Say
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError
 from grader.sandbox.base import Sandbox
+from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
 
 NAMES = ("auto", "docker", "bubblewrap", "account", "none")

@@ -19,8 +19,7 @@ from typing import Literal
 
 import docker.errors
 
-from grader.errors import SurroundingsError
-from grader.limits import Limits
+from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.ros.distro import Distro
 from grader.ros.prefix import Ros
@@ -43,6 +42,7 @@ from grader.sandbox.execs import ExecConsole
 from grader.sandbox.execs import ExecPipe
 from grader.sandbox.execs import converse
 from grader.sandbox.execs import docker_errors
+from grader.sandbox.limits import Limits
 
 if TYPE_CHECKING:
     from docker import DockerClient

@@ -18,7 +18,7 @@ import docker.errors
 import requests.exceptions
 from pexpect.socket_pexpect import SocketSpawn
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
 from grader.sandbox.base import COLUMNS
 from grader.sandbox.base import ROWS
 from grader.sandbox.base import Console

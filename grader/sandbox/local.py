@@ -19,8 +19,8 @@ from pathlib import Path
 
 import pexpect
 
-from grader.errors import SurroundingsError
-from grader.locale.message import say
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import say
 from grader.sandbox.base import COLUMNS
 from grader.sandbox.base import PATH
 from grader.sandbox.base import ROWS

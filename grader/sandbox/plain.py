@@ -25,13 +25,13 @@ from collections.abc import Iterator
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.limits import Limits
+from grader.base.errors import SurroundingsError
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE
 from grader.sandbox.base import Role
 from grader.sandbox.cgroups import Group
 from grader.sandbox.cgroups import open_group
+from grader.sandbox.limits import Limits
 from grader.sandbox.local import LocalSandbox
 from grader.sandbox.local import need
 from grader.sandbox.processes import adopt_orphans

@@ -6,18 +6,18 @@ ros2 ended as a program does that could not be started, before that is called th
 
 from __future__ import annotations
 
-from grader.errors import SurroundingsError
-from grader.limits import Limits
-from grader.locale.message import Message
+from grader.base.cache import Say
+from grader.base.cache import discard
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
-from grader.ros.cache import Say
-from grader.ros.cache import discard
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError
 from grader.ros.prefix import Ros
 from grader.ros.prefix import find_ros
 from grader.ros.prefix import is_in_cache
 from grader.sandbox.base import Sandbox
+from grader.sandbox.limits import Limits
 
 SECONDS = 60.0  # of wall time; they take 0.3 s
 LONGEST = 2_000  # characters of what a program said

@@ -6,8 +6,8 @@ import ast
 from collections import Counter
 from collections.abc import Iterator
 
-from grader.assignment import Assignment
-from grader.errors import AssignmentError
+from grader.base.errors import AssignmentError
+from grader.course.assignment import Assignment
 from grader.validate import in_files
 from grader.validate import in_setup
 from grader.validate import in_source

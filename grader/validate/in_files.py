@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from grader.assignment import Assignment
+from grader.course.assignment import Assignment
 from grader.validate.spots import misspelt
 from grader.validate.tree import Chmod
 from grader.validate.tree import Copy

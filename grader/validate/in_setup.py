@@ -8,8 +8,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from grader.assignment import Assignment
-from grader.errors import AssignmentError
+from grader.base.errors import AssignmentError
+from grader.course.assignment import Assignment
 from grader.validate.in_source import Made
 from grader.validate.spots import Code
 from grader.validate.spots import misspelt

@@ -9,7 +9,7 @@ import ast
 from collections.abc import Iterator
 from itertools import pairwise
 
-from grader.assignment import Assignment
+from grader.course.assignment import Assignment
 from grader.validate.spots import Code
 from grader.validate.spots import misspelt
 

@@ -12,24 +12,24 @@ from dataclasses import field
 from pathlib import Path
 from typing import NoReturn
 
-from grader.asking import ask
-from grader.batch.grade_all import MOST_A_CORE
+from grader.base.i18n.translator import Speaker
 from grader.batch.local_pool import LocalPool
 from grader.batch.run import cores_here
 from grader.batch.run import prove
 from grader.batch.work import Done
 from grader.batch.work import Task
-from grader.checks.all import CHECKS
-from grader.checks.registry import Inconclusive
-from grader.evidence import Evidence
-from grader.locale.speaker import Speaker
+from grader.package.submission import Submission
+from grader.package.submission import take_in
+from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult
 from grader.report.model import CheckStatus
-from grader.runner import Order
-from grader.submission import Submission
-from grader.submission import take_in
 from grader.validate.tree import Tree
 from grader.validate.tree import write_tree
+from grader.verdict.ask import ask
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.evidence import Evidence
+from grader.verdict.mark import Order
+from grader.verdict.registry import Inconclusive
 
 # what is asked before anything is built
 STATIC_STAGES = ("package", "source", "entry_point")

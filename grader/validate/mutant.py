@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grader.errors import AssignmentError
+from grader.base.errors import AssignmentError
 from grader.validate.tree import Edit
 from grader.validate.tree import EditError
 from grader.validate.tree import Tree

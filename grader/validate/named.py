@@ -27,10 +27,10 @@ from pathlib import Path
 from pathlib import PurePosixPath
 from typing import Any
 
-from grader.errors import AssignmentError
-from grader.positioned_yaml import Document
-from grader.positioned_yaml import Loc
-from grader.positioned_yaml import read_yaml
+from grader.base.errors import AssignmentError
+from grader.base.positioned_yaml import Document
+from grader.base.positioned_yaml import Loc
+from grader.base.positioned_yaml import read_yaml
 from grader.validate import tree
 from grader.validate.mutant import Mutant
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import AssignmentError
+from grader.base.errors import AssignmentError
 
 SKIPPED = ("__pycache__", ".pyc")
 

@@ -10,8 +10,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.errors import UsageError
-from grader.locale.message import say
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 from grader.ros.distro import distros
 
 TEXT = "lesson.md"

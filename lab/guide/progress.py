@@ -16,20 +16,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.assignment import Assignment
-from grader.errors import UsageError
-from grader.locale.message import joined
-from grader.locale.message import say
-from grader.mistakes.likeness import meant
-from grader.mistakes.likeness import nearest
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.course.assignment import Assignment
+from grader.package.source.entry_points import from_setup_cfg
+from grader.package.source.entry_points import from_setup_py
+from grader.package.source.python import PythonFault
+from grader.package.source.python import parse_python
+from grader.package.source.setup_cfg import SetupCfgFault
+from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.setup_py import read_setup_py
 from grader.ros.distro import DEFAULT
-from grader.source.entry_points import from_setup_cfg
-from grader.source.entry_points import from_setup_py
-from grader.source.python import PythonFault
-from grader.source.python import parse_python
-from grader.source.setup_cfg import SetupCfgFault
-from grader.source.setup_cfg import read_setup_cfg
-from grader.source.setup_py import read_setup_py
 from lab.guide.lesson import Step
 
 BUILD = "cd ~/ros2_ws && colcon build --symlink-install"

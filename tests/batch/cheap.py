@@ -26,9 +26,9 @@ from tests.stage import ROOT
 SCORE = re.compile(rb"# score: ([\d.]+)")
 COMMAND = """
 import functools, json, sys
-from grader.batch import grade_all as g
+from grader.publish import class_run as g
 from grader.batch.local_pool import LocalPool
-from grader.cli import main
+from grader.cli.main import main
 g.LocalPool = functools.partial(LocalPool, command=tuple(json.loads(sys.argv[1])))
 sys.exit(main(sys.argv[2:]))
 """

@@ -75,9 +75,9 @@ def grade_all(
 MEASURED = """
 import functools, json, resource, sys
 from pathlib import Path
-from grader.batch import grade_all as g
+from grader.publish import class_run as g
 from grader.batch.local_pool import LocalPool
-from grader.cli import main
+from grader.cli.main import main
 stub = json.loads(sys.argv[1])
 if stub:
     g.LocalPool = functools.partial(LocalPool, command=tuple(stub))

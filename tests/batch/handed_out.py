@@ -12,8 +12,8 @@ from collections.abc import Iterable
 from collections.abc import Mapping
 from pathlib import Path
 
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 
 PACKAGE = "my_robot_controller"
 NODE = "my_first_node.py"

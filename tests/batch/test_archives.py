@@ -14,10 +14,10 @@ from typing import cast
 
 import pytest
 
-from grader.checks.registry import Failed
-from grader.checks.source import exec_bit
-from grader.intake.model import Submission
-from grader.submission import take_in
+from grader.package.intake.model import Submission
+from grader.package.submission import take_in
+from grader.verdict.checks.source import exec_bit
+from grader.verdict.registry import Failed
 
 from ..installed import installed
 from ..static_bench import ASSIGNMENT
@@ -39,7 +39,7 @@ from .handed_out import zip_of
 from .handed_out import zipped
 
 if TYPE_CHECKING:
-    from grader.evidence import Evidence
+    from grader.verdict.evidence import Evidence
 
 TARS = [("w", "jane.tar"), ("w:gz", "jane.tgz"), ("w:xz", "jane.tar.xz"), ("w:bz2", "jane.tar.bz2")]
 

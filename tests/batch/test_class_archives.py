@@ -15,12 +15,12 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
 from grader.batch.model import HandedIn
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.intake.archive_limits import ArchiveLimits
+from grader.package.intake.archive_limits import ArchiveLimits
 from tests.installed import installed
 
 from .handed_out import PACKAGE

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from grader.assignment_policy import Late
-from grader.assignment_policy import Policy
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
 from grader.batch.model import Entry
 from grader.batch.model import HandedIn
 from grader.batch.policy import Attempt
 from grader.batch.policy import standing
+from grader.course.policy import Late
+from grader.course.policy import Policy
 from tests.report.samples import report
 
 from .handed_out import package

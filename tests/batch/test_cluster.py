@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from grader.base.errors import SurroundingsError
 from grader.batch.cluster import Cluster
 from grader.batch.ledger import Ledger
 from grader.batch.work import Done
 from grader.batch.work import Task
-from grader.errors import SurroundingsError
 from grader.ros.prefix import Ros
 from tests.batch.classes import grade_all
 from tests.batch.classes import of_corpus

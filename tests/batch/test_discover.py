@@ -13,12 +13,12 @@ from hypothesis import given as hypothetical
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from grader.base.errors import UsageError
+from grader.base.shown import shown
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
 from grader.batch.model import HandedIn
 from grader.batch.systems.words import plain
-from grader.errors import UsageError
-from grader.intake.notes import shown
 
 from .handed_out import NODE_PATH
 from .handed_out import PACKAGE

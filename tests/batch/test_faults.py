@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from grader import probe_link
+from grader.base.errors import SurroundingsError
 from grader.batch import intake
 from grader.batch import local_pool
 from grader.batch.intake import take_in_class
@@ -31,15 +31,15 @@ from grader.batch.work import Answer
 from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Task
-from grader.errors import SurroundingsError
-from grader.gradebook.feedback import html_page
-from grader.gradebook.gradebook_csv import gradebook_csv
-from grader.limits import Limits
+from grader.package.submission import Submission
+from grader.package.submission import take_in
+from grader.publish.feedback import html_page
+from grader.publish.gradebook_csv import gradebook_csv
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
+from grader.run import probe_link
 from grader.sandbox.base import Sandbox
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.sandbox.limits import Limits
 from tests.batch.works import ASSIGNMENT
 from tests.batch.works import JOB
 from tests.batch.works import package

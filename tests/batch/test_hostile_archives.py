@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from grader.intake.archive_limits import ArchiveLimits
+from grader.package.intake.archive_limits import ArchiveLimits
 
 from .handed_out import NODE_PATH
 from .handed_out import add_file
@@ -144,7 +144,7 @@ def test_a_bomb_takes_bounded_memory(tmp_path: Path) -> None:
     data = lzma.compress(header.tobuf()) + lzma.compress(bytes(50_000_000), preset=9) * 200
     (tmp_path / "jane.tar.xz").write_bytes(data)
     script = (
-        "import sys; from pathlib import Path; from grader.submission import take_in\n"
+        "import sys; from pathlib import Path; from grader.package.submission import take_in\n"
         "found = take_in(Path(sys.argv[1]), package='p', node_file='n.py')\n"
         "status = Path('/proc/self/status').read_text()\n"
         "print(found.problem_mistake, status.partition('VmHWM:')[2].split()[0])"

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.limits import Limits
 from grader.ros.prefix import Ros
+from grader.sandbox.limits import Limits
 from tests.batch.classes import grade_all
 from tests.batch.classes import of_corpus
 from tests.corpus.build import write

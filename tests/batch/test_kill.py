@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from grader.batch.ledger import Ledger
-from grader.limits import Limits
 from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.limits import Limits
 from tests.batch.classes import grade_all
 from tests.batch.classes import of_corpus
 from tests.batch.works import workers_of

@@ -11,8 +11,8 @@ import pytest
 
 from grader.batch.keys import surroundings_key
 from grader.batch.work import Job
-from grader.limits import Limits
 from grader.ros.prefix import Ros
+from grader.sandbox.limits import Limits
 from tests.batch.classes import grade_all
 from tests.batch.works import JOB
 from tests.batch.works import package

@@ -14,14 +14,14 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.errors import GraderError
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.batch.ledger import Ledger
 from grader.batch.ledger_rows import AlreadyMarkedError
 from grader.batch.ledger_rows import HandedInRow
 from grader.batch.model import Override
 from grader.batch.model import Student
-from grader.errors import GraderError
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
 from grader.report.model import Report
 from tests.report.samples import check
 from tests.report.samples import report

@@ -11,7 +11,6 @@ from zoneinfo import ZoneInfo
 
 import pytest
 
-from grader.assignment_policy import Policy
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
@@ -19,6 +18,7 @@ from grader.batch.policy import Attempt
 from grader.batch.policy import lateness
 from grader.batch.policy import penalty
 from grader.batch.policy import standing
+from grader.course.policy import Policy
 from tests.report.samples import check
 from tests.report.samples import report
 

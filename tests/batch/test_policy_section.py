@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.assignment import Assignment
-from grader.assignment import load_assignment
-from grader.errors import AssignmentError
+from grader.base.errors import AssignmentError
+from grader.course.assignment import Assignment
+from grader.course.assignment import load_assignment
 from tests.stage import ROOT
 
 DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)

@@ -16,9 +16,9 @@ from grader.batch.submission_text import from_text
 from grader.batch.submission_text import to_text
 from grader.batch.work import Done
 from grader.batch.work import Task
+from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from grader.submission import take_in
 from tests.batch.works import ASSIGNMENT
 from tests.batch.works import JOB
 from tests.batch.works import own_workers

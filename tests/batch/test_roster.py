@@ -13,13 +13,13 @@ from hypothesis import given
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from grader.base.errors import UsageError
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
 from grader.batch.model import HandedIn
 from grader.batch.model import Student
 from grader.batch.roster import Roster
 from grader.batch.roster import read_roster
-from grader.errors import UsageError
 
 from .handed_out import package
 from .handed_out import repository

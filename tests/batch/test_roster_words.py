@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.errors import UsageError
 from grader.batch.model import Student
 from grader.batch.roster import Roster
 from grader.batch.roster import read_roster
-from grader.errors import UsageError
-from grader.gradebook.moodle_words import says_submitted
-from grader.gradebook.moodle_worksheet import read_worksheet
+from grader.batch.systems.moodle.words import says_submitted
+from grader.batch.systems.moodle.worksheet import read_worksheet
 from tests.batch.downloads import ENGLISH
 from tests.batch.downloads import FINNISH
 from tests.batch.downloads import KOREAN

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from grader.batch.similar import fingerprint
 from grader.batch.similar import groups
-from grader.submission import SourceFile
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.package.submission import SourceFile
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 from tests.batch.works import ASSIGNMENT
 from tests.stage import ROOT
 

@@ -329,7 +329,7 @@ def test_one_output_that_fails_costs_no_other(tmp_path: Path) -> None:
 
 def correct(out: Path, person: Person, points: float | None) -> None:
     """Correct a student's total, or take the correction back, as `grader override` does."""
-    from grader.cli import main
+    from grader.cli.main import main
 
     words = ["override", person.name, "--out", str(out)]
     given = ["--points", str(points), "--because", "x", "--force"]

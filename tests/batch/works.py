@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.assignment import load_assignment
 from grader.batch.work import Job
 from grader.batch.work import Task
-from grader.limits import Limits
-from grader.submission import take_in
+from grader.course.assignment import load_assignment
+from grader.package.submission import take_in
+from grader.sandbox.limits import Limits
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package

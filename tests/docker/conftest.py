@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import pytest
 from docker import DockerClient
 
-from grader.limits import Limits
 from grader.ros import images
 from grader.ros.distro import find_distro
 from grader.sandbox.base import Sandbox
 from grader.sandbox.containers import Containers
+from grader.sandbox.limits import Limits
 from tests import engine
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import docker.errors
 import pytest
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox.execs import docker_errors
 from tests import stage

@@ -15,9 +15,9 @@ import docker.errors
 import pytest
 from docker import DockerClient
 
-from grader.limits import Limits
 from grader.sandbox import orphans
 from grader.sandbox.base import Sandbox
+from grader.sandbox.limits import Limits
 from tests import engine
 from tests import stage
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from docker import DockerClient
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox import orphans
 from tests import engine

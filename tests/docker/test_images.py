@@ -14,8 +14,8 @@ import pytest
 from docker import DockerClient
 from docker.models.images import Image
 
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.ros import images
 from grader.ros.distro import distros
 from grader.ros.distro import find_distro
@@ -135,7 +135,12 @@ def test_the_build_sees_no_keys_and_no_rubbish() -> None:
     for name in ("grader/keys/hello_time/solution/x.py", "README.md", ".git/config",
                  "grader/__pycache__/x.pyc", "tests/stage.py", ".venv/bin/python"):  # fmt: skip
         assert is_ignored(name, rules), name
-    for name in ("grader/cli.py", "lab/shell/bashrc", "docker/ca/README.md", "grader/ros/x.toml"):
+    for name in (
+        "grader/cli/main.py",
+        "lab/shell/bashrc",
+        "docker/ca/README.md",
+        "grader/ros/x.toml",
+    ):
         assert not is_ignored(name, rules), name
 
 
@@ -154,7 +159,7 @@ def test_docker_itself_reads_the_ignore_file_alike(client: DockerClient, tmp_pat
     try:
         rules = (stage.ROOT / ".dockerignore").read_text().splitlines()
         names = context_of(client, tag)
-        assert "grader/cli.py" in names
+        assert "grader/cli/main.py" in names
         assert [name for name in names if is_ignored(name, rules)] == []
     finally:
         client.images.remove(tag, force=True)

@@ -6,12 +6,12 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from grader.fix.files import Files
-from grader.fix.plan import Plan
-from grader.fix.plan import mend_files
-from grader.submission import Submission
-from grader.submission import take_in
+from grader.package.edit.files import Files
+from grader.package.submission import Submission
+from grader.package.submission import take_in
 from grader.validate.tree import Edit
+from grader.verdict.fix import Plan
+from grader.verdict.fix import mend_files
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.static_bench import ASSIGNMENT

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from grader.fix.diff import diff
-from grader.fix.files import Files
-from grader.intake.model import SourceFile
+from grader.package.edit.diff import diff
+from grader.package.edit.files import Files
+from grader.package.intake.model import SourceFile
 from tests.fix.bench import TOOLS
 
 LINE = st.sampled_from([b"a", b"b", b"", b"\t x", b"c\r", b"f\xfcr", b"-- a", b"++ b", b"\\ No"])

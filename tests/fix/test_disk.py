@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import UsageError
-from grader.fix.disk import apply
-from grader.fix.files import Files
-from grader.fix.plan import Plan
+from grader.base.errors import UsageError
+from grader.package.edit.disk import apply
+from grader.package.edit.files import Files
 from grader.validate.tree import Chmod
 from grader.validate.tree import Delete
 from grader.validate.tree import Move
 from grader.validate.tree import Replace
+from grader.verdict.fix import Plan
 from tests.corpus.model import MANIFEST
 from tests.corpus.model import MARKER
 from tests.corpus.model import NODE

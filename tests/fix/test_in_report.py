@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from grader import events
-from grader import runner
+from grader.report import events
+from grader.verdict import mark as runner
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.fix.bench import TOOLS

@@ -6,20 +6,20 @@ from pathlib import Path
 
 import pytest
 
-from grader.fix.case import Case
-from grader.fix.case import Finding
-from grader.fix.command import Wish
-from grader.fix.command import make_plan
-from grader.fix.files import Files
-from grader.fix.mends import BY_MISTAKE
-from grader.fix.mends import mends_for
-from grader.fix.plan import first_mend
-from grader.fix.plan import patch_for
+from grader.cli.fix_package import Wish
+from grader.cli.fix_package import make_plan
 from grader.mistakes.catalogue import CATALOGUE
-from grader.ordering import make_orders
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.case import Finding
+from grader.mistakes.fixes.table import BY_MISTAKE
+from grader.mistakes.fixes.table import mends_for
+from grader.package.edit.files import Files
 from grader.report.model import CheckResult
 from grader.report.model import Mistake
 from grader.validate.tree import Replace
+from grader.verdict.fix import first_mend
+from grader.verdict.fix import patch_for
+from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION
 from tests.corpus.build import write

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from grader.fix.asking import ask
-from grader.fix.plan import patch_for
 from grader.validate.tree import Crlf
 from grader.validate.tree import Write
+from grader.verdict.fix import patch_for
+from grader.verdict.static import ask
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from grader.batch.model import ClassResult
-from grader.gradebook.canvas import read_gradebook
-from grader.gradebook.moodle_worksheet import read_worksheet
-from grader.gradebook.sheet import Filled
+from grader.batch.sheet import Filled
+from grader.batch.systems.canvas.write import read_gradebook
+from grader.batch.systems.moodle.worksheet import read_worksheet
 
 
 def fill_worksheet(

@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
-from grader.errors import UsageError
-from grader.gradebook.canvas import new_gradebook
+from grader.batch.systems.canvas.write import new_gradebook
 from tests.gradebook.filled import fill_gradebook
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts

@@ -12,9 +12,9 @@ from hypothesis import settings
 from markdown_it import MarkdownIt
 
 from grader.batch.model import ClassResult
-from grader.gradebook.feedback import html_page
-from grader.gradebook.markdown import markdown
-from grader.gradebook.points import single
+from grader.batch.points import single
+from grader.publish.feedback import html_page
+from grader.publish.markdown import markdown
 from grader.report.model import Report
 from tests.gradebook.texts import hostile_entry
 from tests.gradebook.texts import texts

@@ -13,8 +13,8 @@ from hypothesis import settings
 
 from grader.batch.model import ClassResult
 from grader.batch.model import Override
-from grader.gradebook import github
-from grader.gradebook.points import single
+from grader.batch.points import single
+from grader.batch.systems.github_classroom import write as github
 from tests.gradebook.schemas import GITHUB
 from tests.gradebook.texts import hostile_entry
 from tests.gradebook.texts import texts

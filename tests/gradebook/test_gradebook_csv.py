@@ -12,7 +12,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
-from grader.gradebook.gradebook_csv import gradebook_csv
+from grader.publish.gradebook_csv import gradebook_csv
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts
 from tests.report import samples
@@ -81,8 +81,8 @@ def test_the_byte_order_mark_is_there_when_asked_for() -> None:
 
 def test_the_points_of_a_check_are_the_corrected_ones_last_of_all() -> None:
     from grader.batch.model import Override
-    from grader.gradebook.points import marks
-    from grader.gradebook.points import single
+    from grader.batch.points import marks
+    from grader.batch.points import single
 
     first = Override("1", "entry_point.mapping", 3, "half")
     last = Override("1", "entry_point.mapping", 15, "all")

@@ -11,7 +11,7 @@ from hypothesis import settings
 
 from grader.batch.model import ClassResult
 from grader.batch.model import Override
-from grader.gradebook import gradescope
+from grader.batch.systems.gradescope import write as gradescope
 from grader.report.model import Report
 from tests.gradebook.schemas import GRADESCOPE
 from tests.gradebook.texts import hostile_entry

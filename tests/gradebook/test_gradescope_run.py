@@ -18,18 +18,18 @@ from typing import Any
 import jsonschema
 import pytest
 
-from grader import events
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.gradebook import gradescope_run
-from grader.gradebook.gradescope_zip import gradescope_zip
-from grader.ordering import make_orders
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
+from grader.batch.systems.gradescope import container as gradescope_run
+from grader.batch.systems.gradescope.archive import gradescope_zip
+from grader.package.submission import take_in
+from grader.report import events
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from grader.runner import Order
-from grader.runner import grade
-from grader.submission import take_in
 from grader.validate.tree import Replace
+from grader.verdict.mark import Order
+from grader.verdict.mark import grade
+from grader.verdict.order import make_orders
 from tests import stage
 from tests import weather
 from tests.corpus.build import write

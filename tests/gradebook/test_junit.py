@@ -15,8 +15,8 @@ from junitparser import Skipped
 from junitparser import TestSuite as Suite
 
 from grader.batch.model import ClassResult
-from grader.gradebook.junit import class_xml
-from grader.gradebook.junit import report_xml
+from grader.publish.junit import class_xml
+from grader.publish.junit import report_xml
 from grader.report.model import Report
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts

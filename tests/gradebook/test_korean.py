@@ -16,30 +16,30 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from grader.assignment import load_assignment
-from grader.assignment_policy import Policy
+from grader.base.errors import SurroundingsError
 from grader.batch.model import ClassResult
 from grader.batch.model import Entry
 from grader.batch.model import Override
+from grader.batch.points import single
 from grader.batch.policy import Attempt
 from grader.batch.policy import standing
-from grader.errors import SurroundingsError
-from grader.gradebook import github
-from grader.gradebook import gradescope
-from grader.gradebook import gradescope_run
-from grader.gradebook import junit
-from grader.gradebook import prairielearn
-from grader.gradebook.feedback import html_page
-from grader.gradebook.feedback import short_html
-from grader.gradebook.gradescope_run import OUR_FAULT
-from grader.gradebook.gradescope_run import ResultsFile
-from grader.gradebook.gradescope_zip import gradescope_zip
-from grader.gradebook.markdown import markdown
-from grader.gradebook.moodle_import import moodle_import
-from grader.gradebook.points import single
+from grader.batch.systems.github_classroom import write as github
+from grader.batch.systems.gradescope import container as gradescope_run
+from grader.batch.systems.gradescope import write as gradescope
+from grader.batch.systems.gradescope.archive import gradescope_zip
+from grader.batch.systems.gradescope.container import OUR_FAULT
+from grader.batch.systems.gradescope.container import ResultsFile
+from grader.batch.systems.moodle.gradebook_import import moodle_import
+from grader.batch.systems.prairielearn import write as prairielearn
+from grader.course.assignment import load_assignment
+from grader.course.policy import Policy
+from grader.publish import junit
+from grader.publish.feedback import html_page
+from grader.publish.feedback import short_html
+from grader.publish.markdown import markdown
 from grader.report.model import Evidence
 from grader.report.model import Report
-from grader.runner import Order
+from grader.verdict.mark import Order
 from tests import stage
 from tests.report import samples
 from tests.site import classes
@@ -231,7 +231,7 @@ def test_gradescope_s_archive_keeps_the_language(tmp_path: Path) -> None:
         script = archive.read("run_autograder").decode("ascii")
         names = archive.namelist()
     assert "--lang ko" in script
-    assert "grader/locale/ko/LC_MESSAGES/grader.mo" in names
+    assert "grader/base/i18n/ko/LC_MESSAGES/grader.mo" in names
     line = next(line for line in script.splitlines() if "echo " in line)
     out = tmp_path / "results.json"
     done = stage.run(["bash", "-c", f"results={shlex.quote(str(out))}\n{line}"])

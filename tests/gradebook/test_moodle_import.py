@@ -11,7 +11,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
-from grader.gradebook.moodle_import import moodle_import
+from grader.batch.systems.moodle.gradebook_import import moodle_import
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts
 from tests.report import samples

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import settings
 
+from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
-from grader.errors import UsageError
 from tests.gradebook.filled import fill_worksheet
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts

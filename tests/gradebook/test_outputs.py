@@ -12,14 +12,14 @@ from hypothesis import given
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
-from grader.errors import SurroundingsError
-from grader.errors import UsageError
-from grader.gradebook import outputs
-from grader.gradebook.canvas import read_gradebook
-from grader.gradebook.moodle_worksheet import read_worksheet
-from grader.gradebook.outputs import write_outputs
-from grader.gradebook.written import raise_failures
+from grader.batch.systems.canvas.write import read_gradebook
+from grader.batch.systems.moodle.worksheet import read_worksheet
+from grader.publish import gradebooks as outputs
+from grader.publish.gradebooks import write_outputs
+from grader.publish.written import raise_failures
 from tests.gradebook.test_canvas import POSSIBLE
 from tests.gradebook.test_canvas import export
 from tests.gradebook.test_canvas import student

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import settings
 
 from grader.batch.model import ClassResult
-from grader.gradebook import prairielearn
-from grader.gradebook.points import single
+from grader.batch.points import single
+from grader.batch.systems.prairielearn import write as prairielearn
 from grader.report.model import Report
 from tests.gradebook.schemas import PRAIRIELEARN
 from tests.gradebook.texts import hostile_entry

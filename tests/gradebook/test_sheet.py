@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.errors import UsageError
-from grader.gradebook.sheet import Sheet
+from grader.base.errors import UsageError
+from grader.batch.sheet import Sheet
 from tests.gradebook.texts import texts
 
 bits = st.lists(st.sampled_from(["a", "ß", '"', ",", ";", "\t", "\r", "\n", "\r\n", " "])).map(

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pexpect
 
-from grader.ros.cache import cache_root
+from grader.base.cache import cache_root
 from tests import stage
 from tests.lab.kinds import Kind
 

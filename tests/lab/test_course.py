@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import UsageError
+from grader.base.errors import UsageError
 from grader.ros.distro import find_distro
 from grader.validate.tree import Replace
 from lab import container

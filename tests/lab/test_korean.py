@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.locale.speaker import LANGUAGES
+from grader.base.i18n.translator import LANGUAGES
 from grader.ros.prefix import Ros
 from lab.guide.lesson import lesson_file
 from lab.guide.lesson import read_lesson

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from grader.locale.speaker import Speaker
+from grader.base.i18n.translator import Speaker
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.catalogue import RANK
 from grader.mistakes.from_source import LOOKS
@@ -36,7 +36,7 @@ def named_in_the_code() -> set[str]:
     prefixes = {kind.partition(".")[0] for kind in CATALOGUE}
     files = {"setup.py", "setup.cfg", "setup.bash", "package.xml"}
     named: set[str] = set()
-    for folder in ("grader/checks", "grader/intake", "grader/mistakes"):
+    for folder in ("grader/verdict/checks", "grader/package/intake", "grader/mistakes"):
         for path in (ROOT / folder).glob("*.py"):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.Call) and node.args:

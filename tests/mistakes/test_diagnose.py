@@ -11,25 +11,25 @@ from typing import cast
 
 import pytest
 
-from grader.assignment import Assignment
-from grader.checks import source
-from grader.checks.registry import Failed
-from grader.locale.message import say
-from grader.mistakes.diagnose import diagnose
+from grader.base.i18n.message import say
+from grader.course.assignment import Assignment
 from grader.mistakes.from_source import LOOKS
-from grader.mistakes.node_source import MOST_BYTES
 from grader.mistakes.wanted import words_of
+from grader.package.source.node import MOST_BYTES
+from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.report.model import Where
-from grader.running import Run
-from grader.submission import Submission
+from grader.run.run import Run
+from grader.verdict.checks import source
+from grader.verdict.diagnose import diagnose
+from grader.verdict.registry import Failed
 from tests.corpus.build import SOLUTION
 from tests.static_bench import ASSIGNMENT
 from tests.static_bench import NODE
 from tests.static_bench import Bench
 
 if TYPE_CHECKING:
-    from grader.evidence import Evidence
+    from grader.verdict.evidence import Evidence
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
 MOST_SECONDS = 0.15  # that a diagnosis may add to a verdict

@@ -14,10 +14,10 @@ from grader.mistakes.from_source import LOOKS
 from grader.mistakes.from_traceback import RECOGNISERS
 from grader.mistakes.from_traceback import recognise
 from grader.mistakes.kind import Finding
-from grader.mistakes.node_source import MOST_BYTES
-from grader.mistakes.node_source import read_node
 from grader.mistakes.raised import Raised
 from grader.mistakes.suspect import Suspect
+from grader.package.source.node import MOST_BYTES
+from grader.package.source.node import read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE

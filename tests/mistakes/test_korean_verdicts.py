@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from rich.cells import cell_len
 
-from grader import events
+from grader.report import events
 from grader.report.model import CheckResult
 from grader.report.model import Report
 from grader.report.terminal import render_report
 from grader.ros.distro import find_distro
-from grader.runner import Order
-from grader.runner import grade
+from grader.verdict.mark import Order
+from grader.verdict.mark import grade
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.locale.speaker import Speaker
-from grader.mistakes.likeness import compared
-from grader.mistakes.likeness import marks
-from grader.mistakes.likeness import meant
-from grader.mistakes.likeness import nearest
-from grader.mistakes.likeness import with_difference
+from grader.base.i18n.translator import Speaker
+from grader.base.nearest import compared
+from grader.base.nearest import marks
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.locale.message import Message
-from grader.locale.message import joined
-from grader.locale.message import msg
-from grader.locale.message import say
-from grader.locale.speaker import Speaker
-from grader.locale.speaker import chosen_language
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import msg
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import chosen_language
 
 DICTIONARY = {"a cat {what}": "eine Katze {what}", "in {place}": "in {place} drin", "red": "rot"}
 

@@ -12,10 +12,10 @@ import click
 import pytest
 from babel.messages.extract import extract_from_file
 
-from grader.locale import update
-from grader.locale.command_line import CLICK
-from grader.locale.command_line import CLICK_COUNTED
-from grader.locale.speaker import LANGUAGES
+from grader.base.i18n.translator import LANGUAGES
+from grader.cli import update_translations as update
+from grader.cli.localized import CLICK
+from grader.cli.localized import CLICK_COUNTED
 from tests.stage import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
@@ -41,7 +41,9 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
     catalog = update.read(lang)
     for template, place in update.templates():
         message = catalog.get(template)
-        assert message is not None, f"{place}: {template!r}: run python -m grader.locale.update"
+        assert message is not None, (
+            f"{place}: {template!r}: run python -m grader.cli.update_translations"
+        )
         assert message.string, f"{place}: {template!r} has no translation"
         assert placeholders(str(message.string)) == placeholders(template), template
     for one, many in CLICK_COUNTED:
@@ -107,7 +109,7 @@ def test_korean_sentences_are_in_the_formal_polite_style() -> None:
 def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang: str) -> None:
     path = update.po_path(lang)
     catalog = update.gathered(lang)
-    again = "run python -m grader.locale.update"
+    again = "run python -m grader.cli.update_translations"
     assert path.read_bytes() == update.po_bytes(catalog), again
     assert path.with_suffix(".mo").read_bytes() == update.mo_bytes(catalog), again
 

@@ -10,10 +10,10 @@ import click
 from rich.table import Table
 from rich.text import Text
 
-from grader.entry import run
-from grader.errors import SurroundingsError
-from grader.report.console import GatedConsole
-from grader.report.gate import show
+from grader.base.errors import SurroundingsError
+from grader.base.gate import show
+from grader.base.gated_console import GatedConsole
+from grader.cli.invoke import run
 from grader.report.page import Page
 
 HOSTILE = "\x1b[2J\x1b[1;1H\x1b]0;owned\x07\x1b[32mScore 100 / 100\x1b[0m\r\b\x9b31m\u202egrade\x00"

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
 from grader.report.files import report_json
 from grader.report.files import write_matrix
 from grader.report.files import write_report

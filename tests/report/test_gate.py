@@ -9,14 +9,14 @@ import sys
 import pexpect
 import pytest
 
-from grader.report.gate import Gate
-from grader.report.gate import behind
-from grader.report.gate import bytes_of
-from grader.report.gate import gate
-from grader.report.gate import gated_output
-from grader.report.plain import LONGEST_LINE
-from grader.report.plain import MOST_LINES
-from grader.report.plain import bounded
+from grader.base.gate import Gate
+from grader.base.gate import behind
+from grader.base.gate import bytes_of
+from grader.base.gate import gate
+from grader.base.gate import gated_output
+from grader.base.plain_text import LONGEST_LINE
+from grader.base.plain_text import MOST_LINES
+from grader.base.plain_text import bounded
 from tests.report.stage import ROOT
 from tests.report.stage import environment
 from tests.report.stage import on_a_terminal

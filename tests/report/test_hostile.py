@@ -13,10 +13,10 @@ from hypothesis import settings
 from hypothesis import strategies
 from rich.cells import cell_len
 
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import one_line
+from grader.base.plain_text import visible
 from grader.report.model import Report
-from grader.report.plain import first_lines
-from grader.report.plain import one_line
-from grader.report.plain import visible
 from grader.report.terminal import render_matrix
 from grader.report.terminal import render_report
 from tests.report.samples import check

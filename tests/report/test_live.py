@@ -12,10 +12,10 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from grader.events import Event
-from grader.events import Note
-from grader.events import StageStarted
-from grader.events import to_all
+from grader.report.events import Event
+from grader.report.events import Note
+from grader.report.events import StageStarted
+from grader.report.events import to_all
 from grader.report.terminal import LiveProgress
 from tests import stage
 from tests.report.stage import ROOT

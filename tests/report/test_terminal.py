@@ -93,7 +93,7 @@ def test_every_encoding_takes_every_report(encoding: str) -> None:
 
 def test_the_events_and_the_renderer_import_neither_pydantic_nor_rich() -> None:
     code = (
-        "import sys, grader.events, grader.report.terminal; "
+        "import sys, grader.report.events, grader.report.terminal; "
         "print(sorted({name.partition('.')[0] for name in sys.modules} & {'pydantic', 'rich'}))"
     )
     done = subprocess.run(

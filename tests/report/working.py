@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import sys
 
-from grader.events import CheckFinished
-from grader.events import CheckStarted
-from grader.events import Event
-from grader.events import Note
-from grader.events import StageFinished
-from grader.events import StageStarted
-from grader.events import TickSeen
+from grader.report.events import CheckFinished
+from grader.report.events import CheckStarted
+from grader.report.events import Event
+from grader.report.events import Note
+from grader.report.events import StageFinished
+from grader.report.events import StageStarted
+from grader.report.events import TickSeen
 from grader.report.terminal import LiveProgress
 from tests.report.samples import TITLES
 from tests.report.samples import check

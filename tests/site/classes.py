@@ -11,16 +11,16 @@ from datetime import timezone
 from pathlib import Path
 from typing import Any
 
-from grader.assignment import load_assignment
 from grader.batch.model import ClassResult
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
+from grader.course.assignment import load_assignment
 from grader.report.model import CheckResult
 from grader.report.model import Report
 from grader.ros.distro import find_distro
-from grader.runner import Order
-from grader.runner import grade
+from grader.verdict.mark import Order
+from grader.verdict.mark import grade
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT

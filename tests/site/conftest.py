@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from grader.publish.pages import write_site
 from grader.report.model import Report
-from grader.site import write_site
 from tests.site import axe
 from tests.site import classes
 

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser
 
+from grader.base.cache import make_once
 from grader.report.files import report_json
 from grader.report.model import Report
-from grader.ros.cache import make_once
 from grader.ros.prefix import Ros
 from tests.site import browser
 from tests.site import classes

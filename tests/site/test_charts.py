@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies
 
+from grader.publish.pages.charts import LANES
+from grader.publish.pages.charts import WIDTH
+from grader.publish.pages.charts import histogram
+from grader.publish.pages.charts import timeline
+from grader.publish.pages.overview import Bin
 from grader.report.model import Observed
 from grader.report.model import Tick
-from grader.site.charts import LANES
-from grader.site.charts import WIDTH
-from grader.site.charts import histogram
-from grader.site.charts import timeline
-from grader.site.overview import Bin
 
 
 def virtual(*instants: float, due: tuple[float, ...] = (), period: float | None = 1.0) -> Observed:

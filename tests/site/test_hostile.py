@@ -12,8 +12,8 @@ from grader.batch.model import ClassResult
 from grader.batch.model import Entry
 from grader.batch.model import Override
 from grader.batch.model import Student
-from grader.site import write_site
-from grader.site.names import page_names
+from grader.publish.pages import write_site
+from grader.publish.pages.names import page_names
 from tests.report.samples import failing_report
 from tests.site import classes
 from tests.site.browser import Open

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies
 
-from grader.site.names import page_names
+from grader.publish.pages.names import page_names
 
 KEYS = ["../../etc/passwd", "a/b", "a\\b", "", ".", "..", ".hidden", "-rf", "con", "NUL", "x" * 300,
         "Ünï", "a b", 'q"uote', "a\nb", "javascript:alert(1)", "\u202egnp.exe", "%2e%2e"]  # fmt: skip

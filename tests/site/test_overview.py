@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from grader.batch.model import Entry
+from grader.publish.pages import overview
 from grader.report.model import Mistake
 from grader.report.model import Timing
-from grader.site import overview
 from tests.report.samples import check
 from tests.report.samples import report
 from tests.site.classes import entry

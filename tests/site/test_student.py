@@ -6,9 +6,9 @@ from datetime import datetime
 from datetime import timezone
 
 from grader.batch.model import Override
-from grader.site.student import student_view
-from grader.site.words import duration
-from grader.site.words import instant
+from grader.batch.words import duration
+from grader.batch.words import instant
+from grader.publish.pages.student import student_view
 from tests.report.samples import check
 from tests.report.samples import failing_report
 from tests.report.samples import report

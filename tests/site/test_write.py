@@ -11,9 +11,9 @@ from urllib.parse import unquote
 
 import pytest
 
-from grader.errors import SurroundingsError
+from grader.base.errors import SurroundingsError
+from grader.publish.pages import write_site
 from grader.report.model import Report
-from grader.site import write_site
 from tests.report.samples import failing_report
 from tests.report.samples import report
 from tests.site import classes

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.errors import AssignmentError
+from grader.base.errors import AssignmentError
 from grader.validate.named import Written
 from grader.validate.named import read_mutants
 from grader.validate.tree import Chmod

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.lessons import KEYS
+from grader.course.find import KEYS
 from grader.sandbox.processes import adopt_orphans
 from tests import stage
 

@@ -9,11 +9,11 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from grader.errors import SurroundingsError
-from grader.intake.archive_limits import ArchiveLimits
-from grader.intake.notes import shown
-from grader.intake.reading import Unread
-from grader.intake.reading import open_file
+from grader.base.errors import SurroundingsError
+from grader.base.shown import shown
+from grader.package.intake.archive_limits import ArchiveLimits
+from grader.package.intake.reading import Unread
+from grader.package.intake.reading import open_file
 
 MOST_FILES = 1_000  # of one student; the rest is not copied
 

@@ -7,17 +7,17 @@ from typing import Protocol
 from typing import cast
 from typing import get_args
 
+from grader.base.errors import UsageError
+from grader.base.shown import shown
 from grader.batch.model import System
-from grader.batch.systems import canvas
-from grader.batch.systems import github_classroom
-from grader.batch.systems import gradescope
-from grader.batch.systems import moodle
 from grader.batch.systems import plain
+from grader.batch.systems.canvas import read as canvas
+from grader.batch.systems.github_classroom import read as github_classroom
+from grader.batch.systems.gradescope import read as gradescope
 from grader.batch.systems.layout import Layout
 from grader.batch.systems.layout import Read
 from grader.batch.systems.layout import Reading
-from grader.errors import UsageError
-from grader.intake.notes import shown
+from grader.batch.systems.moodle import read as moodle
 
 
 class Reader(Protocol):

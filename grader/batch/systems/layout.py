@@ -11,17 +11,17 @@ from dataclasses import field
 from pathlib import Path
 from typing import Literal
 
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
+from grader.base.shown import shown
 from grader.batch.model import HandedIn
 from grader.batch.systems.words import Notes
 from grader.batch.systems.words import plain
-from grader.errors import UsageError
-from grader.intake.archive_kind import HEAD
-from grader.intake.archive_kind import is_named_archive
-from grader.intake.archive_kind import kind_of
-from grader.intake.notes import shown
-from grader.intake.reading import Unread
-from grader.intake.reading import open_file
-from grader.locale.message import say
+from grader.package.intake.archive_kind import HEAD
+from grader.package.intake.archive_kind import is_named_archive
+from grader.package.intake.archive_kind import kind_of
+from grader.package.intake.reading import Unread
+from grader.package.intake.reading import open_file
 
 Kind = Literal["folder", "archive", "file"]
 

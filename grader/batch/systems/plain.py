@@ -14,7 +14,7 @@ from grader.batch.systems.layout import Layout
 from grader.batch.systems.layout import Read
 from grader.batch.systems.layout import Reading
 from grader.batch.systems.words import plain
-from grader.intake.archive_kind import without_ending
+from grader.package.intake.archive_kind import without_ending
 
 
 def recognise(layout: Layout) -> bool:

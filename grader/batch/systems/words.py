@@ -5,7 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable
 
-from grader.intake.notes import shown
+from grader.base.shown import shown
 
 MOST_SHOWN = 50
 TURNING = "\u202a\u202b\u202d\u202e\u2066\u2067\u2068\u2069"

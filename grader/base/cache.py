@@ -1,0 +1,114 @@
+"""Where the grader keeps what it makes once, and how a folder is made there: whole or not at all."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import msg
+
+Say = Callable[[str], None]
+WAITING = msg("another grader is making the same prefix: waiting for it")
+MORE_SPACE = msg(
+    "Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE to a folder on "
+    "another disk."
+)
+NOT_REMOVED = msg("{path} is damaged and cannot be removed: {reason}")
+REMOVE = msg("Remove that folder, then run the command again.")
+
+
+def cache_root() -> Path:
+    """Return the cache folder: $GRADER_CACHE, else $XDG_CACHE_HOME/ros2_teaching_lab.
+
+    Root's is in /var/cache, since the other users of a sandbox must be able to read it.
+    """
+    own = os.environ.get("GRADER_CACHE")
+    if own:
+        return Path(own).absolute()
+    base = os.environ.get("XDG_CACHE_HOME")
+    if base:
+        return Path(base) / "ros2_teaching_lab"
+    home = Path("/var/cache") if os.geteuid() == 0 else Path.home() / ".cache"
+    return home / "ros2_teaching_lab"
+
+
+@contextmanager
+def locked(path: Path, *, say: Say) -> Iterator[None]:
+    """Hold an exclusive lock on `path` (the kernel lets go of it however the holder ends)."""
+    with path.open("a") as handle:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say(Message(WAITING))
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
+def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
+    """Make `folder` by `make(staging)` unless it is there; return whether it was made now.
+
+    Two at once make one: the second waits for the first. What is killed half-way leaves a staging
+    folder that the next one clears away; `folder` appears by one rename, complete.
+    """
+    if folder.is_dir():
+        return False
+    old_umask = os.umask(0o022)  # other user ids inside a sandbox must be able to read it
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with locked(_lock_of(folder), say=say):
+            if folder.is_dir():
+                return False
+            for left in folder.parent.glob(f"{_unfinished(folder)}*"):
+                shutil.rmtree(left, ignore_errors=True)
+            staging = Path(tempfile.mkdtemp(prefix=_unfinished(folder), dir=folder.parent))
+            staging.chmod(0o755)
+            try:
+                make(staging)
+                staging.rename(folder)
+            finally:
+                shutil.rmtree(staging, ignore_errors=True)
+    except OSError as error:
+        raise SurroundingsError(
+            Message(
+                msg("cannot make {path}: {reason}"),
+                {"path": str(folder), "reason": str(error.strerror or error)},
+            ),
+            remedy=Message(MORE_SPACE),
+        ) from error
+    finally:
+        os.umask(old_umask)
+    return True
+
+
+def discard(folder: Path, *, unless: Callable[[Path], bool], say: Say) -> None:
+    """Take a damaged folder out of the cache, unless it is not that (any more).
+
+    Who still uses its files keeps them until the next `make_once` clears them away. Raises
+    SurroundingsError if the cache cannot be written.
+    """
+    try:
+        with locked(_lock_of(folder), say=say):
+            if folder.is_dir() and not unless(folder):
+                folder.rename(tempfile.mkdtemp(prefix=_unfinished(folder), dir=folder.parent))
+    except OSError as error:
+        reason = str(error.strerror or error)
+        raise SurroundingsError(
+            Message(NOT_REMOVED, {"path": str(folder), "reason": reason}), remedy=Message(REMOVE)
+        ) from error
+
+
+def _lock_of(folder: Path) -> Path:
+    return folder.parent / f".{folder.name}.lock"
+
+
+def _unfinished(folder: Path) -> str:
+    """Return how the names of the folders begin that the next `make_once` clears away."""
+    return f".{folder.name}.making-"

@@ -1,0 +1,84 @@
+"""Which language a reader wants, and texts said in it."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import gettext
+import os
+from collections.abc import Iterator
+from collections.abc import Mapping
+from pathlib import Path
+
+from grader.base.errors import GraderError
+from grader.base.i18n.message import Message
+
+DOMAIN = "grader"
+FOLDER = Path(__file__).resolve().parent
+LANGUAGES = ("en", "ko")
+SOURCE = "en"  # the language of the templates
+OWN = "GRADER_LANG"  # names the language where the locale cannot: a container has only C.UTF-8
+
+
+class Speaker:
+    """Says texts in one language; what has no translation is said in English."""
+
+    def __init__(self, lang: str) -> None:
+        self.lang = lang if lang in LANGUAGES else SOURCE
+
+    def __call__(self, text: str) -> str:
+        """Return a text in the language; what is no `Message` (a name, code) stays as it is."""
+        if not isinstance(text, Message):
+            return text
+        return text.told(self._translate) if self.lang != SOURCE else str(text)
+
+    def _translate(self, template: str) -> str:
+        return translated(template, self.lang)
+
+
+def translated(template: str, lang: str) -> str:
+    """Return a template in a language, not filled; English where it has no translation."""
+    # (the empty msgid is the catalogue's own head)
+    return _catalogue(lang).gettext(template) if template else ""
+
+
+@functools.lru_cache(maxsize=len(LANGUAGES))
+def _catalogue(lang: str) -> gettext.NullTranslations:
+    """Return a language's translations, looked for once: a class has thousands of texts."""
+    if lang == SOURCE:
+        return gettext.NullTranslations()
+    return gettext.translation(DOMAIN, FOLDER, [lang], fallback=True)
+
+
+@contextlib.contextmanager
+def errors_in(lang: str | None) -> Iterator[None]:
+    """Let errors that a user can cause leave with their texts in a language."""
+    try:
+        yield
+    except GraderError as error:
+        speak = Speaker(lang or chosen_language(os.environ))
+        error.message, error.remedy = speak(error.message), speak(error.remedy)
+        raise
+
+
+def chosen_language(environment: Mapping[str, str]) -> str:
+    """Return the language that the environment asks for: GRADER_LANG, else as GNU gettext reads it.
+
+    LC_ALL, LC_MESSAGES and LANG in this order say the locale; unless that is C, LANGUAGE names
+    the languages in order of preference (GNU gettext manual, "The LANGUAGE variable").
+    """
+    if _language(environment.get(OWN, "")) in LANGUAGES:
+        return _language(environment[OWN])
+    names = ("LC_ALL", "LC_MESSAGES", "LANG")
+    locale = next((environment[name] for name in names if environment.get(name)), "")
+    if _language(locale) in ("", "c", "posix"):
+        return SOURCE
+    for wanted in [*environment.get("LANGUAGE", "").split(":"), locale]:
+        if _language(wanted) in LANGUAGES:
+            return _language(wanted)
+    return SOURCE
+
+
+def _language(locale: str) -> str:
+    """Return the language of a locale's name: `ko` of `ko_KR.UTF-8`."""
+    return locale.partition(".")[0].partition("@")[0].partition("_")[0].lower()

@@ -1,0 +1,71 @@
+"""Did you mean: the nearest name, and where two texts differ."""
+
+from __future__ import annotations
+
+import difflib
+import unicodedata
+from collections.abc import Iterable
+
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.shown import shown
+
+LONGEST = 100  # characters of a text that is marked; a line of a terminal holds as many
+LONGEST_RUN = 12  # characters in a row that are another word, and no slip of the pen
+ALIKE = 0.6  # of 1; less than that, and marks under the one say nothing about the other
+
+
+def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
+    """Return the word that comes nearest, capitals aside; empty if none does."""
+    folded: dict[str, list[str]] = {}
+    for other in words:
+        if other != word:
+            folded.setdefault(other.lower(), []).append(other)
+    close = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=cutoff)
+    alike = folded[close[0]] if close else [""]
+    return max(alike, key=lambda other: difflib.SequenceMatcher(None, word, other).ratio())
+
+
+def meant(word: str) -> str:
+    """Return ` (did you mean 'word'?)`, or nothing for an empty word."""
+    return joined(" ", say("(did you mean '{word}'?)", word=shown(word)), by="") if word else ""
+
+
+def marks(found: str, wanted: str) -> str:
+    """Return a line of ^ for what is wrong in `found`; empty if the two are not alike.
+
+    Where something is missing, the mark is below the character before which it belongs.
+    """
+    if found == wanted or max(len(found), len(wanted)) > LONGEST or not found.isprintable():
+        return ""
+    if any(unicodedata.east_asian_width(c) in "WF" for c in found):
+        return ""  # one character of these is two columns wide
+    matcher = difflib.SequenceMatcher(None, found, wanted, autojunk=False)
+    folded = difflib.SequenceMatcher(None, found.lower(), wanted.lower(), autojunk=False)
+    if max(matcher.ratio(), folded.ratio()) < ALIKE:
+        return ""
+    codes = matcher.get_opcodes()
+    if any(
+        tag != "equal" and end - start > max(LONGEST_RUN, len(found) // 3)
+        for tag, start, end, *_ in codes
+    ):
+        return ""
+    line = [" "] * (len(found) + 1)
+    for tag, start, end, *_ in codes:
+        if tag != "equal":
+            line[start : max(end, start + 1)] = "^" * max(end - start, 1)
+    return "".join(line).rstrip()
+
+
+def compared(found: str, wanted: str) -> str:
+    """Return three lines: what was found, the marks below it, what was meant; or nothing."""
+    found, wanted = shown(found), shown(wanted)
+    line = marks(found, wanted)
+    return f"{found}\n{line}\n{wanted}" if line else ""
+
+
+def with_difference(text: str, found: str, wanted: str) -> Message:
+    """Return a text with the difference of two names below it, if they are alike."""
+    lines = compared(found, wanted) if wanted else ""
+    return joined("" if lines and text == shown(found) else text, lines, by="\n")

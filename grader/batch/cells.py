@@ -1,0 +1,36 @@
+"""Texts and numbers as cells of a CSV file that people open in a spreadsheet.
+
+A spreadsheet runs a cell that begins with = + - @ as a formula (OWASP, "CSV Injection"), and one
+set to another country splits cells at semicolons whatever the quotes say: both are made harmless
+by an apostrophe.
+"""
+
+from __future__ import annotations
+
+import re
+
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
+
+STARTS = "=+\\-@＝＋－＠"
+FORMULA = re.compile(rf"^([\s\"']*)([{STARTS}])")
+AFTER_SPLIT = re.compile(rf"(;[\s\"']*)([{STARTS}])")
+MOST = 1_000  # characters
+
+
+def text(value: str, *, most: int = MOST) -> str:
+    """Return a text as a cell: one line, nothing invisible in it, and never a formula."""
+    line = one_line(value, most=most)
+    return AFTER_SPLIT.sub(r"\1'\2", FORMULA.sub(r"'\1\2", line))
+
+
+def is_plain(value: str) -> bool:
+    """Return whether a text goes into a cell unchanged, so that another system finds it again."""
+    return text(value) == value
+
+
+def number(value: float | None, *, comma: bool = False) -> str:
+    """Return points with `.` (or `,`) before the decimals; "" for none."""
+    if value is None:
+        return ""
+    return points(value).replace(".", ",") if comma else points(value)

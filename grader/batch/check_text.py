@@ -1,0 +1,54 @@
+"""A check in plain text, as systems show it below a test's name, in the report's language."""
+
+from __future__ import annotations
+
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import one_line
+from grader.batch.points import Mark
+from grader.report.blocks import UNSEEN
+from grader.report.blocks import WORDS
+from grader.report.blocks import all_of
+from grader.report.blocks import block
+from grader.report.blocks import roots
+from grader.report.model import Report
+from grader.report.page import Page
+
+WIDTH = 100  # columns
+LINES = 12  # of one text
+
+
+def check_text(mark: Mark, report: Report, *, lines: int = LINES) -> str:
+    """Return all that is known of a check, without control characters, ended by a newline."""
+    check, speak = mark.check, Speaker(report.lang)
+    if check.status == "passed":
+        told = [line for advice in check.advice for line in first_lines(advice, lines=lines)]
+    elif check.status == "skipped":
+        told = [speak(_skipped(mark, report))]
+    else:
+        page = Page(width=WIDTH, styled=False, speak=speak)
+        block(page, check, lines=lines)
+        told = str(page).rstrip("\n").split("\n")
+    told += [speak(mark.correction)] if mark.correction else []
+    return "".join(f"{line}\n" for line in told or [speak(say("Passed."))])
+
+
+def headline(mark: Mark, report: Report) -> str:
+    """Return what was found in one line: a failed check's `actual`, else its state."""
+    check = mark.check
+    found = one_line(check.actual) if check.status == "failed" else ""
+    return found or Speaker(report.lang)(WORDS[check.status])
+
+
+def _skipped(mark: Mark, report: Report) -> str:
+    """Say why it was not asked; a check that is not shown is not named to who may see this one."""
+    names = [
+        one_line(other.id, most=60)
+        if other.visibility == "visible" or mark.check.visibility != "visible"
+        else UNSEEN
+        for other in roots(mark.check, report.checks)
+    ]
+    if not names:
+        return one_line(mark.check.actual)
+    return say("Not asked because {checks} did not pass.", checks=all_of(names))

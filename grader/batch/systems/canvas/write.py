@@ -1,0 +1,232 @@
+"""Canvas' gradebook CSV: one column of the teacher's export filled in, or a new file.
+
+By Canvas' lib/gradebook_importer.rb: the first cells are the student's (`Student`, `ID`, SIS ids,
+`Section`), then columns `Title (assignment id)`; a row `    Points Possible`, in which `(read
+only)` marks what the import ignores; perhaps a row that says `Manual Posting`; `EX` is an excused
+student, and `N/A` one who does not have the assignment.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterable
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from grader.base.errors import UsageError
+from grader.base.plain_text import one_line
+from grader.batch import cells
+from grader.batch.lowered import NONE
+from grader.batch.lowered import Lowered
+from grader.batch.lowered import as_number
+from grader.batch.lowered import is_without_verdict
+from grader.batch.lowered import lowered
+from grader.batch.match import Match
+from grader.batch.match import Way
+from grader.batch.match import match_more
+from grader.batch.match import ways_of_people
+from grader.batch.model import ClassResult
+from grader.batch.model import Elsewhere
+from grader.batch.model import Entry
+from grader.batch.model import Student
+from grader.batch.model import System
+from grader.batch.roster import Roster
+from grader.batch.roster import roster_of
+from grader.batch.sheet import Filled
+from grader.batch.sheet import Sheet
+
+NAME = "the Canvas gradebook"
+REMEDY = "In Canvas: Grades, Export, Export Entire Gradebook."
+OWN = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+POSSIBLE = "    Points Possible"
+TITLE_AND_ID = re.compile(r"(?P<title>.*?)\s*\((?P<id>\d+)\)")
+KEPT = ("EX", "N/A")
+READ_ONLY = re.compile(r"read\s+only")
+# columns that Canvas computes; the names may stand after a group's and before a period's
+COMPUTED = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
+
+
+@dataclass(frozen=True)
+class CanvasGradebook:
+    """A gradebook that was understood: the column that is filled in, and whose line each row is."""
+
+    sheet: Sheet
+    column: int
+    roster: Roster
+    notes: tuple[str, ...] = ()
+
+    def match(self, students: Sequence[Student], system: System) -> Match:
+        """Return the line of each student, by key."""
+        found = Match()
+        ways = list(ways_of_people(system, students, self.roster))
+        sure = [way for way in ways if not way.by_name]
+        ways = [*sure, Way(_email, _login), *(way for way in ways if way.by_name)]
+        match_more(found, ways, students, self.roster)
+        return found
+
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
+        """Return who has a grade in Canvas (or is excused), by key, and why that counts."""
+        found = {}
+        for key, index in self.match(students, system).rows.items():
+            cell = self._cell(self.roster.lines[index].row)
+            if cell not in NONE:
+                found[key] = Elsewhere(f"Canvas has {one_line(cell, most=20)} for this assignment")
+        return found
+
+    def lowered(self, result: ClassResult) -> list[Lowered]:
+        """Return the grades in the gradebook that would go down."""
+        found = (
+            lowered(entry, self._cell(row), NAME)
+            for row, entry in self._filled_in(result, self._match(result))
+            if self._cell(row).upper() not in KEPT
+        )
+        return [one for one in found if one is not None]
+
+    def filled(self, result: ClassResult) -> Filled:
+        """Return the teacher's export with the assignment's column filled in.
+
+        Rows of students without a final result stay as they are, cells with EX or N/A too, and
+        cells with a grade where nothing was found of a student.
+        """
+        match = self._match(result)
+        warnings = [*_points_warning(self.sheet, self.column, result), *_told(result, match)]
+        comma = self.sheet.decimal_comma(self.column)
+        changes: dict[tuple[int, int], str] = {}
+        for row, entry in self._filled_in(result, match):
+            if self._cell(row).upper() in KEPT:
+                warnings.append(f"{_who(entry)} has {self._cell(row)} in Canvas: kept")
+            else:
+                changes[row, self.column] = cells.number(entry.final, comma=comma)
+        return Filled(self.sheet.filled(changes), tuple(warnings))
+
+    def _match(self, result: ClassResult) -> Match:
+        return self.match([entry.student for entry in result.entries], result.system)
+
+    def _cell(self, row: int) -> str:
+        return self.sheet.value(row, self.column)
+
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
+        """Yield the rows whose cells get a grade, and whose they are."""
+        for entry in result.entries:
+            index = match.rows.get(entry.student.key)
+            if index is None or entry.final is None:
+                continue
+            row = self.roster.lines[index].row
+            held = self._cell(row) not in NONE or entry.status == "elsewhere"
+            if not (is_without_verdict(entry) and held):
+                yield row, entry
+
+
+def read_gradebook(
+    content: bytes, *, column: str = "", names: Iterable[str] = ()
+) -> CanvasGradebook:
+    """Read a gradebook and find the assignment's column.
+
+    `column` is its header, its title or its number (default: the first of `names` that one column
+    has). UsageError for a file that is no gradebook, and if the column cannot be told.
+    """
+    sheet = Sheet(content, name=NAME)
+    index = _column(sheet, [column] if column else [name for name in names if name])
+    roster = roster_of(sheet, NAME)
+    for line in roster.lines:
+        if not sheet.has_cell(line.row, index):
+            who = one_line(line.student.name, most=100)
+            raise UsageError(f"{NAME} is damaged: the row of {who} is too short", remedy=REMEDY)
+    return CanvasGradebook(sheet, index, roster, (sheet.note,) if sheet.note else ())
+
+
+def new_gradebook(result: ClassResult, *, title: str = "") -> bytes:
+    """Return a gradebook of one new column; Canvas makes the assignment when it takes it in.
+
+    Who has no final result is left out: if there is an assignment of this title already, Canvas
+    takes an empty cell for "no grade any more" (`no_change_to_value?`).
+    """
+    out = io.StringIO()
+    table = csv.writer(out)
+    table.writerow([*OWN, cells.text(title or result.title or result.assignment)])
+    table.writerow([POSSIBLE, *[""] * (len(OWN) - 1), cells.number(result.max_score)])
+    for entry in result.entries:
+        if entry.final is None or entry.status == "elsewhere":
+            continue
+        student = entry.student
+        number = student.key if result.system == "canvas" else ""
+        who = (student.name, number, student.id_number, student.username, student.section)
+        table.writerow([*(cells.text(value) for value in who), cells.number(entry.final)])
+    return out.getvalue().encode()
+
+
+def _column(sheet: Sheet, wanted: Sequence[str]) -> int:
+    header = sheet.header
+    _need_gradebook(header)
+    first = header.index("Section") + 1
+    open_ = [i for i in range(first, len(header)) if not COMPUTED.search(header[i])]
+    for name in wanted:
+        fit = [index for index in open_ if _is_called(header[index], name)]
+        if len(fit) == 1:
+            if READ_ONLY.search(_possible(sheet, fit[0])):
+                raise UsageError(f"{NAME}: the column '{header[fit[0]]}' is read only")
+            return fit[0]
+    listed = one_line(", ".join(f"'{header[index]}'" for index in open_), most=1_000)
+    name = one_line(wanted[0]) if wanted else ""
+    raise UsageError(
+        f"{NAME} has not exactly one column that is called '{name}'",
+        remedy="Name the column with --canvas-column (make: CANVAS_COLUMN='its name'). "
+        f"There are: {listed or 'none'}.",
+    )
+
+
+def _need_gradebook(header: list[str]) -> None:
+    names = "Student" in header[0] and len(header) > 3 and "ID" in header[1]
+    split = header[:2] == ["LastName", "FirstName"] and len(header) > 4 and "ID" in header[2]
+    if not (names or split) or "Section" not in header:
+        raise UsageError(
+            "this is no Canvas gradebook: it does not begin with Student, ID", remedy=REMEDY
+        )
+
+
+def _is_called(header: str, name: str) -> bool:
+    match = TITLE_AND_ID.fullmatch(header)
+    known = {header, match["title"], match["id"]} if match else {header}
+    return name.strip().casefold() in {one.casefold() for one in known}
+
+
+def _possible(sheet: Sheet, column: int) -> str:
+    """Return the cell of the row `Points Possible`, "" if there is none."""
+    for row in range(1, len(sheet.rows)):
+        if "Points Possible" in sheet.value(row, 0):
+            return sheet.value(row, column)
+    return ""
+
+
+def _points_warning(sheet: Sheet, column: int, result: ClassResult) -> list[str]:
+    possible = _possible(sheet, column)
+    if not possible or cells.number(result.max_score) == cells.number(as_number(possible)):
+        return []
+    return [
+        f"Canvas has {possible} points for this assignment, the class is marked out of "
+        f"{cells.number(result.max_score)}: the points went in as they are"
+    ]
+
+
+def _told(result: ClassResult, match: Match) -> Iterator[str]:
+    """Yield who has no row (or more than one), and who was found by the name alone."""
+    for entry in result.entries:
+        if entry.student.key not in match.rows:
+            yield f"{_who(entry)} is not in the gradebook: nothing was filled in"
+        elif entry.student.key in match.by_name:
+            yield f"{_who(entry)} was found in the gradebook by the name alone"
+
+
+def _email(student: Student) -> tuple[str, ...]:
+    return (student.email.strip().casefold(),) if student.email.strip() else ()
+
+
+def _login(line: Student) -> tuple[str, ...]:
+    return (line.username.strip().casefold(),) if line.username.strip() else ()
+
+
+def _who(entry: Entry) -> str:
+    return one_line(entry.student.name or entry.student.key, most=100)

@@ -1,0 +1,149 @@
+"""The autograder archive for Gradescope: this grader, with `setup.sh` and `run_autograder`.
+
+It holds the keys (solution, hidden checks), as the instructor uploads it: `run_autograder` closes
+the folder to the student's account before anything of theirs runs.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import shlex
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.translator import Speaker
+from grader.course.find import assignment_file
+from grader.verdict.order import HIDDEN
+from grader.verdict.order import with_hidden
+
+ROOT = Path(__file__).resolve().parents[2]
+PARTS = (
+    "grader",
+    "lab/course",
+    "setup.py",
+    "setup.cfg",
+    "package.xml",
+    "resource",
+    "LICENSE",
+    "tests/requirements.txt",  # bootstrap.py tells environments apart by both locks
+)
+LEFT_OUT = ("__pycache__", ".git", ".mypy_cache", ".ruff_cache", "build", "install", "log")
+OWN_ASSIGNMENT, OWN_KEYS = "assignment", "keys"
+WHEN = (1980, 1, 1, 0, 0, 0)  # the archive of the same files is the same, byte for byte
+FILE, PROGRAM = 0o100644, 0o100755
+
+SETUP = r"""#!/usr/bin/env bash
+# Run once by Gradescope, as root, when the autograder's image is built (Ubuntu 22.04 or 24.04).
+set -euo pipefail
+source=$(cd "$(dirname "${{BASH_SOURCE[0]}}")" && pwd)
+export DEBIAN_FRONTEND=noninteractive
+if ! python3 -c 'import ensurepip, venv' 2> /dev/null; then
+  apt-get update -qq
+  apt-get install -y -qq --no-install-recommends python3 python3-venv
+fi
+python3 "$source/grader/bootstrap.py"
+cd "$source"
+.venv/bin/python -m grader prefix --distro {distro}
+"""
+
+RUN = r"""#!/usr/bin/env bash
+# Run by Gradescope, as root, for each submission; it copies this file beside `source`.
+autograder=$(cd "$(dirname "${{BASH_SOURCE[0]}}")" && pwd)
+results=$autograder/results/results.json
+# the student's code runs under another account: the keys, the other files and what Gradescope
+# knows of earlier submissions are not for it
+chmod go-rwx "$autograder/source" "$autograder/run_autograder" "$autograder/submission" \
+  "$autograder/submission_metadata.json" 2> /dev/null
+rm -f "$results"
+cd "$autograder/source" || exit 3
+export GRADER_DISPOSABLE=1 PYTHONDONTWRITEBYTECODE=1
+.venv/bin/python -m grader gradescope {words} "$autograder"
+status=$?
+if [ ! -s "$results" ]; then
+  mkdir -p "$autograder/results"
+  echo {problem} > "$results"
+fi
+exit "$status"
+"""
+
+
+def gradescope_zip(
+    *,
+    assignment: str | None = None,
+    keys: Path | None = None,
+    distro: str = "jazzy",
+    sandbox: str = "account",
+    lang: str = SOURCE,
+    root: Path = ROOT,
+) -> bytes:
+    """Return the archive; `assignment` is an id, the path of an assignment.yaml, or the one meant.
+
+    `keys` is the instructor's folder of it, of which the hidden checks go in.
+
+    What students read is in the language `lang`.
+    `root` is the checkout that goes in. SurroundingsError if it is none (the grader was installed
+    without its sources), UsageError for an assignment that is not there.
+    """
+    if not (root / "grader" / "bootstrap.py").is_file() or not (root / "lab/course").is_dir():
+        raise SurroundingsError(
+            f"{root} is no checkout of this project: the archive is made of its files",
+            remedy="Call grader gradescope-zip from the checkout.",
+        )
+    files = dict(_files(root))
+    file = assignment_file(assignment)
+    named = file.parent.name
+    if file.resolve() != (root / "lab/course" / named / file.name).resolve():
+        files |= _own_assignment(file)
+        named = f"{OWN_ASSIGNMENT}/{file.name}"
+    with_hidden(assignment, keys)  # what is wrong is told here, and not at Gradescope
+    words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
+    if keys is not None and (keys / HIDDEN).is_file():
+        files[f"{OWN_KEYS}/{HIDDEN}"] = ((keys / HIDDEN).read_bytes(), FILE)
+        words += ["--keys", OWN_KEYS]
+    files["setup.sh"] = (SETUP.format(distro=shlex.quote(distro)).encode(), PROGRAM)
+    run = RUN.format(words=shlex.join(words), problem=shlex.quote(_problem(lang)))
+    files["run_autograder"] = (run.encode(), PROGRAM)
+    return _packed(files)
+
+
+def _problem(lang: str) -> str:
+    """Return the results for where the grader could not even begin."""
+    ours = say("The grader failed, not your package. Please tell your instructor.")
+    return json.dumps({"score": 0, "output": Speaker(lang)(ours)})
+
+
+def _packed(files: dict[str, tuple[bytes, int]]) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, (content, mode) in sorted(files.items()):
+            entry = zipfile.ZipInfo(name, WHEN)
+            entry.create_system = 3  # Unix: the mode counts
+            entry.external_attr = mode << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, content)
+    return out.getvalue()
+
+
+def _files(root: Path) -> Iterator[tuple[str, tuple[bytes, int]]]:
+    """Yield the project's files by their names in the archive; links are not followed."""
+    for part in PARTS:
+        for path in sorted([root / part, *(root / part).rglob("*")]):
+            inside = path.relative_to(root)
+            if path.is_symlink() or not path.is_file() or set(inside.parts) & set(LEFT_OUT):
+                continue
+            program = path.stat().st_mode & 0o100
+            yield inside.as_posix(), (path.read_bytes(), PROGRAM if program else FILE)
+
+
+def _own_assignment(path: Path) -> dict[str, tuple[bytes, int]]:
+    """Return an assignment of the instructor's own and what lies beside it."""
+    if not path.is_file():
+        raise UsageError(f"there is no assignment {path}")
+    beside = [found for found in path.parent.iterdir() if found.is_file()]
+    return {f"{OWN_ASSIGNMENT}/{found.name}": (found.read_bytes(), FILE) for found in beside}

@@ -1,0 +1,114 @@
+"""Gradescope's `results.json` (autograder_samples/docs/specs.md) of one report.
+
+A test with the visibility `hidden` or `after_due_date` is shown by Gradescope to whom it may be
+shown; what is said above the tests and in the others names none of them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
+from grader.batch.check_text import check_text
+from grader.batch.model import Entry
+from grader.batch.model import Override
+from grader.batch.points import Mark
+from grader.batch.points import in_points
+from grader.batch.points import marks
+from grader.batch.points import rounded
+from grader.batch.points import single
+from grader.batch.points import steps
+from grader.report.model import Report
+
+MOST = 200  # characters of a name
+
+
+def results(
+    report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
+) -> dict[str, Any]:
+    """Return the results of a report; `penalty` are the points taken for lateness."""
+    entry = single(report, penalty=penalty, overrides=overrides)
+    return {
+        "score": entry.final or 0.0,
+        "execution_time": round(report.timing.total, 3),
+        "output": _output(entry, report),
+        "output_format": "text",
+        "test_output_format": "text",
+        "test_name_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "extra_data": _extra(report),
+        "tests": [_test(mark, report) for mark in marks(entry)],
+    }
+
+
+def results_json(found: dict[str, Any]) -> str:
+    r"""Return results as text: ASCII, `\n` at each line's end."""
+    return json.dumps(found, indent=1, allow_nan=False) + "\n"
+
+
+def problem(text: str, *, total: float = 0, lang: str = SOURCE) -> dict[str, Any]:
+    """Return results that say why there are none; the student's text is `text`."""
+    speak = Speaker(lang)
+    output = "\n".join(first_lines(speak(text), lines=20))
+    found: dict[str, Any] = {"score": 0.0, "output": output, "output_format": "text"}
+    name = speak(say("The grader"))
+    tests = [{"name": name, "score": 0.0, "output": output, "status": "failed"}]
+    tests[0] |= {"max_score": total} if total else {}
+    return {**found, "visibility": "visible", "stdout_visibility": "hidden", "tests": tests}
+
+
+def _test(mark: Mark, report: Report) -> dict[str, Any]:
+    check = mark.check
+    test: dict[str, Any] = {
+        "name": f"{one_line(check.id, most=60)}: {one_line(check.title, most=MOST)}",
+        "name_format": "text",
+        "score": mark.points or 0.0,
+        "max_score": rounded(check.max_score),
+        "output": check_text(mark, report),
+        "output_format": "text",
+        "visibility": check.visibility,
+        "extra_data": {"check": check.id, "status": check.status},
+    }
+    if mark.points is not None:  # what nobody knows is neither passed nor failed
+        test["status"] = "passed" if mark.passed else "failed"
+    return test
+
+
+def _output(entry: Entry, report: Report) -> str:
+    final, most = points(entry.final or 0), points(report.max_score)
+    lines: list[str] = [say("{points} of {most} points", points=final, most=most)]
+    if report.status == "error":
+        lines = [say("The grader failed, not your package. Please tell your instructor.")]
+    open_ = sum(mark.check.max_score for mark in marks(entry) if mark.points is None)
+    if open_:
+        lines.append(say("{points} could be neither given nor taken.", points=in_points(open_)))
+    lines += [step.told for step in steps(entry)]
+    lines += [line for note in report.submission.notes for line in first_lines(note, lines=3)]
+    if report.observed.command:
+        command = one_line(report.observed.command, most=1_000)
+        lines.append(say("Run with: {command}", command=command))
+    speak = Speaker(report.lang)
+    return "".join(f"{speak(line)}\n" for line in lines)
+
+
+def _extra(report: Report) -> dict[str, Any]:
+    """Return by what the report can be found again; Gradescope keeps it with the submission."""
+    return {
+        "report": {
+            "schema": report.schema_,
+            "assignment": report.assignment.id,
+            "assignment_sha256": report.assignment.sha256,
+            "submission_sha256": report.submission.sha256,
+            "distro": report.environment.distro,
+            "grader": report.environment.grader,
+            "started": report.started,
+        }
+    }

@@ -1,0 +1,67 @@
+"""A CSV file for Moodle's gradebook import (grade/import/csv): any header, one grade a student.
+
+One unknown user ends the whole import, so a student without the identifying value is left out, and
+so is one whose value a spreadsheet would take for a formula. Who has no final result is left out as
+well: `-` or an empty cell would take away the grade that the gradebook has.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from typing import Literal
+
+from grader.batch import cells
+from grader.batch.model import ClassResult
+from grader.batch.model import Entry
+from grader.batch.model import Student
+from grader.batch.sheet import Filled
+from grader.publish.feedback import short_html
+
+By = Literal["id_number", "email", "username"]
+HEADS: dict[By, str] = {
+    "id_number": "ID number",
+    "email": "Email address",
+    "username": "Username",
+}
+
+
+def moodle_import(
+    result: ClassResult, *, by: By | None = None, show_hidden: bool = False
+) -> Filled:
+    """Return the file; `by` says what identifies a student (default: what most students have)."""
+    column = best_identity(result) if by is None else by
+    counts = Counter(_identity(entry.student, column) for entry in result.entries)
+    out = io.StringIO()
+    table = csv.writer(out)
+    title = cells.text(result.title or result.assignment)
+    table.writerow([HEADS[column], "Full name", title, "Feedback"])
+    warnings = []
+    for entry in result.entries:
+        if entry.final is None or entry.status == "elsewhere":
+            continue
+        value = _identity(entry.student, column)
+        if not value or counts[value] > 1 or not cells.is_plain(value):
+            warnings.append(_left_out(entry, column, value))
+            continue
+        told = short_html(entry, show_hidden=show_hidden)
+        table.writerow([value, cells.text(entry.student.name), cells.number(entry.final), told])
+    return Filled(out.getvalue().encode(), tuple(warnings))
+
+
+def best_identity(result: ClassResult) -> By:
+    """Return what most students have: ID number, else email, else user name."""
+    order: tuple[By, ...] = ("id_number", "email", "username")
+    students = [entry.student for entry in result.entries]
+    return max(order, key=lambda by: sum(bool(_identity(one, by)) for one in students))
+
+
+def _identity(student: Student, by: By) -> str:
+    return str(getattr(student, by)).strip()
+
+
+def _left_out(entry: Entry, by: By, value: str) -> str:
+    who = cells.text(entry.student.name or entry.student.key, most=100)
+    why = f"has no {HEADS[by]}" if not value else f"has an unusable {HEADS[by]}"
+    return f"{who} {why}: left out of the gradebook import"

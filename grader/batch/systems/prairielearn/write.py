@@ -1,0 +1,120 @@
+"""PrairieLearn's `/grade/results/results.json` (docs/externalGrading.md).
+
+What cannot be read is not gradable: the student loses no attempt. The file may have 1 MB at most;
+what is too long is cut step by step, points never.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import last_lines
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
+from grader.base.plain_text import shorten
+from grader.batch.check_text import check_text
+from grader.batch.model import Entry
+from grader.batch.points import Mark
+from grader.batch.points import marks
+from grader.batch.points import rounded
+from grader.batch.points import steps
+from grader.report.blocks import UNSEEN
+from grader.report.model import Report
+
+MOST_BYTES = 1_000_000
+# lines of each text of a check, lines of what was printed, characters of each check: what fits first
+ROOM = ((12, 400, 100_000), (12, 60, 8_000), (6, 20, 2_000), (2, 0, 300), (1, 0, 0))
+MOST_NAME = 200
+
+
+@dataclass(frozen=True)
+class Room:
+    """How much of each text there is room for."""
+
+    check_lines: int
+    log_lines: int
+    check_characters: int
+
+
+def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
+    """Return the results of an entry; all tests have points. Hidden checks have no name or text."""
+    for room in ROOM:
+        found = _results(entry, Room(*room), show_hidden=show_hidden)
+        if len(results_json(found)) <= MOST_BYTES:  # it is ASCII
+            break
+    return found
+
+
+def results_json(found: dict[str, Any]) -> str:
+    """Return results as the text of the file."""
+    return json.dumps(found, allow_nan=False) + "\n"
+
+
+def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
+    report = entry.report
+    if report is None or entry.status in ("ungradable", "error") or entry.final is None:
+        return _ungradable(entry)
+    most = entry.max_score
+    score = min(max(entry.final / most, 0.0), 1.0) if most > 0 else 0.0
+    return {
+        "gradable": True,
+        "score": rounded(score),
+        "message": _message(entry),
+        "output": _output(report, room.log_lines, Speaker(entry.lang)),
+        "images": [],
+        "tests": [
+            _test(mark, report, room, show=show_hidden or mark.check.visibility == "visible")
+            for mark in marks(entry)
+        ],
+    }
+
+
+def _ungradable(entry: Entry) -> dict[str, Any]:
+    message = entry.report.message if entry.report is not None else ""
+    why = entry.problem or message or say("The submission could not be graded.")
+    told = "\n".join(first_lines(Speaker(entry.lang)(why), lines=10))
+    return {"gradable": False, "format_errors": [told], "message": told, "tests": []}
+
+
+def _message(entry: Entry) -> str:
+    final, most = points(entry.final or 0), points(entry.max_score)
+    lines = [say("{points} of {most} points", points=final, most=most)]
+    lines += [step.told for step in steps(entry)]
+    return "\n".join(Speaker(entry.lang)(line) for line in lines)
+
+
+def _output(report: Report, lines: int, speak: Speaker) -> str:
+    if not lines:
+        return ""
+    found = []
+    for title, text in (
+        (say("What colcon build printed"), report.evidence.build_log),
+        (say("What ros2 run printed"), report.evidence.transcript),
+    ):
+        if text.strip():
+            shown, _ = last_lines(text, lines=lines)
+            found += [f"{speak(title)}:", *shown, ""]
+    return "\n".join(found)
+
+
+def _test(mark: Mark, report: Report, room: Room, *, show: bool) -> dict[str, Any]:
+    check, speak = mark.check, Speaker(report.lang)
+    test: dict[str, Any] = {
+        "name": one_line(check.id, most=60) if show else speak(UNSEEN),
+        "description": one_line(check.title, most=MOST_NAME) if show else "",
+        "points": mark.points or 0.0,
+        "max_points": rounded(check.max_score),
+    }
+    if mark.points is None:
+        test["message"] = speak(say("These points could be neither given nor taken."))
+    elif mark.correction and show:
+        test["message"] = speak(mark.correction)
+    if show:
+        text = check_text(mark, report, lines=room.check_lines)
+        test["output"] = shorten(text, most=room.check_characters) if room.check_characters else ""
+    return test

@@ -1,0 +1,69 @@
+"""Instants, durations and states in the words of the page."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from datetime import timezone
+
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import msg
+from grader.base.i18n.message import say
+from grader.batch.model import EntryStatus
+from grader.batch.model import System
+
+MINUTE, HOUR, DAY = 60, 3_600, 86_400  # seconds
+UNITS = (
+    (DAY, msg("{count} d")),
+    (HOUR, msg("{count} h")),
+    (MINUTE, msg("{count} min")),
+    (1, msg("{count} s")),
+)
+
+STATES: dict[EntryStatus, str] = {
+    "graded": say("graded"),
+    "ungradable": say("ungradable"),
+    "error": say("not marked, a fault of the grader"),
+    "missing": say("nothing handed in"),
+    "elsewhere": say("handed in elsewhere"),
+    "pending": say("not marked yet"),
+}
+SYSTEMS: dict[System, str] = {
+    "folders": "a folder of folders",
+    "archives": "one archive a student",
+    "moodle": "Moodle",
+    "canvas": "Canvas",
+    "gradescope": "Gradescope",
+    "github_classroom": "GitHub Classroom",
+}
+# a sign for each state of a check, so that colour never tells it alone
+SIGNS = {"passed": "✓", "failed": "✗", "skipped": "–", "inconclusive": "?", "error": "!"}
+
+
+def instant(value: datetime | None) -> str:
+    """Return an instant in UTC to the minute; "" for none. One without a zone is UTC already."""
+    if value is None:
+        return ""
+    zoned = value if value.tzinfo else value.replace(tzinfo=timezone.utc)
+    return f"{zoned.astimezone(timezone.utc):%Y-%m-%d %H:%M} UTC"
+
+
+def duration(seconds: float) -> str:
+    """Return a duration in its two greatest units: 4.2 s, 12 min, 2 h 10 min, 3 d 4 h."""
+    if seconds < MINUTE:
+        return say("{count} s", count=f"{seconds:.1f}")
+    for (unit, words), (less, less_words) in zip(UNITS, UNITS[1:]):
+        if seconds >= unit:
+            great, rest = divmod(int(seconds), unit)
+            small = rest // less
+            return joined(_counted(words, great), _counted(less_words, small) if small else "")
+    return ""
+
+
+def _counted(words: str, count: int) -> Message:
+    return Message(words, {"count": count})
+
+
+def plural(count: int, one: str, many: str = "") -> str:
+    """Return a count with its noun: 1 student, 3 students."""
+    return f"{count} {one if count == 1 else many or one + 's'}"

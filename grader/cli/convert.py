@@ -1,0 +1,160 @@
+"""The commands of this room: Gradescope's two, and one report in another system's form."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from grader.base.errors import SurroundingsError
+from grader.base.errors import UsageError
+from grader.base.gate import bytes_of
+from grader.base.i18n.translator import chosen_language
+from grader.cli import options
+
+if TYPE_CHECKING:
+    from grader.report.model import Report
+
+_sandbox = click.option(
+    "--sandbox",
+    default="account",
+    show_default=True,
+    help="Where the student's code runs in Gradescope's container.",
+)
+
+
+@click.command("gradescope")
+@click.argument("autograder", type=click.Path(path_type=Path), default=Path("/autograder"))
+@options.assignment
+@options.keys
+@options.one_distro
+@_sandbox
+@options.lang
+def gradescope(
+    autograder: Path,
+    assignment: str | None,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    lang: str | None,
+) -> int:
+    """Mark the submission in Gradescope's container, results.json always up to date.
+
+    AUTOGRADER is the folder that Gradescope made (default: /autograder).
+    """
+    from grader.batch.systems.gradescope.container import run  # noqa: PLC0415 - --help must not pay for it
+
+    return run(
+        autograder, assignment=assignment, keys=keys, distro=distro, sandbox=sandbox, lang=lang
+    )
+
+
+@click.command("gradescope-zip")
+@click.argument("out", type=click.Path(path_type=Path), default=Path("autograder.zip"))
+@options.assignment
+@options.keys
+@options.one_distro
+@_sandbox
+@options.lang
+def gradescope_zip(
+    out: Path,
+    assignment: str | None,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    lang: str | None,
+) -> int:
+    """Make the autograder archive that is uploaded to Gradescope. It holds the solution.
+
+    --lang is the language in which students will read their results.
+
+    OUT is the file that is made (default: autograder.zip).
+    """
+    from grader.batch.systems.gradescope import archive  # noqa: PLC0415
+    from grader.ros.distro import find_distro  # noqa: PLC0415
+    from grader.sandbox.choose import check_name  # noqa: PLC0415
+
+    check_name(sandbox)
+    name = find_distro(distro).name
+    made = archive.gradescope_zip(
+        assignment=assignment,
+        keys=keys,
+        distro=name,
+        sandbox=sandbox,
+        lang=lang or chosen_language(os.environ),
+    )
+    _write(out, made)
+    click.echo(f"{out}: {len(made):,} bytes. Keep it from students: it holds the solution.")
+    return 0
+
+
+@click.command("convert")
+@click.argument("form", type=click.Choice(["gradescope", "github", "prairielearn", "junit", "md"]))
+@click.argument("report", type=click.Path(path_type=Path))
+@click.option("--show-hidden", is_flag=True, help="Name the checks that students do not see.")
+def convert(form: str, report: Path, show_hidden: bool) -> int:
+    """Print a report.json in the FORM of another system, in the report's language.
+
+    `github` prints the line for $GITHUB_OUTPUT: grader convert github REPORT >> "$GITHUB_OUTPUT".
+    """
+    made = _forms(show_hidden=show_hidden)[form](_read(report))
+    content = made.encode() if isinstance(made, str) else made
+    if sys.stdout.isatty():
+        click.echo(content.decode(), nl=False)
+    else:  # for a program: byte for byte
+        bytes_of(sys.stdout).write(content)
+    return 0
+
+
+COMMANDS = (gradescope, gradescope_zip, convert)
+
+
+def _forms(*, show_hidden: bool) -> dict[str, Callable[[Report], str | bytes]]:
+    from grader.batch.points import single  # noqa: PLC0415
+    from grader.batch.systems.github_classroom import write as github  # noqa: PLC0415
+    from grader.batch.systems.gradescope import write as gs  # noqa: PLC0415
+    from grader.batch.systems.prairielearn import write as pl  # noqa: PLC0415
+    from grader.publish import junit  # noqa: PLC0415
+    from grader.publish.markdown import markdown  # noqa: PLC0415
+
+    return {
+        "gradescope": lambda r: gs.results_json(gs.results(r)),
+        "github": lambda r: github.github_output(
+            github.results(single(r), show_hidden=show_hidden)
+        ),
+        "prairielearn": lambda r: pl.results_json(pl.results(single(r), show_hidden=show_hidden)),
+        "junit": junit.report_xml,
+        "md": lambda r: markdown(single(r), r.assignment.title, show_hidden=show_hidden),
+    }
+
+
+def _read(path: Path) -> Report:
+    from pydantic import ValidationError  # noqa: PLC0415
+
+    from grader.report.model import Report  # noqa: PLC0415
+
+    try:
+        return Report.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise UsageError(f"{path} cannot be read: {error.strerror}") from None
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise UsageError(f"{path} is no report of this grader: {first['msg']}") from None
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file that only its owner can read; what was there before is replaced at the end."""
+    from grader.base.folder import Folder  # noqa: PLC0415
+
+    try:
+        with Folder.open(path.parent) as folder:
+            folder.replace(path.name, content)
+    except OSError as error:
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise SurroundingsError(
+            f"{path} could not be written: {reason}", remedy="Name another place."
+        ) from None

@@ -1,0 +1,73 @@
+"""The command that explains a mistake."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+import click
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import msg
+from grader.base.i18n.translator import chosen_language
+from grader.base.i18n.translator import errors_in
+from grader.cli import options
+
+if TYPE_CHECKING:
+    from grader.course.assignment import Assignment
+
+
+@click.command(
+    help=msg(
+        "Explain a mistake of the catalogue, or what a terminal shows (-: read from standard "
+        "input).\n\n"
+        "For example: ros2 run my_package my_node 2>&1 | grader explain -"
+    )
+)
+@click.argument("mistake", metavar="[MISTAKE-ID | -]", required=False)
+@options.assignment
+@click.option(
+    "--distro",
+    help=msg("The ROS 2 distro whose documentation is linked (default: the terminal's)."),
+)
+@options.lang
+def explain(
+    mistake: str | None, assignment: str | None, distro: str | None, lang: str | None
+) -> int:
+    """Explain an entry of the catalogue, or a terminal's text."""
+    from grader.mistakes import explanation as texts  # noqa: PLC0415
+    from grader.ros.distro import find_distro  # noqa: PLC0415
+    from grader.ros.distro import sourced  # noqa: PLC0415
+
+    lang = lang or chosen_language(os.environ)
+    with errors_in(lang):
+        reader = texts.Reader(
+            lang,
+            find_distro(distro) if distro else sourced(os.environ),
+            _lesson(assignment),
+        )
+    if mistake is None:
+        texts.print_list(file=sys.stdout, reader=reader)
+        return 0
+    if mistake == "-":
+        text = sys.stdin.buffer.read(texts.MOST_BYTES).decode("utf-8", "replace")
+        return 0 if texts.print_recognised(text, file=sys.stdout, reader=reader) else 1
+    texts.print_entry(mistake, file=sys.stdout, reader=reader)
+    return 0
+
+
+def _lesson(assignment: str | None) -> Assignment | None:
+    """Return the lesson that is meant; None if none was named and the course has not just one."""
+    from grader.course.assignment import load_assignment  # noqa: PLC0415
+    from grader.course.find import assignment_file  # noqa: PLC0415
+
+    try:
+        return load_assignment(assignment_file(assignment))
+    except UsageError:
+        if assignment is None:
+            return None
+        raise
+
+
+COMMANDS = (explain,)

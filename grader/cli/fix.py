@@ -1,0 +1,71 @@
+"""The command that mends a package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import msg
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import errors_in
+from grader.cli import options
+
+
+@click.command(
+    help=msg(
+        "Mend your own package where only one mend is possible, as a diff that is shown first.\n\n"
+        "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
+        "folder). Exit status: 0 nothing is wrong any more, 1 something is left that cannot be "
+        "mended by itself (it is named)."
+    )
+)
+@click.argument("path", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--dry-run/--apply",
+    "dry_run",
+    default=True,
+    help=msg("Show the change as a diff (the default), or write it; the old files are kept."),
+)
+@options.assignment
+@options.one_distro
+@options.sandbox
+@click.option("--check", "only", default="", metavar="ID", help=msg("Mend this check only."))
+@click.option(
+    "--no-run", is_flag=True, help=msg("Look at the files only: build nothing and run nothing.")
+)
+@options.limits
+@options.lang
+def fix(
+    path: Path | None,
+    dry_run: bool,
+    assignment: str | None,
+    distro: str,
+    sandbox: str,
+    only: str,
+    no_run: bool,
+    limits: tuple[str, ...],
+    lang: str | None,
+) -> int:
+    """Mend a student's own package."""
+    from grader.cli.fix_package import Wish  # noqa: PLC0415
+    from grader.cli.fix_package import fix as mend  # noqa: PLC0415
+    from grader.verdict.order import make_orders  # noqa: PLC0415
+    from grader.verdict.order import own_place  # noqa: PLC0415
+
+    with errors_in(lang):
+        place = path or own_place()
+        if path is None and not dry_run and place != Path.home() / "ros2_ws":
+            raise UsageError(
+                say("it was not said which package is to be changed"),
+                remedy=say("For example: grader fix --apply path/to/my_package"),
+            )
+        orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
+        if len(orders) > 1:
+            raise UsageError(say("fix runs the node on one distro: name one"))
+        wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
+        return mend(wish, tell=lambda text: click.echo(text, err=True))
+
+
+COMMANDS = (fix,)

@@ -1,0 +1,77 @@
+"""How a command of this project ends: its exit status, and a message instead of a traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import traceback
+from types import FrameType
+
+import click
+
+from grader.base.errors import GraderError
+from grader.base.gate import gated_output
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import chosen_language
+from grader.base.plain_text import first_lines
+from grader.cli.localized import language_of
+from grader.cli.localized import said_in
+
+MOST_LINES = 60  # of an error's message
+
+
+class Terminated(BaseException):
+    """SIGTERM or SIGHUP came: everything is closed on the way out."""
+
+
+def _terminated(number: int, frame: FrameType | None) -> None:
+    del number, frame
+    raise Terminated
+
+
+def run(command: click.Command, name: str, argv: list[str] | None) -> int:
+    """Run a command line and return its exit status: DESIGN's contract."""
+    signal.signal(signal.SIGTERM, _terminated)
+    signal.signal(signal.SIGHUP, _terminated)
+    words = sys.argv[1:] if argv is None else argv
+    with gated_output(), said_in(language_of(words), command):
+        return _run(command, name, words)
+
+
+def _run(command: click.Command, name: str, argv: list[str]) -> int:
+    try:
+        status = command.main(args=argv, prog_name=name, standalone_mode=False)
+        return status if isinstance(status, int) else 0
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    except click.ClickException as error:
+        error.show()
+        return 2
+    except GraderError as error:
+        lines = first_lines(f"{name}: {error}", lines=MOST_LINES)
+        click.echo("\n".join(lines), err=True)
+        return error.exit_status
+    except (KeyboardInterrupt, click.Abort):
+        _tell(say("{name}: interrupted; nothing was left running", name=name))
+        return 130
+    except Terminated:
+        _tell(say("{name}: terminated; nothing was left running", name=name))
+        return 143
+    except BrokenPipeError:  # the reader of our output has gone (| head)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except Exception:  # a fault of ours: its traceback passes the gate, as it may quote anything
+        traceback.print_exc()
+        _tell(
+            say(
+                "{name}: this is a fault of the program: please report it with all of the above",
+                name=name,
+            )
+        )
+        return 3
+
+
+def _tell(text: str) -> None:
+    click.echo(Speaker(chosen_language(os.environ))(text), err=True)

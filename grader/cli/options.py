@@ -1,0 +1,53 @@
+"""The options that several commands have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from grader.base.i18n.message import msg
+
+CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
+assignment = click.option(
+    "--assignment",
+    metavar="ID|FILE",
+    help=msg(
+        "The assignment: its id, or the path of an assignment.yaml (default: the course's only one)."
+    ),
+)
+keys = click.option(
+    "--keys",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="The assignment's folder of the instructor: hidden.yaml, solution, mutants.yaml (default: "
+    "the grader's own keys/ID).",
+)
+sandbox = click.option(
+    "--sandbox",
+    default="auto",
+    show_default=True,
+    help=msg("Where the student's code runs: auto, docker, bubblewrap, account or none."),
+)
+one_distro = click.option(
+    "--distro", default="jazzy", show_default=True, help=msg("The ROS 2 distro to mark on.")
+)
+limits = click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help=msg(
+        "Another value for a limit (seconds, bytes), e.g. build_seconds=120. May be repeated."
+    ),
+)
+distros = click.option(
+    "--distro",
+    default="jazzy",
+    show_default=True,
+    help=msg("The ROS 2 distro to mark on; several with commas between them."),
+)
+lang = click.option(
+    "--lang",
+    type=click.Choice(["en", "ko"]),
+    help=msg("The language of the texts (default: what LC_ALL, LANG and LANGUAGE ask for)."),
+)

@@ -1,0 +1,120 @@
+"""Gather all texts and compile the catalogues: `python -m grader.cli.update_translations`.
+
+Needs Babel, which is part of the tests' environment; a run of the grader needs only the compiled
+catalogues. New texts get an empty translation: fill them in `<lang>/LC_MESSAGES/grader.po` and run
+it again.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from datetime import datetime
+from datetime import timezone
+from pathlib import Path
+
+from babel.messages.catalog import Catalog
+from babel.messages.extract import extract_from_file
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po
+from babel.messages.pofile import write_po
+
+from grader.base.i18n.translator import DOMAIN
+from grader.base.i18n.translator import FOLDER
+from grader.base.i18n.translator import LANGUAGES
+from grader.base.i18n.translator import SOURCE
+from grader.cli.localized import CLICK_COUNTED
+from grader.verdict.checks.all import CHECKS
+
+ROOT = FOLDER.parents[1]
+ROOMS = ("grader", "lab")  # (the lab's texts are here too: it brings no catalogue of its own)
+KEYWORDS = {"say": None, "msg": None}
+TEMPLATE = "jinja2.ext:babel_extract"
+MARKS = "from grader.locale.message import "
+COUNTED = "grader/cli/localized.py"
+MADE = datetime(2026, 1, 1, tzinfo=timezone.utc)  # the same at every run: only texts make a change
+
+
+def templates() -> Iterator[tuple[str, str]]:
+    """Yield every text that is marked for translation, and the file that it is from."""
+    for path in sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py")):
+        if MARKS not in path.read_text(encoding="utf-8"):
+            continue  # (a `say` of its own, that prints)
+        for _, found, _, _ in extract_from_file("python", path, keywords=KEYWORDS):
+            yield str(found), _place(path)
+    strict = {"silent": "false"}  # (a template that cannot be read is told)
+    for path in sorted((ROOT / "grader/publish/pages/templates").glob("*.j2")):
+        for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
+            yield str(found), _place(path)
+    for check in CHECKS.values():
+        yield check.title, "grader/verdict/checks/all.py"
+
+
+def _place(path: Path) -> str:
+    return path.relative_to(ROOT).as_posix()
+
+
+def po_path(lang: str) -> Path:
+    """Return the file with a language's translations."""
+    return FOLDER / lang / "LC_MESSAGES" / f"{DOMAIN}.po"
+
+
+def read(lang: str) -> Catalog:
+    """Return a language's translations; empty if there are none yet."""
+    path = po_path(lang)
+    if not path.is_file():
+        return Catalog(locale=lang)
+    with path.open("rb") as file:
+        return read_po(file, locale=lang, domain=DOMAIN)
+
+
+def gathered(lang: str) -> Catalog:
+    """Return the catalogue of a language with the texts of today and the translations known."""
+    known = read(lang)
+    catalog = Catalog(
+        locale=lang,
+        domain=DOMAIN,
+        project="ros2_teaching_lab",
+        header_comment="# Texts of the grader that students read. See grader/cli/update_translations.py.",
+        creation_date=MADE,
+        revision_date=MADE,
+    )
+    for template, place in templates():
+        message = known.get(template)
+        catalog.add(template, message.string if message else "", locations=[(place, 0)])
+    for pair in CLICK_COUNTED:
+        message = known.get(pair)
+        catalog.add(pair, message.string if message else ("",), locations=[(COUNTED, 0)])
+    return catalog
+
+
+def po_bytes(catalog: Catalog) -> bytes:
+    """Return the text of a .po file."""
+    out = io.BytesIO()
+    write_po(out, catalog, width=100, sort_output=False, include_lineno=False)
+    return out.getvalue()
+
+
+def mo_bytes(catalog: Catalog) -> bytes:
+    """Return a compiled catalogue."""
+    out = io.BytesIO()
+    write_mo(out, catalog)
+    return out.getvalue()
+
+
+def main() -> None:
+    """Write every language's .po and .mo anew."""
+    for lang in LANGUAGES:
+        if lang == SOURCE:
+            continue
+        catalog = gathered(lang)
+        path = po_path(lang)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(po_bytes(catalog))
+        path.with_suffix(".mo").write_bytes(mo_bytes(catalog))
+        left = [str(message.id) for message in catalog if message.id and not message.string]
+        print(f"{lang}: {len(catalog)} texts, {len(left)} of them not translated")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,4 +1,0 @@
-"""Texts in the reader's language: marked with `say` and `msg`, translated by a `Speaker`.
-
-`grader.locale.update` gathers what is marked into `ko/LC_MESSAGES/grader.po`.
-"""

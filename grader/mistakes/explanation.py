@@ -1,0 +1,105 @@
+"""`grader explain`: an entry of the catalogue, or the mistakes in a terminal's output."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TextIO
+
+from grader.base.errors import UsageError
+from grader.base.gate import show
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import Value
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import errors_in
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.base.shown import shown
+from grader.base.stream import takes_styles
+from grader.base.stream import width_of
+from grader.course.assignment import Assignment
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.kind import Kind
+from grader.mistakes.links import address
+from grader.mistakes.recognise import filled
+from grader.mistakes.recognise import seen_in
+from grader.mistakes.wanted import EXAMPLE
+from grader.mistakes.wanted import words_of
+from grader.report.page import Page
+from grader.ros.distro import Distro
+
+MOST_BYTES = 1_000_000
+MOST_ROOTS = 3  # mistakes explained at once; more than that nobody reads
+
+
+@dataclass(frozen=True)
+class Reader:
+    """For whom it is: the language, the distro whose documentation is linked, and the lesson.
+
+    Without a lesson the texts show the names of what only a lesson tells, such as <period>.
+    """
+
+    lang: str
+    distro: Distro
+    assignment: Assignment | None = None
+
+    @property
+    def words(self) -> dict[str, Value]:
+        """What the texts take from the lesson and the distro."""
+        known = EXAMPLE if self.assignment is None else words_of(self.assignment)
+        return {**known, "distro": self.distro.name}
+
+
+def print_entry(mistake: str, *, file: TextIO, reader: Reader) -> None:
+    """Print one entry; UsageError, with the nearest id, if there is none."""
+    kind = CATALOGUE.get(mistake)
+    if kind is None:
+        slugs = {name.partition(".")[2]: name for name in CATALOGUE}
+        close = slugs.get(mistake) or nearest(mistake, CATALOGUE)
+        none = say("there is no mistake '{id}' in the catalogue", id=shown(mistake))
+        remedy = say("`grader explain` alone lists them all.")
+        with errors_in(reader.lang):
+            raise UsageError(none + meant(close), remedy=remedy)
+    page = _page(file, reader)
+    _entry(page, kind, {}, reader)
+    show(str(page), file)
+
+
+def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
+    """Print the entries that a text shows, root first; return whether there are any."""
+    page = _page(file, reader)
+    found = seen_in(text)
+    if not found:
+        page.line(say("No mistake of the catalogue shows in this text."))
+    for number, seen in enumerate(found[:MOST_ROOTS]):
+        if number:
+            page.gap()
+        page.quote([shown(seen.line)])
+        _entry(page, seen.kind, seen.params, reader)
+    if len(found) > MOST_ROOTS:
+        page.gap()
+        names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
+        page.field(say("also"), names)
+    show(str(page), file)
+    return bool(found)
+
+
+def print_list(*, file: TextIO, reader: Reader) -> None:
+    """Print the ids and titles of all entries."""
+    page = _page(file, reader)
+    for kind in CATALOGUE.values():
+        page.line((kind.id, "bold"), ": ", Message(kind.title))
+    show(str(page), file)
+
+
+def _entry(page: Page, kind: Kind, params: Mapping[str, str], reader: Reader) -> None:
+    known = {**reader.words, **params}
+    page.line((kind.id, "bold"), ": ", Message(kind.title))
+    page.field(say("why"), kind.rationale(filled(kind.why, known)))
+    page.field(say("fix"), kind.mend(filled(kind.fix, known)), "bold")
+    page.code(say("docs"), [address(kind.link, reader.distro)])
+
+
+def _page(file: TextIO, reader: Reader) -> Page:
+    return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(reader.lang))

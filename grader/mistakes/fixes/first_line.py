@@ -1,0 +1,72 @@
+"""Mends of the node's first line, and of the line ends that spoil it."""
+
+from __future__ import annotations
+
+import re
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import BOM
+from grader.package.edit.text import MOST_BYTES
+from grader.package.edit.text import read_source
+from grader.package.source.python import PythonFault
+from grader.package.source.python import parse_python
+from grader.verdict.checks.source import SHEBANG
+
+SCRIPT = re.compile(r"[#!\s]*(?:/|\b)(?:usr/|bin/|env\b)[\w/ .-]*python[\d.]*\s*", re.IGNORECASE)
+LATE = 20
+
+
+def byte_order_mark(case: Case) -> Files | None:
+    """Take the byte order mark away."""
+    found = case.files.data(case.node_path)
+    if found is None or not found.startswith(BOM) or not _is_python(found):
+        return None
+    return case.with_data(case.node_path, found[len(BOM) :])
+
+
+def line_ends(case: Case) -> Files | None:
+    """End every line as Linux does: CRLF to LF."""
+    found = case.files.data(case.node_path)
+    if found is None or len(found) > MOST_BYTES or b"\0" in found:
+        return None
+    if not found.partition(b"\n")[0].endswith(b"\r"):
+        return None
+    new = found.replace(b"\r\n", b"\n")
+    return case.with_data(case.node_path, new) if _same_code(found, new) else None
+
+
+def _same_code(old: bytes, new: bytes) -> bool:
+    """Whether two texts are the same program: a text in it that holds line ends stays too."""
+    return _is_python(old) == _is_python(new)
+
+
+def _is_python(found: bytes) -> bool:
+    try:
+        parse_python(found)
+    except PythonFault:
+        return False
+    return True
+
+
+def shebang(case: Case) -> Files | None:
+    """Put the shebang on line 1: moved up, mended, or written anew."""
+    found = case.files.data(case.node_path)
+    text = read_source(found)
+    if found is None or text is None or text.mark or not found.strip():
+        return None
+    first = text.line(1)
+    if text.newline != "\n":
+        # a line that ends as on Windows does not do: the whole file is mended with it
+        found = found.replace(b"\r\n", b"\n")
+        text = read_source(found)
+        if text is None or "\r" in text.text:
+            return None
+    if first.startswith("#!") or SCRIPT.fullmatch(first):
+        splices = [text.without(1), text.before(1, SHEBANG)]
+    else:
+        splices = [text.before(1, SHEBANG)]
+        late = [n for n in range(2, LATE) if text.line(n).startswith("#!")]
+        splices += [text.without(late[0])] if late else []
+    new = text.spliced(splices)
+    return case.with_data(case.node_path, new) if new and _is_python(new) else None

@@ -1,0 +1,79 @@
+"""Mends of what lies where: the marker, the node's file, the inner folder, the exec bit."""
+
+from __future__ import annotations
+
+from grader.base.nearest import nearest
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+
+
+def marker(case: Case) -> Files | None:
+    """Make the empty marker file, or give the one that is there its right name."""
+    path = f"resource/{case.package}"
+    if path in case.files.by_path or "resource" in _files(case):
+        return None
+    others = case.files.names_in("resource")
+    close = nearest(case.package, others) or (others[0] if len(others) == 1 else "")
+    old = f"resource/{close}"
+    if close and case.files.file(old) is not None and not case.files.data(old):
+        return case.files.with_move(old, path)
+    return case.with_data(path, b"")
+
+
+def _files(case: Case) -> set[str]:
+    return {path for path, file in case.files.by_path.items() if file.kind != "folder"}
+
+
+def inner_folder(case: Case) -> Files | None:
+    """Rename the one folder with an __init__.py that holds the node's file."""
+    files, name = case.files, case.assignment.node_file
+    if case.finding.mistake != "source.misplaced_node_file" or case.package in files.by_path:
+        return None
+    path = _only_one_named(files, name)
+    folder, _, rest = (path or "").partition("/")
+    if path is None or rest != name or f"{folder}/__init__.py" not in files.by_path:
+        return None
+    for old in files.below(folder):
+        if files.file(old) is None:
+            return None
+        files = files.with_move(old, case.package + old[len(folder) :])
+    return files
+
+
+def node_file(case: Case) -> Files | None:
+    """Move the node's file to its place, if there is one of its name in the package."""
+    if case.finding.mistake != "source.misplaced_node_file" or case.node_path in case.files.by_path:
+        return None
+    path = _only_one_named(case.files, case.assignment.node_file)
+    if path is None or case.package in _files(case):
+        return None
+    return case.files.with_move(path, case.node_path)
+
+
+def _only_one_named(files: Files, name: str) -> str | None:
+    found = [path for path in files.by_path if path.rpartition("/")[2] == name]
+    return found[0] if len(found) == 1 and files.file(found[0]) is not None else None
+
+
+def node_name(case: Case) -> Files | None:
+    """Rename a node's file whose name is nearly right, if nothing else is called so."""
+    old = f"{case.package}/{case.finding.params.get('name', '')}"
+    if case.finding.mistake != "source.misnamed_node_file" or case.node_path in case.files.by_path:
+        return None
+    return case.files.with_move(old, case.node_path) if case.files.file(old) else None
+
+
+def init_file(case: Case) -> Files | None:
+    """Make the __init__.py without which find_packages() passes the folder over."""
+    path = f"{case.package}/__init__.py"
+    if path in case.files.by_path or case.files.file(case.node_path) is None:
+        return None
+    return case.with_data(path, b"")
+
+
+def exec_bit(case: Case) -> Files | None:
+    """Set the exec bit of the node's file, for whoever may read it."""
+    file = case.files.file(case.node_path)
+    if file is None or file.mode & 0o100:
+        return None
+    return case.files.with_mode(case.node_path, file.mode | (file.mode & 0o444) >> 2 | 0o100)

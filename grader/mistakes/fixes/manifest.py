@@ -1,0 +1,229 @@
+"""Mends of package.xml. They work on its bytes: expat tells where in them a tag begins."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from xml.parsers import expat
+
+from grader.base.nearest import nearest
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.source.manifest import DEPENDS
+from grader.package.source.manifest import MOST_BYTES
+
+FILE = "package.xml"
+TYPE = b"<build_type>ament_python</build_type>"
+
+
+@dataclass
+class Tag:
+    """An element in the bytes: from `start` (its `<`) to `end` (behind its last `>`).
+
+    `inside` is where its content begins and ends; `inside[0]` is -1 for an empty tag `<a/>`.
+    """
+
+    name: str
+    within: str
+    start: int
+    end: int = -1
+    inside: tuple[int, int] = (-1, -1)
+
+
+class _Places:
+    """Finds the elements; `open` are those that a fault in the XML has left open."""
+
+    def __init__(self, found: bytes) -> None:
+        self.found = found
+        self.closed: list[Tag] = []
+        self.open: list[Tag] = []
+        self.parser = expat.ParserCreate()
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.StartDoctypeDeclHandler = self._doctype
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        del attributes
+        within = self.open[-1].name if self.open else ""
+        self.open.append(Tag(name, within, self.parser.CurrentByteIndex))
+
+    def _end(self, name: str) -> None:
+        del name
+        tag = self.open.pop()
+        at = self.parser.CurrentByteIndex
+        head = _head_end(self.found, tag.start)
+        if at <= tag.start or self.found[head - 2 : head] == b"/>":
+            tag.end = head
+        else:
+            tag.inside = (head, at)
+            tag.end = self.found.find(b">", at) + 1
+        self.closed.append(tag)
+
+    def _doctype(self, *_: object) -> None:
+        raise ValueError
+
+
+def _head_end(found: bytes, start: int) -> int:
+    """Return where a tag's head ends; a `>` in the quotes of an attribute does not end it."""
+    match = re.compile(rb"<(?:[^<>\"']|\"[^\"]*\"|'[^']*')*>").match(found, start)
+    return match.end() if match else start
+
+
+def _places(found: bytes | None) -> _Places | None:
+    """Return the elements' places; None for what is not XML of one byte a character."""
+    if found is None or len(found) > MOST_BYTES or found[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return None
+    places = _Places(found)
+    try:
+        places.parser.Parse(found, True)
+    except (expat.ExpatError, ValueError, LookupError):
+        return None
+    return places
+
+
+def _one(places: _Places, name: str, within: str = "package") -> Tag | None:
+    found = [t for t in places.closed if t.name == name and t.within == within]
+    return found[0] if len(found) == 1 else None
+
+
+def _newline(found: bytes) -> bytes:
+    return b"\r\n" if b"\r\n" in found else b"\n"
+
+
+def _indent(found: bytes, at: int) -> bytes:
+    """Return the blanks in front of a place, if only blanks are there on its line."""
+    line = found[found.rfind(b"\n", 0, at) + 1 : at]
+    return line if not line.strip(b" \t") else b""
+
+
+def _put(case: Case, start: int, end: int, new: bytes) -> Files | None:
+    found = case.files.data(FILE) or b""
+    return case.with_data(FILE, found[:start] + new + found[end:])
+
+
+def rename(case: Case) -> Files | None:
+    """Give a package.xml under another name its right one."""
+    if case.finding.mistake != "package.no_manifest" or FILE in case.files.by_path:
+        return None
+    close = nearest(FILE, case.files.names_in(""), cutoff=0.75)
+    places = _places(case.files.data(close)) if close else None
+    if places is None or _one(places, "name") is None:
+        return None
+    return case.files.with_move(close, FILE)
+
+
+def name(case: Case) -> Files | None:
+    """Write the package's name between <name> and </name>."""
+    places = _places(case.files.data(FILE))
+    tag = _one(places, "name") if places else None
+    if places is None or tag is None or tag.inside[0] < 0:
+        return None
+    inside = places.found[slice(*tag.inside)]
+    text = inside.strip()
+    if b"<" in text or text == case.package.encode():
+        return None
+    start = tag.inside[0] + (inside.find(text) if text else 0)
+    return _put(case, start, start + len(text), case.package.encode())
+
+
+def build_type(case: Case) -> Files | None:
+    """Let <export> say ament_python, once."""
+    places = _places(case.files.data(FILE))
+    if places is None or "CMakeLists.txt" in case.files.by_path:
+        return None
+    found = places.found
+    tags = [tag for tag in places.closed if tag.name == "build_type"]
+    root, export = _one(places, "package", ""), _one(places, "export")
+    if root is None or root.inside[0] < 0 or len(tags) > 1:
+        return None
+    if tags and tags[0].within == "export":
+        return _put(case, tags[0].start, tags[0].end, TYPE)
+    if tags and (tags[0].within != "package" or export is not None):
+        return None
+    if tags:  # it stands outside: the export is built around it
+        return _put(case, tags[0].start, tags[0].end, b"<export>" + TYPE + b"</export>")
+    if any(tag.name == "export" for tag in places.closed) and export is None:
+        return None
+    newline = _newline(found)
+    if export is None:
+        end = root.inside[1]
+        end -= len(_indent(found, end))
+        rows = (b"  <export>", b"    " + TYPE, b"  </export>")
+        return _put(case, end, end, b"".join(row + newline for row in rows))
+    indent = _indent(found, export.start)
+    if export.inside[0] < 0:
+        return _put(case, export.start, export.end, b"<export>" + TYPE + b"</export>")
+    at = export.inside[0]
+    return _put(case, at, at, newline + indent * 2 + TYPE if indent else TYPE)
+
+
+def depend(case: Case) -> Files | None:
+    """Say that the package needs rclpy."""
+    places = _places(case.files.data(FILE))
+    licence = [t for t in places.closed if t.name == "license"] if places else []
+    if places is None or not licence:
+        return None
+    found = places.found
+    depends = [t for t in places.closed if DEPENDS.fullmatch(t.name) and t.within == "package"]
+    if any(found[slice(*t.inside)].strip() == b"rclpy" for t in depends):
+        return None
+    last = [t for t in depends if t.name == "depend"] or licence
+    indent = _indent(found, last[-1].start)
+    new = _newline(found) + indent + b"<depend>rclpy</depend>"
+    return _put(case, last[-1].end, last[-1].end, new)
+
+
+def version(case: Case) -> Files | None:
+    """Give a package without a version the one that `ros2 pkg create` gives."""
+    places = _places(case.files.data(FILE))
+    tag = _one(places, "name") if places else None
+    if places is None or tag is None or case.finding.params.get("tag") != "version":
+        return None
+    there = [t for t in places.closed if t.name == "version"]
+    if there and (len(there) > 1 or there[0].within != "package"):
+        return None
+    if there:
+        return _put(case, there[0].start, there[0].end, b"<version>0.0.0</version>")
+    indent = _indent(places.found, tag.start)
+    new = _newline(places.found) + indent + b"<version>0.0.0</version>"
+    return _put(case, tag.end, tag.end, new)
+
+
+def well_formed(case: Case) -> Files | None:
+    """Mend an end tag that has not the name of its start tag, or a bare `&`."""
+    found = case.files.data(FILE)
+    if found is None or len(found) > MOST_BYTES or case.finding.mistake != "package.broken_xml":
+        return None
+    places = _Places(found)
+    try:
+        places.parser.Parse(found, True)
+    except expat.ExpatError as error:
+        at = places.parser.ErrorByteIndex
+        code = expat.errors.messages.get(error.code, "")
+    except (ValueError, LookupError):
+        return None
+    else:
+        return None
+    new: bytes | None = None
+    if code == expat.errors.XML_ERROR_TAG_MISMATCH and places.open:
+        new = _right_end(found, at, places.open[-1].name)
+    elif code in (expat.errors.XML_ERROR_INVALID_TOKEN, expat.errors.XML_ERROR_UNDEFINED_ENTITY):
+        amp = found.rfind(b"&", max(0, at - 40), at + 1)
+        if amp >= 0 and not re.match(rb"&(#?\w{1,30});", found[amp : amp + 40]):
+            new = found[:amp] + b"&amp;" + found[amp + 1 :]
+    return case.with_data(FILE, new)
+
+
+def _right_end(found: bytes, at: int, name: str) -> bytes | None:
+    """Return the bytes with the end tag at (or just before) a place given its right name."""
+    start = found.rfind(b"</", max(0, at - 200), at + 3)
+    match = (
+        re.match(rb"</\s*([^<>\s]{1,100})\s*>", found[start : start + 120]) if start >= 0 else None
+    )
+    if match is None:
+        return None
+    wrong = match.group(1).decode("utf-8", "replace")
+    if nearest(name, [wrong], cutoff=0.6) != wrong:
+        return None
+    begin = start + match.start(1)
+    return found[:begin] + name.encode() + found[begin + len(match.group(1)) :]

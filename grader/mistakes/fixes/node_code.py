@@ -1,0 +1,145 @@
+"""The node's file as syntax: its class, its methods, its calls, for the mends of what a run shows."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import SourceText
+from grader.package.edit.text import Splice
+from grader.package.edit.text import read_source
+from grader.package.source.python import PythonFault
+from grader.package.source.python import parse_python
+
+LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
+
+
+@dataclass(frozen=True)
+class NodeCode:
+    """A node's file that Python can read and that has one class."""
+
+    case: Case
+    source: SourceText
+    tree: ast.Module
+    node_class: ast.ClassDef
+
+    def changed(self, *splices: Splice) -> Files | None:
+        """Return the files after changes of this one, if Python can read it still."""
+        new = self.source.spliced(splices) if splices else None
+        if new is None:
+            return None
+        try:
+            parse_python(new)
+        except PythonFault:
+            return None
+        return self.case.with_data(self.case.node_path, new)
+
+    def method(self, name: str) -> ast.FunctionDef | None:
+        """Return a method of the class; None if there is none, or more than one."""
+        body = self.node_class.body
+        found = [s for s in body if isinstance(s, ast.FunctionDef) and s.name == name]
+        return found[0] if len(found) == 1 else None
+
+    @property
+    def methods(self) -> list[ast.FunctionDef]:
+        """The methods of the class."""
+        return [s for s in self.node_class.body if isinstance(s, ast.FunctionDef)]
+
+    @property
+    def main(self) -> ast.FunctionDef | None:
+        """The function that the entry point leads to, if it is in this file."""
+        name = self.case.assignment.target.partition(":")[2]
+        found = [s for s in self.tree.body if isinstance(s, ast.FunctionDef) and s.name == name]
+        return found[0] if len(found) == 1 else None
+
+    def calls(self, *names: str, within: ast.AST | None = None) -> list[ast.Call]:
+        """Return the calls of a function or method of one of these names, in order."""
+        found = [n for n in ast.walk(within or self.tree) if isinstance(n, ast.Call)]
+        named = [call for call in found if called(call) in names]
+        return sorted(named, key=lambda call: (call.lineno, call.col_offset))
+
+    @property
+    def timer(self) -> ast.Call | None:
+        """The one call of create_timer."""
+        found = self.calls("create_timer")
+        return found[0] if len(found) == 1 else None
+
+    @property
+    def log_call(self) -> ast.Call | None:
+        """The one call of the node's logger, if it is given one thing to say."""
+        found = [c for c in self.calls(*LEVELS) if "get_logger" in ast.unparse(c.func)]
+        return found[0] if len(found) == 1 and len(found[0].args) == 1 else None
+
+    @property
+    def quote(self) -> str:
+        """The quotes that the file uses for its texts."""
+        text = self.source.text.replace('"""', "").replace("'''", "")
+        return '"' if text.count('"') > text.count("'") else "'"
+
+    def counters(self) -> dict[str, ast.Constant]:
+        """Return the attributes of self that __init__ gives a number, written as one, once."""
+        init = self.method("__init__")
+        found: dict[str, ast.Constant] = {}
+        for statement in init.body if init else []:
+            if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
+                name, value = own(statement.targets[0]), statement.value
+                if name and isinstance(value, ast.Constant) and type(value.value) is int:
+                    found[name] = value
+        return found
+
+    def changes_of(self, name: str) -> list[ast.stmt]:
+        """Return the statements outside of __init__ that give an attribute of self a value."""
+        inside = {id(n) for n in ast.walk(self.method("__init__") or ast.Pass())}
+        found: list[ast.stmt] = []
+        for node in ast.walk(self.tree):
+            if id(node) in inside:
+                continue
+            targets: Iterable[ast.expr] = ()
+            if isinstance(node, ast.Assign):
+                targets = node.targets
+            elif isinstance(node, ast.AugAssign | ast.AnnAssign):
+                targets = (node.target,)
+            if any(own(target) == name for target in targets) and isinstance(node, ast.stmt):
+                found.append(node)
+        return found
+
+
+def called(call: ast.Call) -> str:
+    """Return the last name of what is called."""
+    function = call.func
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ""
+
+
+def own(node: ast.expr | None) -> str:
+    """Return x of `self.x`; empty for all else."""
+    plain = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+    if plain and isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+        return node.attr if node.value.id == "self" else ""
+    return ""
+
+
+def read_node(case: Case) -> NodeCode | None:
+    """Return the node's file; None if it cannot be read or has not one class."""
+    found = case.files.data(case.node_path)
+    source = read_source(found)
+    if found is None or source is None:
+        return None
+    try:
+        tree = parse_python(found).tree
+    except PythonFault:
+        return None
+    classes = [s for s in tree.body if isinstance(s, ast.ClassDef)]
+    return NodeCode(case, source, tree, classes[0]) if len(classes) == 1 else None
+
+
+def plain_text(code: NodeCode, node: ast.expr | None) -> str | None:
+    """Return a text that is written as one literal without prefix or escapes, else None."""
+    if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+        return None
+    text = node.value
+    return text if code.source.code(node) in (f"'{text}'", f'"{text}"') else None

@@ -1,0 +1,118 @@
+"""Mends of setup.cfg."""
+
+from __future__ import annotations
+
+import re
+
+from grader.base.nearest import nearest
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import SourceText
+from grader.package.edit.text import Splice
+from grader.package.edit.text import indent_of
+from grader.package.edit.text import read_text
+from grader.package.source.setup_cfg import SetupCfg
+from grader.package.source.setup_cfg import SetupCfgFault
+from grader.package.source.setup_cfg import read_setup_cfg
+
+FILE = "setup.cfg"
+KEYS = {"develop": "script_dir", "install": "install_scripts"}
+
+
+def wanted(package: str) -> str:
+    """Return the folder in which `ros2 run` looks for executables."""
+    return f"$base/lib/{package}"
+
+
+def missing(case: Case) -> Files | None:
+    """Make a setup.cfg that is not there, of the name that is nearly right if there is one."""
+    if FILE in case.files.by_path:
+        return None
+    close = nearest(FILE, case.files.names_in(""), cutoff=0.8)
+    if close and case.files.file(close) is not None:
+        return case.files.with_move(close, FILE)
+    rows = [(f"[{section}]", f"{key}={wanted(case.package)}") for section, key in KEYS.items()]
+    return case.with_data(FILE, "".join(f"{row}\n" for pair in rows for row in pair).encode())
+
+
+def setting(case: Case) -> Files | None:
+    """Give the section that was named its key and value."""
+    found = case.files.data(FILE)
+    text = read_text(found)
+    section = str(case.finding.params.get("section", ""))
+    if found is None or text is None or section not in KEYS:
+        return None
+    try:
+        cfg = read_setup_cfg(found)
+    except SetupCfgFault:
+        return None
+    change = _change(cfg, text, section, f"{KEYS[section]}={wanted(case.package)}")
+    return case.with_data(FILE, text.spliced([change])) if change else None
+
+
+def _change(cfg: SetupCfg, text: SourceText, section: str, row: str) -> Splice | None:
+    key = KEYS[section]
+    if section not in cfg.sections:
+        close = nearest(section, cfg.sections, cutoff=0.75)
+        head = cfg.lines.get(close)
+        if close and head is None:
+            return None
+        if head is not None:
+            at = text.start_of(head) + text.line(head).find(close)
+            return Splice(at, at + len(close), section)
+        return text.before(len(text.lines) + 1, f"[{section}]", row)
+    settings = cfg.sections[section]
+    names = (key, key.replace("_", "-"), nearest(key, settings))
+    old = next((settings[name] for name in names if name in settings), None)
+    if old is None:
+        head = cfg.lines.get(section)  # None for a heading that is indented
+        return text.before(head + 1, row) if head is not None else None
+    if "\n" in old.value:
+        return None
+    line = text.line(old.line)
+    match = re.match(r"([^=:]*?)(\s*[=:]\s*)(.*?)\s*$", line)
+    if match is None or match[3] != old.value or match[1] not in names:
+        return None
+    at, (name, value) = text.start_of(old.line), row.split("=", 1)
+    # a key with a dash is not wrong; it is changed only with the value
+    return Splice(at, at + match.end(3), indent_of(line) + name + match[2] + value)
+
+
+def dashes(case: Case) -> Files | None:
+    """Write `script_dir` for `script-dir`: some versions of setuptools refuse the dash."""
+    text = read_text(case.files.data(FILE))
+    if text is None:
+        return None
+    splices = []
+    for key in KEYS.values():
+        dashed = re.escape(key.replace("_", "-"))
+        for match in re.finditer(rf"^{dashed}(?=\s*[=:])", text.text, re.MULTILINE):
+            if re.search(rf"^{key}\s*[=:]", text.text, re.MULTILINE):
+                return None
+            splices.append(Splice(match.start(), match.end(), key))
+    return case.with_data(FILE, text.spliced(splices))
+
+
+def syntax(case: Case) -> Files | None:
+    """Close a heading's bracket, or take away a byte order mark."""
+    found = case.files.data(FILE)
+    text = read_text(found)
+    if text is None or found is None or _is_read(found):
+        return None
+    if text.mark:
+        return case.with_data(FILE, found[len(text.mark) :])
+    line = text.line(case.finding.line or 0)
+    match = re.fullmatch(r"(\[?)([A-Za-z_.]{1,40})(\]?)\s*", line)
+    if match is None or bool(match[1]) == bool(match[3]) or match[2] not in KEYS:
+        return None
+    start = text.start_of(case.finding.line or 0)
+    new = text.spliced([Splice(start, start + len(line), f"[{match[2]}]")])
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _is_read(found: bytes) -> bool:
+    try:
+        read_setup_cfg(found)
+    except SetupCfgFault:
+        return False
+    return True

@@ -1,0 +1,118 @@
+"""Mends of setup.py but for its entry points: the package's name, the marker, what stops it."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.base.nearest import nearest
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.setup_call import FILE
+from grader.mistakes.fixes.setup_call import SetupCall
+from grader.mistakes.fixes.setup_call import read_setup_call
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
+from grader.verdict.checks.package import INDEX
+
+
+def name(case: Case) -> Files | None:
+    """Give setup() the package's name, in the variable if it is kept in one."""
+    setup = read_setup_call(case)
+    literal = setup.literal(setup.argument("name")) if setup else None
+    if setup is None or literal is None or literal.value == case.package:
+        return None
+    return case.with_data(FILE, setup.source.spliced([setup.text(literal, case.package)]))
+
+
+def marker(case: Case) -> Files | None:
+    """Let data_files install the marker: mend the name that it names, or add the lost line."""
+    setup = read_setup_call(case)
+    if setup is None:
+        return None
+    splices = _renamed(setup, case) or _added(setup, case)
+    return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
+
+
+def _pair(node: ast.expr) -> tuple[ast.Constant, ast.expr] | None:
+    """Return folder and files of an item of data_files."""
+    if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:
+        folder, files = node.elts
+        if isinstance(folder, ast.Constant) and isinstance(folder.value, str):
+            return folder, files
+    return None
+
+
+def _renamed(setup: SetupCall, case: Case) -> list[Splice]:
+    """Return the splice of the one wrong name that the marker's line has, in whatever form."""
+    data_files = setup.argument("data_files")
+    items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
+    for item in items:
+        pair = _pair(item)
+        if pair is None or str(pair[0].value).strip("/") != INDEX:
+            continue
+        files = pair[1]
+        if not isinstance(files, ast.List | ast.Tuple) or len(files.elts) != 1:
+            return []
+        named = files.elts[0]
+        whole = setup.literal(named)
+        if whole is not None and whole.value != f"resource/{case.package}":
+            return [setup.text(whole, f"resource/{case.package}")]
+        if isinstance(named, ast.BinOp) and isinstance(named.op, ast.Add):
+            start, last = setup.literal(named.left), setup.literal(named.right)
+            if start is not None and last is not None and start.value == "resource/":
+                return [setup.text(last, case.package)] if last.value != case.package else []
+    return []
+
+
+def _added(setup: SetupCall, case: Case) -> list[Splice]:
+    data_files = setup.argument("data_files")
+    q = setup.quote
+    package = setup.constant("package_name")
+    known = isinstance(package, ast.Constant) and package.value == case.package
+    path = f"{q}resource/{q} + package_name" if known else f"{q}resource/{case.package}{q}"
+    row = f"({q}{INDEX}{q}, [{path}])"
+    if data_files is None:
+        return setup.new_argument("data_files", ["[", f"    {row},", "],"])
+    if not isinstance(data_files, ast.List):
+        return []
+    if any((pair := _pair(e)) and str(pair[0].value).strip("/") == INDEX for e in data_files.elts):
+        return []
+    return setup.into_list(data_files, row)
+
+
+def prints(case: Case) -> Files | None:
+    """Take print() out of setup.py, where it is a whole line of the module's own."""
+    setup = read_setup_call(case)
+    if setup is None or case.finding.mistake != "build.setup_prints":
+        return None
+    lines = [
+        statement
+        for statement in setup.tree.body
+        if isinstance(statement, ast.Expr)
+        and isinstance(statement.value, ast.Call)
+        and isinstance(statement.value.func, ast.Name)
+        and statement.value.func.id == "print"
+    ]
+    splices = []
+    for statement in lines:
+        start, end = setup.source.span(statement)
+        number = statement.lineno
+        rest = setup.source.line(number).replace(setup.source.text[start:end], "", 1).strip()
+        if statement.end_lineno != number or (rest and not rest.startswith("#")):
+            return None
+        splices.append(setup.source.without(number))
+    return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
+
+
+def setuptools(case: Case) -> Files | None:
+    """Import setup from setuptools by its right name."""
+    setup = read_setup_call(case)
+    if setup is None:
+        return None
+    splices = []
+    for statement in setup.tree.body:
+        said = (statement.module or "") if isinstance(statement, ast.ImportFrom) else ""
+        line = setup.source.line(statement.lineno)
+        if nearest("setuptools", [said], cutoff=0.85) == said != "" and line.count(said) == 1:
+            at = setup.source.start_of(statement.lineno) + line.find(said)
+            splices.append(Splice(at, at + len(said), "setuptools"))
+    return case.with_data(FILE, setup.source.spliced(splices)) if splices else None

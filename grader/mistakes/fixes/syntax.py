@@ -1,0 +1,106 @@
+"""Mends of Python that Python cannot read, where only one small change makes it readable."""
+
+from __future__ import annotations
+
+import re
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import SourceText
+from grader.package.edit.text import Splice
+from grader.package.edit.text import indent_of
+from grader.package.edit.text import read_source
+from grader.package.source.python import PythonFault
+from grader.package.source.python import parse_python
+
+TAB_WIDTHS = (2, 4, 8)
+TRIES = 3
+
+
+def node(case: Case) -> Files | None:
+    """Mend the node's file."""
+    return _mended(case, case.node_path)
+
+
+def setup_py(case: Case) -> Files | None:
+    """Mend setup.py."""
+    return _mended(case, "setup.py")
+
+
+def fault_of(found: bytes) -> PythonFault | None:
+    """Return why Python cannot read a file; None if it can."""
+    try:
+        parse_python(found)
+    except PythonFault as fault:
+        return fault
+    return None
+
+
+def _mended(case: Case, path: str) -> Files | None:
+    found = case.files.data(path)
+    for _ in range(TRIES):
+        fault = fault_of(found) if found is not None else None
+        text = read_source(found)
+        if found is None or fault is None or text is None:
+            break
+        found = _without_tabs(text) if fault.kind == "tabs" else _smaller(text, fault)
+    if found is None or fault_of(found) is not None:
+        return None
+    return case.with_data(path, found)
+
+
+def _without_tabs(text: SourceText) -> bytes | None:
+    """Return the file with blanks for the tabs that indent, if only one width of them will do."""
+    fitting = []
+    for width in TAB_WIDTHS:
+        splices = []
+        for number, line in enumerate(text.lines, start=1):
+            indent = indent_of(line)
+            start = text.start_of(number)
+            splices.append(Splice(start, start + len(indent), indent.expandtabs(width)))
+        new = text.spliced(splices)
+        if new is not None and fault_of(new) is None:
+            fitting.append(new)
+    return fitting[0] if len(fitting) == 1 else None
+
+
+def _smaller(text: SourceText, fault: PythonFault) -> bytes | None:
+    """Return the file with the one sign that Python says is missing from the line it names."""
+    number = fault.line or 0
+    line = text.line(number)
+    if not line.strip():
+        return None
+    end = text.start_of(number) + len(_without_comment(line))
+    if "expected ':'" in fault.text and re.match(
+        r"\s*(def|class|if|else|elif|try|except|finally|"
+        r"for|while|with)\b",
+        line,
+    ):
+        return text.spliced([Splice(end, end, ":")])
+    if "was never closed" in fault.text and _open_brackets(line) == ["("]:
+        return text.spliced([Splice(end, end, ")")])
+    if "forgot a comma" in fault.text and not line.rstrip().endswith((",", "(", "[", "{", "\\")):
+        return text.spliced([Splice(end, end, ",")])
+    return None
+
+
+def _open_brackets(line: str) -> list[str]:
+    """Return the brackets that a line opens and does not close; `?` for one that does not fit."""
+    pairs = {")": "(", "]": "[", "}": "{"}
+    waiting: list[str] = []
+    quote = ""
+    for sign in line:
+        if quote or sign in "'\"":
+            quote = "" if sign == quote else quote or sign
+        elif sign in "([{":
+            waiting.append(sign)
+        elif sign in pairs and (not waiting or waiting.pop() != pairs[sign]):
+            return ["?"]
+    return [*waiting, quote] if quote else waiting
+
+
+def _without_comment(line: str) -> str:
+    """Return a line without a comment at its end (one in which no quote comes before a `#`)."""
+    before, hash_sign, _ = line.partition("#")
+    plain = hash_sign and not {"'", '"'} & set(before)
+    return (before if plain else line).rstrip()

@@ -1,0 +1,246 @@
+"""Writing a plan to the student's own copy: all of it or nothing, and never out of the package.
+
+Every folder on the way is opened without following links (openat(2), O_NOFOLLOW), so that neither
+a link in the package nor one that is put there meanwhile leads out of it. A file is written beside
+its place and renamed over it; the bytes that it had before stay in `<name>.~1~`, a backup as
+`cp --backup=numbered` makes them (intake leaves such files out).
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.shown import shown
+from grader.package.intake.model import SourceFile
+from grader.verdict.fix import Plan
+
+FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
+FILE = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+MOST_BACKUPS = 1000
+NOTHING_WRITTEN = say("Nothing was written.")
+IS_NEW = say("it was not there when the package was looked at")
+IS_LINK = say("it is a link, and only the file itself is mended")
+BEHIND_LINK = say("the way to it is a link")
+IS_CHANGED = say("it was changed meanwhile; call grader fix again")
+IS_READ_ONLY = say("it is read-only (chmod u+w makes it yours to change)")
+
+
+@dataclass(frozen=True)
+class Change:
+    """One file of the plan: where it is now, as what; where it will be, as what."""
+
+    source: str | None
+    before: SourceFile | None
+    path: str
+    after: SourceFile
+
+
+def changes(plan: Plan) -> list[Change]:
+    """Return the files that a plan changes."""
+    found = []
+    for path, after in sorted(plan.new.by_path.items()):
+        source = plan.new.moved.get(path, path)
+        before = plan.old.by_path.get(source)
+        same = before is not None and (before.data, before.mode) == (after.data, after.mode)
+        if after.kind == "file" and not (same and source == path):
+            found.append(Change(source if before else None, before, path, after))
+    return found
+
+
+def apply(plan: Plan, root: Path) -> list[str]:
+    """Write a plan to the package in the folder `root` and return the backups' paths in it.
+
+    Raises UsageError, with nothing written, for what may not be written to, is a link, or is not
+    any more as it was when it was looked at.
+    """
+    todo = changes(plan)
+    backups: list[str] = []
+    undo: list[tuple[Change, str]] = []
+    with _package(root) as top:
+        for change in todo:
+            _check(top, change)
+        try:
+            for change in todo:
+                undo.append((change, ""))
+                backup = _write(top, change)
+                undo[-1] = (change, backup)
+                backups += [backup] if backup else []
+        except OSError as error:
+            _undo(top, undo)
+            raise _refused(todo[len(undo) - 1].path, error.strerror or str(error)) from None
+        except BaseException:  # Ctrl+C in the middle leaves nothing half done
+            _undo(top, undo)
+            raise
+    return backups
+
+
+def _refused(path: str, reason: str) -> UsageError:
+    return UsageError(joined(shown(path), reason, by=": "), remedy=NOTHING_WRITTEN)
+
+
+@contextmanager
+def _package(root: Path) -> Iterator[int]:
+    try:
+        top = os.open(root, FOLDER)
+    except OSError as error:
+        raise _refused(str(root), error.strerror or say("it cannot be opened")) from None
+    try:
+        yield top
+    finally:
+        os.close(top)
+
+
+@contextmanager
+def _folder_of(top: int, path: str, *, make: bool = False) -> Iterator[tuple[int, str]]:
+    """Open the folder of a path in the package, and yield it with the file's name."""
+    *above, name = path.split("/")
+    at = os.dup(top)
+    try:
+        for part in above:
+            if part in ("", ".", ".."):
+                raise OSError(errno.EINVAL, "not a path in the package")
+            if make:
+                with suppress(FileExistsError):
+                    os.mkdir(part, dir_fd=at)
+            inner = os.open(part, FOLDER, dir_fd=at)
+            os.close(at)
+            at = inner
+        yield at, name
+    finally:
+        os.close(at)
+
+
+def _check(top: int, change: Change) -> None:
+    """Raise UsageError if a change may not be made."""
+    if change.source != change.path and _is_there(top, change.path):
+        raise _refused(change.path, IS_NEW)
+    if change.source is None or change.before is None:
+        return
+    try:
+        with _folder_of(top, change.source) as (folder, name):
+            mode = os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode
+            if stat.S_ISLNK(mode):
+                raise _refused(change.source, IS_LINK)
+            found = _bytes(folder, name, len(change.before.data))
+    except OSError as error:
+        what = BEHIND_LINK if error.errno == errno.ELOOP else error.strerror
+        raise _refused(change.source, what or say("it cannot be read")) from None
+    if found != change.before.data:
+        raise _refused(change.source, IS_CHANGED)
+    if not mode & stat.S_IWUSR:
+        raise _refused(change.source, IS_READ_ONLY)
+
+
+def _bytes(folder: int, name: str, expected: int) -> bytes:
+    with os.fdopen(os.open(name, FILE, dir_fd=folder), "rb") as file:
+        return file.read(expected + 1)
+
+
+def _is_there(top: int, path: str) -> bool:
+    try:
+        with _folder_of(top, path) as (folder, name):
+            os.stat(name, dir_fd=folder, follow_symlinks=False)
+    except FileNotFoundError:
+        return False
+    except OSError as error:
+        what = BEHIND_LINK if error.errno in (errno.ELOOP, errno.ENOTDIR) else ""
+        raise _refused(path, what or error.strerror or say("it cannot be looked at")) from None
+    return True
+
+
+def _write(top: int, change: Change) -> str:
+    """Make one change; return the path of the backup, empty if none was needed."""
+    backup = ""
+    if change.source is not None and change.source != change.path:
+        _move(top, change.source, change.path)
+    with _folder_of(top, change.path, make=True) as (folder, name):
+        before = change.before
+        if before is None or before.data != change.after.data:
+            old = os.stat(name, dir_fd=folder) if before is not None else None
+            temporary = f".{name}.{os.getpid()}.new~"
+            _put(folder, temporary, change.after.data, old)
+            try:
+                if before is not None:
+                    backup = _backed_up(folder, name)
+                os.rename(temporary, name, src_dir_fd=folder, dst_dir_fd=folder)
+            except BaseException:
+                for left in filter(None, (temporary, backup)):
+                    os.unlink(left, dir_fd=folder)
+                raise
+        if before is not None and before.mode != change.after.mode:
+            _chmod(folder, name, change.after.mode)
+    above = change.path.rpartition("/")[0]
+    return f"{above}/{backup}".lstrip("/") if backup else ""
+
+
+def _chmod(folder: int, name: str, mode: int) -> None:
+    handle = os.open(name, FILE, dir_fd=folder)
+    try:
+        os.fchmod(handle, mode & 0o777)
+    finally:
+        os.close(handle)
+
+
+def _move(top: int, source: str, path: str) -> None:
+    with (
+        _folder_of(top, source) as (old, name),
+        _folder_of(top, path, make=True) as (new, to),
+    ):
+        os.rename(name, to, src_dir_fd=old, dst_dir_fd=new)
+
+
+def _put(folder: int, name: str, found: bytes, like: os.stat_result | None) -> None:
+    """Write a new file, with the mode and (where that is allowed) the owner of another."""
+    with os.fdopen(os.open(name, NEW, 0o644, dir_fd=folder), "wb") as file:
+        file.write(found)
+        file.flush()
+        like = like or os.fstat(folder)
+        with suppress(PermissionError):  # (a file system without modes refuses them)
+            if stat.S_ISREG(like.st_mode):
+                os.fchmod(file.fileno(), stat.S_IMODE(like.st_mode))
+            os.fchown(file.fileno(), like.st_uid, like.st_gid)
+        os.fsync(file.fileno())
+
+
+def _backed_up(folder: int, name: str) -> str:
+    """Keep a file under another name too (a hard link, or a copy where there are none)."""
+    for number in range(1, MOST_BACKUPS):
+        backup = f"{name}.~{number}~"
+        try:
+            os.link(name, backup, src_dir_fd=folder, dst_dir_fd=folder, follow_symlinks=False)
+        except FileExistsError:
+            continue
+        except OSError:
+            try:
+                old = os.stat(name, dir_fd=folder, follow_symlinks=False)
+                _put(folder, backup, _bytes(folder, name, old.st_size), old)
+            except FileExistsError:
+                continue
+        return backup
+    raise OSError(errno.EEXIST, f"there are {MOST_BACKUPS} backups of it already")
+
+
+def _undo(top: int, done: list[tuple[Change, str]]) -> None:
+    """Bring back what was before, the last change first."""
+    for change, backup in reversed(done):
+        with suppress(OSError), _folder_of(top, change.path) as (folder, name):
+            if backup:
+                os.rename(backup.rpartition("/")[2], name, src_dir_fd=folder, dst_dir_fd=folder)
+            elif change.before is None:
+                os.unlink(name, dir_fd=folder)
+            if change.before is not None:
+                _chmod(folder, name, change.before.mode)
+        if change.source is not None and change.source != change.path:
+            with suppress(OSError):
+                _move(top, change.path, change.source)

@@ -1,0 +1,88 @@
+"""A package's files as they are, and as they would be after a mend."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field
+from dataclasses import replace
+
+from grader.package.intake.links import follow
+from grader.package.intake.model import SourceFile
+from grader.package.intake.model import Submission
+
+PLAIN, EXECUTABLE = 0o644, 0o755
+
+
+@dataclass(frozen=True)
+class Files:
+    """Files by their path in the package; `moved` tells where one with a new path was before."""
+
+    by_path: Mapping[str, SourceFile]
+    moved: Mapping[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, submission: Submission) -> Files:
+        """Return the files of what was handed in."""
+        return cls({file.path: file for file in submission.files})
+
+    def put_into(self, submission: Submission) -> Submission:
+        """Return the submission with these files instead of its own."""
+        return replace(submission, files=tuple(file for _, file in sorted(self.by_path.items())))
+
+    def file(self, path: str) -> SourceFile | None:
+        """Return a plain file that can be read; None for all else, links too."""
+        found = self.by_path.get(path)
+        plain = found is not None and found.kind == "file" and not found.unreadable
+        return found if plain and not self.through_link(path) else None
+
+    def data(self, path: str) -> bytes | None:
+        """Return the bytes of a plain file, or None."""
+        found = self.file(path)
+        return found.data if found is not None else None
+
+    def through_link(self, path: str) -> bool:
+        """Whether the way to a path goes through a link: such a file is never mended."""
+        links = {name: f.target for name, f in self.by_path.items() if f.kind == "link"}
+        return follow(path, links).place != path
+
+    def with_data(self, path: str, data: bytes) -> Files:
+        """Return the files with other bytes in one of them, which is made where it is missing."""
+        old = self.by_path.get(path)
+        new = replace(old, data=data) if old else SourceFile(path, "file", PLAIN, data)
+        return replace(self, by_path={**self.by_path, **self._folders(path), path: new})
+
+    def with_mode(self, path: str, mode: int) -> Files:
+        """Return the files with another mode of one of them. KeyError if it is not there."""
+        new = replace(self.by_path[path], mode=mode)
+        return replace(self, by_path={**self.by_path, path: new})
+
+    def with_move(self, path: str, to: str) -> Files:
+        """Return the files with one of them in another place. KeyError if it is not there."""
+        rest = {name: file for name, file in self.by_path.items() if name != path}
+        moved = {new: old for new, old in self.moved.items() if new != path}
+        first = self.moved.get(path, path)
+        if first != to:
+            moved[to] = first
+        new = replace(self.by_path[path], path=to)
+        return Files({**rest, **self._folders(to), to: new}, moved)
+
+    def names_in(self, folder: str) -> list[str]:
+        """Return the names of the files directly in a folder, the package's own if it is empty."""
+        start = f"{folder}/" if folder else ""
+        inside = [
+            path[len(start) :]
+            for path, f in self.by_path.items()
+            if f.kind != "folder" and path.startswith(start)
+        ]
+        return sorted(name for name in inside if "/" not in name)
+
+    def below(self, folder: str) -> list[str]:
+        """Return the paths of all files below a folder."""
+        found = [p for p, f in self.by_path.items() if f.kind != "folder"]
+        return sorted(path for path in found if path.startswith(f"{folder}/"))
+
+    def _folders(self, path: str) -> dict[str, SourceFile]:
+        parts = path.split("/")[:-1]
+        above = ["/".join(parts[: n + 1]) for n in range(len(parts))]
+        return {p: SourceFile(p, "folder", EXECUTABLE) for p in above if p not in self.by_path}

@@ -1,0 +1,170 @@
+"""Tar archives, plain or packed with gzip, xz or bzip2, read member by member."""
+
+from __future__ import annotations
+
+import bz2
+import gzip
+import io
+import lzma
+import tarfile
+import tempfile
+from collections.abc import Iterator
+from datetime import datetime
+from datetime import timezone
+from typing import IO
+
+from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import say
+from grader.package.intake.archive_kind import HEAD
+from grader.package.intake.archive_kind import Packing
+from grader.package.intake.archive_kind import is_tar
+from grader.package.intake.archive_limits import Spent
+from grader.package.intake.archive_member import CHUNK
+from grader.package.intake.archive_member import Member
+from grader.package.intake.archive_problems import ArchiveError
+from grader.package.intake.archive_problems import corrupt
+from grader.package.intake.archive_problems import unsupported
+
+IN_MEMORY = 8_000_000  # what is unpacked on the way lies on disk from here on, without a name
+XZ_MEMORY = 100_000_000  # xz -9 asks for 65 MB
+
+
+class _Guarded(io.RawIOBase):
+    """A file of which no more may be read than was allowed: a hostile header asks for gigabytes."""
+
+    def __init__(self, file: IO[bytes], what: str) -> None:
+        self._file = file
+        self._what = what
+        self.allowed = 0
+
+    def seekable(self) -> bool:
+        return True
+
+    def readable(self) -> bool:
+        return True
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        return self._file.seek(offset, whence)
+
+    def tell(self) -> int:
+        return self._file.tell()
+
+    def read(self, size: int = -1) -> bytes:
+        if not 0 <= size <= self.allowed:
+            raise ArchiveError(corrupt(self._what, say("a header in it is impossibly long")))
+        self.allowed -= size
+        return self._file.read(size)
+
+
+def read_tar(file: IO[bytes], packing: Packing, what: str, spent: Spent) -> Iterator[Member]:
+    """Yield a tar's members in their order; ArchiveError where it is refused.
+
+    Whatever else tarfile raises over the bytes of a stranger means that they are damaged.
+    """
+    if not packing:
+        yield from _members(file, what, spent)
+        return
+    with tempfile.SpooledTemporaryFile(max_size=IN_MEMORY) as unpacked:
+        for chunk in _unpacked(file, packing):
+            spent.unpack(what, len(chunk))
+            _write(unpacked, chunk)
+        unpacked.seek(0)
+        if not is_tar(unpacked.read(HEAD)):
+            kind = say("one file packed with {packing} and no archive", packing=packing)
+            raise ArchiveError(unsupported(what, kind))
+        unpacked.seek(0)
+        yield from _members(unpacked, what, spent)
+
+
+def _write(unpacked: tempfile.SpooledTemporaryFile[bytes], chunk: bytes) -> None:
+    try:
+        unpacked.write(chunk)
+    except OSError as error:
+        raise SurroundingsError(
+            f"there is no room to unpack an archive in {tempfile.gettempdir()}: {error.strerror}",
+            remedy="Make room there, or name another folder in TMPDIR.",
+        ) from None
+
+
+def _unpacked(file: IO[bytes], packing: Packing) -> Iterator[bytes]:
+    """Yield what comes out, in pieces whose size is bounded whatever goes in."""
+    if packing == "gzip":
+        with gzip.GzipFile(fileobj=file) as unpacking:
+            while chunk := unpacking.read(CHUNK):
+                yield chunk
+        return
+    decoder: lzma.LZMADecompressor | bz2.BZ2Decompressor
+    more = file.read(CHUNK)
+    while more:  # one stream after the other: `cat a.xz b.xz` is a valid xz
+        new = lzma.LZMADecompressor(memlimit=XZ_MEMORY) if packing == "xz" else None
+        decoder = new or bz2.BZ2Decompressor()
+        while not decoder.eof:
+            if decoder.needs_input and not more:
+                more = file.read(CHUNK)
+                if not more:
+                    raise EOFError("it ends in the middle")
+            yield decoder.decompress(more, max_length=CHUNK)
+            more = b""
+        more = (decoder.unused_data or file.read(CHUNK)).lstrip(b"\0")
+
+
+def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
+    guarded = _Guarded(file, what)
+    guarded.allowed = spent.limits.header
+    headers = spent.limits.headers
+    with tarfile.open(
+        fileobj=guarded, mode="r:", encoding="utf-8", errors="surrogateescape"
+    ) as archive:
+        before = -1
+        while True:
+            guarded.allowed = allowed = min(spent.limits.header, headers)
+            info = archive.next()
+            headers -= allowed - guarded.allowed
+            if info is None:
+                break
+            archive.members = []  # type: ignore[attr-defined] # it would keep them all
+            # a negative size sends tarfile back to where it was, for ever (CVE-2025-8194)
+            if info.offset <= before or info.size < 0 or archive.offset <= info.offset:
+                raise ArchiveError(corrupt(what, say("its headers go round in a circle")))
+            before = info.offset
+            spent.member(what)
+            yield _member(archive, info, guarded)
+        _see_the_end(file, archive.offset, what)
+
+
+def _see_the_end(file: IO[bytes], offset: int, what: str) -> None:
+    """Refuse what goes on after the last header that could be read: tarfile takes it for the end."""
+    file.seek(offset)
+    if file.read(HEAD).strip(b"\0"):
+        raise ArchiveError(corrupt(what, say("what follows its last readable file makes no sense")))
+
+
+def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) -> Member:
+    def chunks() -> Iterator[bytes]:
+        guarded.allowed = info.size + CHUNK
+        file = archive.extractfile(info)
+        left = info.size
+        while file is not None and left and (chunk := file.read(min(CHUNK, left))):
+            left -= len(chunk)
+            yield chunk
+        if left:
+            raise EOFError("it ends in the middle of a file")
+
+    mode = info.mode & 0o7777
+    if info.isdir():
+        return Member(info.name, "folder", mode)
+    if info.issym():
+        return Member(info.name, "link", mode, target=info.linkname)
+    if info.islnk():
+        return Member(info.name, "hard link", mode, target=info.linkname)
+    # a sparse file is read by a table that a stranger wrote; no source file is one
+    if not info.isreg() or info.issparse():
+        return Member(info.name, "special", mode)
+    return Member(info.name, "file", mode, info.size, _time(info), chunks=chunks)
+
+
+def _time(info: tarfile.TarInfo) -> datetime | None:
+    try:
+        return datetime.fromtimestamp(info.mtime, timezone.utc)
+    except (ValueError, OverflowError, OSError):
+        return None

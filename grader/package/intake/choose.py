@@ -1,0 +1,150 @@
+"""Which of the folders that look like packages is the one to mark."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass
+
+from grader.base.i18n.message import say
+from grader.base.shown import shown
+from grader.package.intake.model import Candidate
+from grader.package.intake.problems import Problem
+from grader.package.intake.problems import duplicate
+from grader.package.intake.problems import no_package
+from grader.package.intake.reading import Unread
+from grader.package.intake.tree import Tree
+from grader.package.intake.tree import ancestors
+from grader.package.intake.tree import join
+from grader.package.intake.tree import parent
+from grader.package.source.manifest import name_in
+from grader.package.source.setup_py import literal_name
+
+MANIFEST, SETUP, IGNORE = "package.xml", "setup.py", "COLCON_IGNORE"
+MOST_CANDIDATES = 50
+MOST_NAMING_BYTES = 64_000
+"""How much of a package.xml or setup.py is read to learn the package's name."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The chosen candidate, or the problem; `hints` are for the student."""
+
+    chosen: Candidate | None
+    hints: tuple[str, ...] = ()
+    problem: Problem | None = None
+
+
+def find_candidates(tree: Tree) -> list[Candidate]:
+    """Return every folder that holds a package.xml or a setup.py, outer ones first."""
+    folders = {
+        parent(path)
+        for path in tree.entries
+        if path.rpartition("/")[2] in (MANIFEST, SETUP) and tree.file(path) is not None
+    }
+    ordered = sorted(folders, key=lambda folder: (len(ancestors(folder)), folder))
+    if len(ordered) > MOST_CANDIDATES:
+        tree.left_out.add(f"more than {MOST_CANDIDATES} packages; not looked at", ordered[-1])
+    return [Candidate(f, _name(tree, f)) for f in ordered[:MOST_CANDIDATES]]
+
+
+def _name(tree: Tree, folder: str) -> str:
+    """Return what a package calls itself: in package.xml, else in setup.py, else its folder."""
+    for file, read in ((MANIFEST, name_in), (SETUP, literal_name)):
+        entry = tree.file(join(folder, file))
+        if entry is not None:
+            found = tree.place.read(entry.path, MOST_NAMING_BYTES)
+            name = None if isinstance(found, Unread) else read(found)
+            if name:
+                return shown(name)
+    return shown(tree.place.name if folder == "." else folder.rpartition("/")[2])
+
+
+def choose(tree: Tree, candidates: list[Candidate], *, package: str, node_file: str) -> Choice:
+    """Choose by the assignment's package name, as colcon would see the folders."""
+    if not candidates:
+        return Choice(None, problem=no_package(tree, package=package, node_file=node_file))
+    seen = [c for c in candidates if not _ignored(tree, c)]
+    right = _outermost([c for c in seen if c.name == package])
+    # colcon looks no further inside a package: what lies beside others goes before what is nested
+    free = [c for c in right if not _around(c, seen)]
+    if len(free or right) > 1:
+        return Choice(None, problem=duplicate([c.path for c in free or right], package))
+    chosen = next(iter(free or right), None)
+    if chosen is None:
+        chosen = next((c for c in candidates if c.name == package), None)
+    if chosen is None:
+        return _nearest(tree, seen or candidates, package=package, node_file=node_file)
+    return Choice(chosen, tuple(_hints(tree, chosen, candidates)))
+
+
+def _ignored(tree: Tree, candidate: Candidate) -> bool:
+    return any(join(folder, IGNORE) in tree.entries for folder in ancestors(candidate.path))
+
+
+def _outermost(candidates: list[Candidate]) -> list[Candidate]:
+    return [c for c in candidates if not _around(c, candidates)]
+
+
+def _around(candidate: Candidate, others: list[Candidate]) -> list[Candidate]:
+    """Return those of the others in which the candidate is nested, the outermost first."""
+    above = set(ancestors(candidate.path)) - {candidate.path}
+    return [other for other in others if other.path in above]
+
+
+def _nearest(tree: Tree, wrong: list[Candidate], *, package: str, node_file: str) -> Choice:
+    """None has the right name: take the only one, or the one that comes nearest, and say so."""
+
+    def likeness(candidate: Candidate) -> tuple[bool, float, int]:
+        start = "" if candidate.path == "." else f"{candidate.path}/"
+        has_node = any(p.startswith(start) and p.endswith(f"/{node_file}") for p in tree.entries)
+        ratio = difflib.SequenceMatcher(None, candidate.name, package).ratio()
+        return has_node, ratio, -len(ancestors(candidate.path))
+
+    best = max(wrong, key=likeness)
+    hints = _hints(tree, best, wrong)
+    if len(wrong) > 1:
+        names = ", ".join(f"{c.name} ({shown(c.path)})" for c in wrong[:5])
+        hints.insert(
+            0,
+            say(
+                "No package is called {package}; of {names} the one marked is {name}.",
+                package=package,
+                names=names,
+                name=best.name,
+            ),
+        )
+    return Choice(best, tuple(hints))
+
+
+def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[str]:
+    hints: list[str] = []
+    outer = _around(chosen, candidates)
+    if outer:
+        hints.append(
+            say(
+                "{path} lies inside another package ({name}, in {outer}): colcon stops at the "
+                "outer one and never builds the inner. It was marked as if it lay beside it: "
+                "packages belong side by side in src.",
+                path=shown(chosen.path),
+                name=outer[0].name,
+                outer=shown(outer[0].path),
+            )
+        )
+    inner = [c for c in candidates if chosen in _around(c, candidates)]
+    if inner:
+        hints.append(
+            say(
+                "There is another package inside this one ({path}): colcon stops at the outer "
+                "one and never builds the inner. Packages belong side by side in src.",
+                path=shown(inner[0].path),
+            )
+        )
+    if _ignored(tree, chosen):
+        hints.append(
+            say(
+                "A file {ignore} lies in or above the package: colcon then leaves it out, and "
+                "says '0 packages finished'. Delete {ignore}.",
+                ignore=IGNORE,
+            )
+        )
+    return hints

@@ -1,0 +1,78 @@
+"""The path that was given: a folder or an archive, opened as a place to look into."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from pathlib import Path
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
+from grader.base.shown import shown
+from grader.package.intake.archive import read_archive
+from grader.package.intake.archive_kind import HEAD
+from grader.package.intake.archive_kind import is_named_archive
+from grader.package.intake.archive_kind import kind_of
+from grader.package.intake.archive_limits import Spent
+from grader.package.intake.archive_problems import ArchiveError
+from grader.package.intake.archive_problems import no_archive
+from grader.package.intake.place import Folder
+from grader.package.intake.place import Place
+from grader.package.intake.reading import Unread
+from grader.package.intake.reading import open_file
+
+CHUNK = 1_000_000
+
+
+def resolved(path: Path) -> Path:
+    """Return the resolved path of a folder or file that exists; UsageError for all else."""
+    name = shown(str(path))
+    try:
+        kind = os.stat(path).st_mode  # noqa: PTH116 - one look tells all
+        if stat.S_ISDIR(kind) or stat.S_ISREG(kind):
+            return path.resolve()
+    except FileNotFoundError:
+        raise UsageError(say("there is no folder {name}", name=name)) from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        unread = say("{name} cannot be read: {reason}", name=name, reason=str(reason))
+        raise UsageError(unread) from None
+    raise UsageError(say("{name} is neither a folder nor a file", name=name))
+
+
+def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
+    """Open what a resolved path leads to.
+
+    Raises UsageError for a file that is neither an archive nor called one, or cannot be read, and
+    ArchiveError for an archive that is not taken in.
+    """
+    if path.is_dir():
+        return Folder(path, modes_kept=modes_kept)
+    opened = open_file(path)
+    if isinstance(opened, Unread):
+        name = shown(str(path))
+        raise UsageError(say("{name} cannot be read: {reason}", name=name, reason=opened.reason))
+    with opened as file:
+        kind = kind_of(file.read(HEAD))
+        if kind is None and is_named_archive(path.name):
+            raise ArchiveError(no_archive(path.name))
+        if kind is None:
+            raise UsageError(
+                say("{name} is a file, and neither a folder nor an archive", name=shown(str(path))),
+                remedy=say("Give the folder that holds the package, or a zip or tar of it."),
+            )
+        spent.archive(path.name, os.fstat(file.fileno()).st_size, handed_in=True)
+        file.seek(0)
+        return read_archive(file, kind, path.name, spent)
+
+
+def digest_of_file(path: Path, *, most: int) -> str:
+    """Return the hash of a file's size and of its bytes, as far as `most`."""
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        digest.update(f"{os.fstat(file.fileno()).st_size}:".encode())
+        while most > 0 and (chunk := file.read(CHUNK)):
+            digest.update(chunk)
+            most -= len(chunk)
+    return digest.hexdigest()

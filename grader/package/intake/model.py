@@ -1,0 +1,80 @@
+"""What intake hands on: one package with its files, or the reason why there is none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+from grader.package.intake.links import follow
+from grader.report.model import Modes
+from grader.report.model import Origin
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """One file of the package: `path` relative to the package root, POSIX style.
+
+    `mode` holds the permission bits (e.g. 0o755), `data` the bytes, `kind` whether it is a
+    folder, a file or a link that stays inside the package (`target` then). A file that could not
+    be read, or is beyond the size limit, is `unreadable`: it has no data, and `reason` says why.
+    """
+
+    path: str
+    kind: Literal["file", "folder", "link"]
+    mode: int = 0o644
+    data: bytes = b""
+    target: str = ""
+    unreadable: bool = False
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A folder that looks like a package: its path relative to the submission, and its name."""
+
+    path: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Submission:
+    """What was handed in.
+
+    `root` is the package's folder relative to `path` (`.` if it is `path` itself); None if
+    nothing can be marked: then `problem` says why in a sentence, `problem_fix` what to do, and
+    `problem_mistake` is the id of the catalogue. `notes` tell what was left out; `hints` what the
+    student should change although it costs nothing; `node_files` where in all that was handed in
+    a file of the node's name lies, relative to `path`; `links_out` the package's links, relative
+    to it, that lead out of it and were left out.
+    """
+
+    path: Path
+    name: str
+    origin: Origin
+    modes: Modes
+    sha256: str
+    root: str | None
+    files: tuple[SourceFile, ...]
+    candidates: tuple[Candidate, ...] = ()
+    notes: tuple[str, ...] = ()
+    problem: str = ""
+    problem_mistake: str = ""
+    problem_fix: str = ""
+    hints: tuple[str, ...] = ()
+    node_files: tuple[str, ...] = ()
+    links_out: tuple[str, ...] = ()
+
+    @cached_property
+    def _by_path(self) -> dict[str, SourceFile]:
+        return {file.path: file for file in self.files}
+
+    @cached_property
+    def _links(self) -> dict[str, str]:
+        return {file.path: file.target for file in self.files if file.kind == "link"}
+
+    def file(self, path: str) -> SourceFile | None:
+        """Return the package's file or folder (links inside the package resolved), or None."""
+        place = follow(path, self._links).place
+        return None if place is None else self._by_path.get(place)

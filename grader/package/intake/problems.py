@@ -1,0 +1,155 @@
+"""Why there is no package to mark: what was seen, and what to do about it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from grader.base.i18n.message import say
+from grader.base.shown import shown
+from grader.package.intake.tree import MADE_BY_TOOLS
+from grader.package.intake.tree import Tree
+
+ARCHIVE = re.compile(r".*\.(?:zip|tar|tgz|tar\.\w{2,3}|7z|rar)", re.IGNORECASE)
+NEAR_NAME = re.compile(r"package\.xml\.\w{1,10}|setup\.py\.\w{1,10}|package\.xml|setup\.py", re.I)
+CREATE = "ros2 pkg create --build-type ament_python {package}"
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The mistake's id, a sentence that says what was seen, and the fix."""
+
+    mistake: str
+    text: str
+    fix: str
+
+
+def duplicate(paths: list[str], package: str) -> Problem:
+    """Two packages of the right name: colcon refuses, and so nobody knows which one is meant."""
+    places = ", ".join(shown(path) for path in paths[:3])
+    return Problem(
+        "package.duplicate",
+        say(
+            "There are {count} packages of the name {package}: in {places}.",
+            count=len(paths),
+            package=package,
+            places=places,
+        ),
+        say(
+            "Keep one of them. A backup copy belongs outside the workspace (or put an empty "
+            "file COLCON_IGNORE into it)."
+        ),
+    )
+
+
+def too_large(reason: str, root: str) -> Problem:
+    """A package beyond the limits of intake."""
+    return Problem(
+        "package.too_large",
+        say(
+            "The package in {root} is too large to be marked: {reason}.",
+            root=shown(root),
+            reason=reason,
+        ),
+        say("Hand in only what you wrote: no recordings, data sets or virtual environments."),
+    )
+
+
+def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
+    """No folder holds a package.xml or a setup.py."""
+    create = CREATE.format(package=package)
+    files = [path for path, entry in tree.entries.items() if entry.kind == "file"]
+    names = {path: path.rpartition("/")[2] for path in files}
+    near = [path for path, name in names.items() if NEAR_NAME.fullmatch(name)]
+    if near:
+        wanted = "package.xml" if "package" in names[near[0]].lower() else "setup.py"
+        return Problem(
+            "package.manifest_renamed",
+            say("There is no package.xml and no setup.py, but a file {file}.", file=shown(near[0])),
+            say(
+                "Rename it to exactly {wanted}: capitals count, and nothing may follow the ending.",
+                wanted=wanted,
+            ),
+        )
+    archives = [path for path, name in names.items() if ARCHIVE.fullmatch(name)]
+    if archives and len(files) == len(archives):
+        return Problem(
+            "package.archive_inside",
+            say(
+                "There is no package in the folder, only a file that is called an archive and is "
+                "none: {file}.",
+                file=shown(archives[0]),
+            ),
+            say(
+                "Pack the package's folder anew (a new name does not make an archive), and open "
+                "the archive once before you hand it in."
+            ),
+        )
+    links = list(tree.links().items())
+    if not files and links:
+        place = " -> ".join(links[0])
+        return Problem(
+            "package.link",
+            say("There is no package, only a link to elsewhere: {place}.", place=shown(place)),
+            say("Hand in the folder that the link leads to, not the link."),
+        )
+    if not files:
+        return _nothing(tree, create)
+    nodes = [path for path, name in names.items() if name == node_file]
+    if nodes and len(files) == 1:
+        return Problem(
+            "package.only_node",
+            say(
+                "Only the file {file} was handed in, without the package around it.",
+                file=shown(nodes[0]),
+            ),
+            say(
+                "Hand in the whole folder {package}, with package.xml, setup.py, setup.cfg and "
+                "resource/. Is there none yet? Make it with: {create}",
+                package=package,
+                create=create,
+            ),
+        )
+    some = ", ".join(shown(path) for path in sorted(files)[:4])
+    more = say(" and {count} more", count=len(files) - 4) if len(files) > 4 else ""
+    return Problem(
+        "package.no_manifest",
+        say(
+            "No folder holds a package.xml or a setup.py. Files that are there: {some}{more}.",
+            some=some,
+            more=more,
+        ),
+        say(
+            "Hand in the folder {package} that holds package.xml and setup.py, or the "
+            "workspace around it. Is there none yet? Make it with: {create}",
+            package=package,
+            create=create,
+        ),
+    )
+
+
+def _nothing(tree: Tree, create: str) -> Problem:
+    made = tree.left_out.places(MADE_BY_TOOLS)
+    if made:
+        return Problem(
+            "package.only_build",
+            say(
+                "Only what tools have made is there ({folders}), and no source.",
+                folders=", ".join(made),
+            ),
+            say(
+                "Hand in the package from the workspace's src folder: build, install and log are "
+                "made from it and cannot stand for it."
+            ),
+        )
+    rest = tree.left_out.lines()
+    return Problem(
+        "package.empty",
+        say("The folder is empty.")
+        if not rest
+        else say("There is no file to mark. {reason}.", reason=rest[0]),
+        say(
+            "Hand in your package. Is there none yet? Make it in ~/ros2_ws/src with: {create}",
+            create=create,
+        ),
+    )

@@ -1,0 +1,58 @@
+"""Files of this machine, read with bounds; what is no plain file is never opened."""
+
+from __future__ import annotations
+
+import os
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+from grader.base.i18n.message import say
+
+MEGABYTE = 1_000_000
+
+
+@dataclass(frozen=True)
+class Unread:
+    """Why a file has no data."""
+
+    reason: str
+
+
+def larger_than(limit: int) -> Unread:
+    """A file beyond the limit (bytes)."""
+    return Unread(say("it is larger than {size} MB", size=f"{limit / MEGABYTE:g}"))
+
+
+def open_file(path: Path) -> IO[bytes] | Unread:
+    """Open a regular file to be read; never follows a link, never waits."""
+    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    try:
+        handle = os.open(path, flags)
+    except OSError as error:
+        return Unread(
+            say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
+        )
+    if not stat.S_ISREG(os.fstat(handle).st_mode):
+        os.close(handle)
+        return Unread(say("it is not a plain file"))
+    return os.fdopen(handle, "rb")
+
+
+def read_bytes(path: Path, limit: int) -> bytes | Unread:
+    """Return a regular file's bytes, at most `limit`; never follows a link, never waits."""
+    opened = open_file(path)
+    if isinstance(opened, Unread):
+        return opened
+    try:
+        with opened as file:
+            if os.fstat(file.fileno()).st_size > limit:
+                return larger_than(limit)
+            found = file.read(limit + 1)
+    except OSError as error:
+        return Unread(
+            say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
+        )
+    # (what grows while it is read, or tells no size, is cut off by the limit)
+    return larger_than(limit) if len(found) > limit else found

@@ -1,0 +1,192 @@
+"""What lies in a folder or an archive: looked at from outside, no link followed."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections import deque
+from dataclasses import dataclass
+from dataclasses import field
+from dataclasses import replace
+
+from grader.base.i18n.message import say
+from grader.base.shown import LeftOut
+from grader.package.intake.artefacts import COLCON
+from grader.package.intake.artefacts import is_colcon_artefact
+from grader.package.intake.artefacts import is_tool_file
+from grader.package.intake.artefacts import is_tool_folder
+from grader.package.intake.links import follow
+from grader.package.intake.place import Entry
+from grader.package.intake.place import Place
+
+MOST_LEVELS = 32
+"""How many folders deep the submission is looked at."""
+MOST_IN_FOLDER = 5_000
+"""How many names of one folder are looked at."""
+MOST_ENTRIES = 50_000
+"""How many names are looked at in all; nearest to the top first."""
+LONGEST_TARGET = 1_000
+"""The longest text (characters) of a link that is kept."""
+
+MADE_BY_TOOLS = say("left out, as tools make it anew")
+LEADS_OUT = say("left out, as a link that leads out of the package")
+SPECIAL = say("left out, as neither file nor folder (a device, named pipe or socket)")
+BAD_NAME = say("left out, as its name is not plain UTF-8 text")
+TOO_DEEP = say("not looked into, as it lies more than {count} folders deep", count=MOST_LEVELS)
+TOO_FULL = say("only the first {count} names were looked at in", count=MOST_IN_FOLDER)
+TOO_MANY = say(
+    "not looked into, as there are more than {count} files and folders",
+    count=MOST_ENTRIES,
+)
+
+
+@dataclass
+class Tree:
+    """All that was seen; `truncated` are the folders with more names than are looked at,
+    `links_out` the package's links (relative to it) that lead out of it.
+    """
+
+    place: Place
+    entries: dict[str, Entry] = field(default_factory=dict)
+    left_out: LeftOut = field(default_factory=LeftOut)
+    git: set[str] = field(default_factory=set)
+    truncated: set[str] = field(default_factory=set)
+    links_out: list[str] = field(default_factory=list)
+
+    def below(self, folder: str) -> dict[str, Entry]:
+        """Return the entries below a folder, by their path relative to it, sorted by path."""
+        if folder == ".":
+            return dict(sorted(self.entries.items()))
+        start = f"{folder}/"
+        return {
+            path[len(start) :]: entry
+            for path, entry in sorted(self.entries.items())
+            if path.startswith(start)
+        }
+
+    def links(self) -> dict[str, str]:
+        """Return every link's path and target."""
+        return {path: e.target for path, e in self.entries.items() if e.kind == "link"}
+
+    def file(self, path: str) -> Entry | None:
+        """Return the file at a path, or the one of the tree that a link there leads to."""
+        entry = self.entries.get(path)
+        if entry is not None and entry.kind == "link":
+            place = follow(path, self.links()).place
+            entry = self.entries.get(place) if place is not None else None
+        return entry if entry is not None and entry.kind == "file" else None
+
+
+def join(folder: str, name: str) -> str:
+    """Return the path of a name in a folder of the tree, whose root is `.`."""
+    return name if folder == "." else f"{folder}/{name}"
+
+
+def parent(path: str) -> str:
+    """Return the folder of a path in the tree."""
+    return path.rpartition("/")[0] or "."
+
+
+def ancestors(path: str) -> list[str]:
+    """Return a folder of the tree and all above it, up to the tree's root."""
+    found = [path]
+    while found[-1] != ".":
+        found.append(parent(found[-1]))
+    return found
+
+
+def look(place: Place) -> Tree:
+    """Return what lies in a place; OSError only where the place itself cannot be read."""
+    tree = Tree(place)
+    for reason, where in place.remarks():
+        tree.left_out.add(reason, where)
+    waiting = deque([(".", 0)])
+    while waiting:
+        folder, depth = waiting.popleft()
+        if len(tree.entries) >= MOST_ENTRIES:
+            tree.left_out.add(TOO_MANY, folder)
+            tree.truncated.add(folder)
+            continue
+        try:
+            found = _names(tree, folder)
+        except OSError as error:
+            if folder == ".":
+                raise
+            tree.left_out.add(
+                say("a folder that cannot be read ({reason})", reason=str(error.strerror)),
+                folder,
+            )
+            continue
+        for child in _sort(tree, folder, found):
+            if child.kind == "folder" and depth + 1 >= MOST_LEVELS:
+                tree.left_out.add(TOO_DEEP, child.path)
+            elif child.kind == "folder":
+                waiting.append((child.path, depth + 1))
+    return tree
+
+
+def _names(tree: Tree, folder: str) -> list[str]:
+    found: list[str] = []
+    for name in tree.place.names(folder):
+        if len(found) >= MOST_IN_FOLDER:
+            tree.left_out.add(TOO_FULL, folder)
+            tree.truncated.add(folder)
+            break
+        found.append(name)
+    return sorted(found)
+
+
+def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
+    """Put what is kept into the tree and return it; note what is not."""
+    kept = []
+    found = {name: _entry(tree, join(folder, name)) for name in names}
+    beside = COLCON & {name for name, e in found.items() if e is not None and e.kind == "folder"}
+    artefacts = {
+        name for name in beside if is_colcon_artefact(tree.place, join(folder, name), beside)
+    }
+    for name, entry in found.items():
+        if entry is None:
+            continue
+        if name == ".git" and entry.kind != "link":
+            tree.git.add(folder)
+        if entry.kind == "folder" and (name in artefacts or is_tool_folder(tree.place, entry.path)):
+            tree.left_out.add(MADE_BY_TOOLS, f"{entry.path}/")
+        elif entry.kind != "folder" and is_tool_file(name):
+            tree.left_out.add(MADE_BY_TOOLS, entry.path)
+        else:
+            tree.entries[entry.path] = entry
+            kept.append(entry)
+    return kept
+
+
+def _entry(tree: Tree, path: str) -> Entry | None:
+    """Return what a name is; None, with a note, for what is not to be kept."""
+    if not is_plain(path.rpartition("/")[2]):
+        tree.left_out.add(BAD_NAME, path)
+        return None
+    try:
+        entry = tree.place.entry(path)
+    except OSError as error:
+        tree.left_out.add(
+            say("left out, as it cannot be looked at ({reason})", reason=str(error.strerror)), path
+        )
+        return None
+    if entry is None:
+        tree.left_out.add(SPECIAL, path)
+    elif entry.kind == "link":
+        # one that cannot be kept leads out: an absolute path is what that looks like
+        fits = len(entry.target) <= LONGEST_TARGET and is_plain(entry.target)
+        return entry if fits else replace(entry, target="/")
+    return entry
+
+
+def is_plain(name: str) -> bool:
+    """Whether a name is UTF-8 text without control characters, line ends or direction overrides.
+
+    (Python shows bytes that are not UTF-8 as lone surrogates, category Cs.)
+    """
+    if name.isascii():
+        return name.isprintable()
+    return not any(
+        unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or c in "\u202a\u202b\u202d\u202e"
+        for c in name
+    )

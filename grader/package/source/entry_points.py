@@ -1,0 +1,119 @@
+"""Entry points as they are written in setup.py or setup.cfg, before setuptools reads them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from dataclasses import field
+
+from grader.package.source.setup_cfg import SetupCfg
+from grader.package.source.setup_py import SetupPy
+from grader.package.source.values import Listing
+from grader.package.source.values import Table
+from grader.package.source.values import Text
+from grader.package.source.values import Value
+
+# The form that importlib.metadata.EntryPoint (Python 3.10 to 3.13) takes an entry's value in.
+TARGET = re.compile(r"[\w.]+\s{0,9}(:\s{0,9}[\w.]+\s{0,9})?(\[[^\]]*\]\s{0,9})?")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One entry of a group: its text, where it is, and its literals if it was written as several."""
+
+    text: str
+    file: str
+    line: int
+    pieces: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What is before the first `=`."""
+        return self.text.partition("=")[0].strip()
+
+    @property
+    def target(self) -> str:
+        """What is after the first `=`; empty if there is none."""
+        return self.text.partition("=")[2].strip()
+
+    @property
+    def valid(self) -> bool:
+        """Whether setuptools accepts it; one that it does not accept stops the whole build."""
+        return bool(self.name and TARGET.fullmatch(self.target))
+
+
+@dataclass
+class EntryPoints:
+    """The groups, and whether all of it could be told without running setup.py."""
+
+    groups: dict[str, list[Entry]] = field(default_factory=dict)
+    lines: dict[str, int] = field(default_factory=dict)
+    told: bool = True
+
+    def group(self, name: str) -> list[Entry]:
+        """Return the entries of a group; empty if there is none of that name."""
+        return self.groups.get(name, [])
+
+    def _open(self, group: str, line: int) -> list[Entry]:
+        self.lines.setdefault(group, line)
+        return self.groups.setdefault(group, [])
+
+
+def from_setup_py(setup: SetupPy) -> EntryPoints:
+    """Return what the argument `entry_points` of setup() says."""
+    found = EntryPoints()
+    value = setup.argument("entry_points")
+    if isinstance(value, Table):
+        for key, entries in value.pairs:
+            if isinstance(key, Text):
+                _add(found, found._open(key.value, key.line), entries)
+            else:
+                found.told = False
+    elif isinstance(value, Text):
+        _add_ini(found, value)
+    elif value is not None:
+        found.told = False
+    return found
+
+
+def from_setup_cfg(cfg: SetupCfg) -> EntryPoints:
+    """Return what the section `[options.entry_points]` says."""
+    found = EntryPoints()
+    for group, setting in cfg.sections.get("options.entry_points", {}).items():
+        entries = found._open(group, setting.line)
+        for row in setting.value.splitlines():
+            if row.strip():
+                line = cfg.line_of(row.strip(), setting.line)
+                entries.append(Entry(row.strip(), "setup.cfg", line))
+    return found
+
+
+def _add(found: EntryPoints, entries: list[Entry], value: Value) -> None:
+    if isinstance(value, Text):  # entries in one text, one a line
+        for row, line in _rows(value):
+            entries.append(Entry(row, "setup.py", line))
+    elif isinstance(value, Listing):
+        for item in value.items:
+            if isinstance(item, Text):
+                entries.append(Entry(item.value.strip(), "setup.py", item.line, item.pieces))
+            else:
+                found.told = False
+    else:
+        found.told = False
+
+
+def _add_ini(found: EntryPoints, value: Text) -> None:
+    entries: list[Entry] = []
+    for row, line in _rows(value):
+        if row.startswith("[") and row.endswith("]"):
+            entries = found._open(row[1:-1].strip(), line)
+        else:
+            entries.append(Entry(row, "setup.py", line))
+
+
+def _rows(value: Text) -> list[tuple[str, int]]:
+    rows = []
+    for line, row in enumerate(value.value.splitlines(), start=value.line):
+        if row.strip() and not row.strip().startswith("#"):
+            rows.append((row.strip(), line))
+    return rows

@@ -1,0 +1,112 @@
+"""A Python file as text and syntax tree: decoded and parsed as Python would, and never run."""
+
+from __future__ import annotations
+
+import ast
+import codecs
+import io
+import re
+import tokenize
+import warnings
+from dataclasses import dataclass
+
+from grader.base.i18n.message import say
+
+MOST_BYTES = 100_000
+"""Beyond it a hostile file takes seconds and hundreds of megabytes to parse."""
+ENCODINGS = re.compile(
+    r"utf-8(-sig)?|ascii|iso8859-\d+|cp\d+|koi8-[rut]|mac-\w+|gbk|gb2312|gb18030|big5(hkscs)?"
+    r"|shift_jis\w*|euc[_-](jp|kr)\w*"
+)
+"""The encodings that are read, as Python's codecs are called: none that costs more than its size."""
+
+
+class PythonFault(Exception):  # noqa: N818 - it is the student's fault in the file, not an error
+    """Why Python could not read a file: `kind` is `encoding`, `syntax`, `indentation`, `tabs`,
+    `null` or `size`; `line` is counted from 1, `shown` is that line's text.
+    """
+
+    def __init__(self, kind: str, text: str, line: int | None = None, shown: str = "") -> None:
+        super().__init__(text)
+        self.kind = kind
+        self.text = text
+        self.line = line
+        self.shown = shown
+
+
+@dataclass(frozen=True)
+class PythonFile:
+    """A file that Python can read."""
+
+    text: str
+    tree: ast.Module
+
+
+def parse_python(found: bytes) -> PythonFile:
+    """Parse a file's bytes; PythonFault if Python (this interpreter's version) cannot."""
+    if len(found) > MOST_BYTES:
+        raise PythonFault("size", say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
+    text = decode(found)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text)
+            # (what the compiler refuses and the parser does not: a return outside a function)
+            compile(text, "<file>", "exec", dont_inherit=True)
+    except SyntaxError as error:
+        raise _fault(error, text) from None
+    except (RecursionError, MemoryError, OverflowError, ValueError) as error:
+        raise PythonFault(
+            "syntax", say("too deeply nested to be read ({error})", error=str(error))
+        ) from None
+    return PythonFile(text, tree)
+
+
+def _fault(error: SyntaxError, text: str) -> PythonFault:
+    kind = "syntax"
+    if isinstance(error, TabError):
+        kind = "tabs"
+    elif isinstance(error, IndentationError):
+        kind = "indentation"
+    lines = text.splitlines()
+    line = error.lineno if error.lineno and error.lineno > 0 else None
+    shown = lines[line - 1].strip() if line and line <= len(lines) else ""
+    return PythonFault(kind, f"{type(error).__name__}: {error.msg}"[:300], line, shown[:160])
+
+
+def decode(found: bytes) -> str:
+    """Return the text (PEP 263) with Unix line ends and without a byte order mark."""
+    if found[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise PythonFault("encoding", say("the file is UTF-16, Python reads UTF-8"), 1)
+    if b"\0" in found:
+        line = found.count(b"\n", 0, found.index(b"\0")) + 1
+        raise PythonFault("null", say("the file has null bytes in it: it is not text"), line)
+    try:
+        declared, _ = tokenize.detect_encoding(io.BytesIO(found).readline)
+        name = codecs.lookup(declared).name
+    except (SyntaxError, LookupError) as error:
+        # (it decodes the first two lines on the way, and says so in the same breath)
+        bad = _first_undecodable(found)
+        said: str = say("the file is not UTF-8 text") if bad else str(error)
+        raise PythonFault("encoding", said, bad or 1) from None
+    if not ENCODINGS.fullmatch(name):
+        raise PythonFault(
+            "encoding", say("the file declares the encoding {name}; use UTF-8", name=name), 1
+        )
+    try:
+        text = found.decode(name)
+    except UnicodeDecodeError as error:
+        line = found.count(b"\n", 0, error.start) + 1
+        said = say("the file is not UTF-8 text")
+        if not name.startswith("utf-8"):
+            said = say("the file is not text in {name}, which it declares", name=name)
+        raise PythonFault("encoding", said, line) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _first_undecodable(found: bytes) -> int | None:
+    try:
+        found.decode("utf-8")
+    except UnicodeDecodeError as error:
+        return found.count(b"\n", 0, error.start) + 1
+    return None

@@ -1,0 +1,125 @@
+"""setup.py: what it says of itself without being run."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+
+from grader.base.i18n.message import say
+from grader.package.source.python import PythonFault
+from grader.package.source.python import PythonFile
+from grader.package.source.python import parse_python
+from grader.package.source.values import Computed
+from grader.package.source.values import Evaluator
+from grader.package.source.values import Table
+from grader.package.source.values import Text
+from grader.package.source.values import Value
+
+MOST_COMMENTS = 200
+
+
+@dataclass(frozen=True)
+class SetupPy:
+    """The arguments of the one call of setup(); `told` is False where only running it would tell.
+
+    `line` is that of the call, `comments` the lines that are comments (number, text).
+    """
+
+    arguments: Table
+    told: bool
+    line: int | None
+    comments: tuple[tuple[int, str], ...] = ()
+
+    def argument(self, name: str) -> Value | None:
+        """Return an argument's value; None if it is not given, Computed if that is not known."""
+        if not self.told:
+            return Computed(self.line or 1)
+        found = self.arguments.get(name)
+        if found is None and not self.arguments.complete:
+            return Computed(self.line or 1)  # setup(**settings) may hold it
+        return found
+
+    @property
+    def name(self) -> Text | None:
+        """The package's name, if it can be told."""
+        found = self.argument("name")
+        return found if isinstance(found, Text) else None
+
+
+def read_setup_py(found: bytes) -> SetupPy:
+    """Read a setup.py; PythonFault if Python cannot."""
+    file = parse_python(found)
+    try:
+        return _arguments(file)
+    except RecursionError:
+        raise PythonFault("syntax", say("too deeply nested to be read")) from None
+
+
+def _arguments(file: PythonFile) -> SetupPy:
+    calls = [node for node in ast.walk(file.tree) if is_setup_call(node)]
+    comments = tuple(
+        (number, line.strip().lstrip("# "))
+        for number, line in enumerate(file.text.splitlines(), start=1)
+        if line.strip().startswith("#")
+    )[:MOST_COMMENTS]
+    nothing = Table((), 1)
+    if not calls or not isinstance(calls[0], ast.Call):
+        return SetupPy(nothing, told=False, line=None, comments=comments)
+    call = calls[0]
+    plain = len(calls) == 1 and call in _always_run(file.tree) and not _is_ours(file.tree)
+    if not plain or call.args:
+        return SetupPy(nothing, told=False, line=call.lineno, comments=comments)
+    evaluator = Evaluator(file.tree, file.text)
+    pairs: list[tuple[Value, Value]] = []
+    for keyword in call.keywords:
+        value = evaluator.value(keyword.value)
+        if keyword.arg is not None:
+            pairs.append((Text(keyword.arg, keyword.value.lineno), value))
+        elif isinstance(value, Table):
+            pairs.extend(value.pairs)
+        else:
+            pairs.append((Computed(keyword.value.lineno), value))
+    table = Table(tuple(pairs), call.lineno)
+    return SetupPy(table, told=True, line=call.lineno, comments=comments)
+
+
+def literal_name(found: bytes) -> str | None:
+    """Return the package's name in a setup.py, or None if it cannot be told."""
+    try:
+        name = read_setup_py(found).name
+    except PythonFault:
+        return None
+    return name.value if name else None
+
+
+def is_setup_call(node: ast.AST) -> bool:
+    """Whether this calls a function of the name setup, whatever module it is of."""
+    if not isinstance(node, ast.Call):
+        return False
+    function = node.func
+    if isinstance(function, ast.Attribute):
+        return function.attr == "setup"
+    return isinstance(function, ast.Name) and function.id == "setup"
+
+
+def _always_run(tree: ast.Module) -> list[ast.expr]:
+    """Return the expressions that are statements of the module, or of its `__main__` guard."""
+    body: list[ast.stmt] = list(tree.body)
+    for statement in tree.body:
+        if isinstance(statement, ast.If) and "__name__" in ast.dump(statement.test):
+            body += statement.body
+    return [statement.value for statement in body if isinstance(statement, ast.Expr)]
+
+
+def _is_ours(tree: ast.Module) -> bool:
+    """Whether the file makes a `setup` of its own, of which nothing is known."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == "setup":
+            return True
+        if isinstance(node, ast.Name) and node.id == "setup" and not _is_read(node):
+            return True
+    return False
+
+
+def _is_read(node: ast.Name) -> bool:
+    return isinstance(node.ctx, ast.Load)

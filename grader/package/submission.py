@@ -1,0 +1,144 @@
+"""Intake: find the package in what was handed in, without running or trusting any of it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from pathlib import Path
+
+from grader.base.errors import UsageError
+from grader.base.shown import shown
+from grader.package.intake.archive_kind import without_ending
+from grader.package.intake.archive_limits import ArchiveLimits
+from grader.package.intake.archive_limits import Spent
+from grader.package.intake.archive_nested import look_inside
+from grader.package.intake.archive_problems import ArchiveError
+from grader.package.intake.choose import Choice
+from grader.package.intake.choose import choose
+from grader.package.intake.choose import find_candidates
+from grader.package.intake.contents import TooLargeError
+from grader.package.intake.contents import read_package
+from grader.package.intake.given import digest_of_file
+from grader.package.intake.given import open_place
+from grader.package.intake.given import resolved
+from grader.package.intake.model import Candidate
+from grader.package.intake.model import SourceFile
+from grader.package.intake.model import Submission
+from grader.package.intake.naming import sanitise
+from grader.package.intake.naming import submission_name
+from grader.package.intake.problems import Problem
+from grader.package.intake.problems import too_large
+from grader.package.intake.recorded import with_modes
+from grader.package.intake.tree import Tree
+from grader.package.intake.tree import ancestors
+from grader.report.model import Modes
+from grader.report.model import Origin
+
+__all__ = ["Candidate", "SourceFile", "Submission", "take_in"]
+
+MOST_NODE_FILES = 20
+
+
+def take_in(
+    path: Path,
+    *,
+    package: str,
+    node_file: str,
+    name: str | None = None,
+    modes_kept: bool = True,
+) -> Submission:
+    """Take in a folder or an archive that is the package, a workspace, or holds the package below.
+
+    `modes_kept` is False where the way here lost the exec bits of a folder's files (what was
+    uploaded file by file, say). Raises UsageError for a path that is neither, does not exist or
+    cannot be read. All else that is wrong is the student's, and is said in the Submission.
+    """
+    own = resolved(path)
+    name = name or submission_name(_without_ending(own), package)
+    spent = Spent(ArchiveLimits())
+    try:
+        place = open_place(own, spent, modes_kept=modes_kept)
+        tree, unopened = look_inside(place, spent)
+    except ArchiveError as error:
+        return _refused(own, name, error.problem)
+    except OSError as error:
+        raise UsageError(f"{shown(str(path))} cannot be read: {error.strerror}") from None
+    candidates = find_candidates(tree)
+    choice = choose(tree, candidates, package=package, node_file=node_file)
+    if not candidates and unopened is not None:
+        choice = Choice(None, problem=unopened)
+    files: tuple[SourceFile, ...] = ()
+    if choice.chosen is not None:
+        try:
+            files = read_package(tree, choice.chosen.path)
+        except TooLargeError as error:
+            choice = Choice(None, problem=too_large(error.reason, choice.chosen.path))
+    root = choice.chosen.path if choice.chosen else None
+    files, modes = with_modes(tree, root, files)
+    problem = choice.problem
+    return Submission(
+        path=own,
+        name=sanitise(name),
+        origin=_origin(tree, root or "."),
+        modes=modes,
+        sha256=_digest(files if root is not None else _outline(tree), modes),
+        root=root,
+        files=files,
+        candidates=tuple(candidates),
+        notes=tuple(tree.left_out.lines()),
+        problem=problem.text if problem else "",
+        problem_mistake=problem.mistake if problem else "",
+        problem_fix=problem.fix if problem else "",
+        hints=choice.hints,
+        node_files=_named(tree, node_file),
+        links_out=tuple(tree.links_out),
+    )
+
+
+def _without_ending(path: Path) -> Path:
+    return path if path.is_dir() else path.with_name(without_ending(path.name))
+
+
+def _origin(tree: Tree, root: str) -> Origin:
+    origin = tree.place.origin(root)
+    in_git = any(place in tree.git for place in ancestors(root))
+    return "git" if origin == "directory" and in_git else origin
+
+
+def _refused(path: Path, name: str, problem: Problem) -> Submission:
+    """An archive that was not taken in: known by its bytes."""
+    return Submission(
+        path=path,
+        name=sanitise(name),
+        origin="zip" if path.suffix.lower() == ".zip" else "tar",
+        modes="unknown",
+        sha256=digest_of_file(path, most=ArchiveLimits().packed),
+        root=None,
+        files=(),
+        problem=problem.text,
+        problem_mistake=problem.mistake,
+        problem_fix=problem.fix,
+    )
+
+
+def _named(tree: Tree, name: str) -> tuple[str, ...]:
+    found = sorted(p for p, e in tree.entries.items() if p.rpartition("/")[2] == name)
+    return tuple(path for path in found if tree.entries[path].kind == "file")[:MOST_NODE_FILES]
+
+
+def _outline(tree: Tree) -> Iterable[SourceFile]:
+    """Return what is there, without contents: enough to tell two packageless hand-ins apart."""
+    for path, entry in sorted(tree.entries.items()):
+        yield SourceFile(path, entry.kind, entry.mode, str(entry.size).encode(), entry.target)
+
+
+def _digest(files: Iterable[SourceFile], modes: Modes) -> str:
+    """Return the hash of what was handed in: paths, kinds, exec bits (if known) and contents."""
+    digest = hashlib.sha256()
+    for file in files:
+        bits = "x" if file.kind == "file" and file.mode & 0o100 else "-"
+        bits = bits if modes == "recorded" else "?"
+        for part in (file.path, file.kind, bits, file.target, file.reason):
+            digest.update(f"{len(part.encode())}:{part}".encode())
+        digest.update(f"{len(file.data)}:".encode() + file.data)
+    return digest.hexdigest()

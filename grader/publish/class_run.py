@@ -1,0 +1,236 @@
+"""`grader grade-all`: from the folder that the course's system gave to what it takes in again."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import field
+from datetime import datetime
+from datetime import timezone
+from functools import partial
+from pathlib import Path
+from typing import TextIO
+
+from grader.base.errors import SurroundingsError
+from grader.base.gate import gate
+from grader.base.gate import show
+from grader.base.plain_text import one_line
+from grader.base.stream import takes_styles
+from grader.base.stream import width_of
+from grader.batch import run
+from grader.batch.beforehand import GRADEBOOK
+from grader.batch.beforehand import look_beforehand
+from grader.batch.ledger import Ledger
+from grader.batch.local_pool import LocalPool
+from grader.batch.model import ClassFolder
+from grader.batch.model import ClassResult
+from grader.batch.progress import ClassProgress
+from grader.batch.result import class_result
+from grader.batch.sheets import Sheets
+from grader.batch.students import find_student
+from grader.batch.work import Job
+from grader.batch.work import Pool
+from grader.publish.class_table import changes_of
+from grader.publish.class_table import class_page
+from grader.publish.class_table import regrade_page
+from grader.publish.outputs import INDEX
+from grader.publish.outputs import Outcome
+from grader.publish.outputs import Outputs
+from grader.publish.written import raise_failures
+from grader.verdict.mark import Order
+
+MOST_A_CORE = 2  # workers, while cores have nothing to do
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassOrder:
+    """What `grade-all` was asked for; `order` has the assignment, the distro and the sandbox.
+
+    `accepts` is what the instructor accepts beforehand (see `accept`).
+    """
+
+    order: Order
+    out: Path
+    ledger: Path
+    system: str = "auto"
+    roster: Path | None = None
+    regrade: bool = False
+    students: tuple[str, ...] = ()
+    workers: int = 0
+    scheduler: str = ""
+    sheets: Sheets = field(default_factory=Sheets)
+    accepts: frozenset[str] = frozenset()
+    quiet: bool = False
+
+
+def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
+    """Mark what is not marked yet, write everything, and return the exit status.
+
+    The teacher's files, the roster and what fits them are looked at before anything is marked.
+    Ctrl+C and surroundings that fail end the marking: what was marked is kept and written, then
+    KeyboardInterrupt or SurroundingsError goes on.
+    """
+    started = datetime.now(timezone.utc)
+    order = asked.order
+    known = look_beforehand(
+        order.path,
+        order.assignment,
+        asked.sheets,
+        asked.out,
+        system=asked.system,
+        roster=asked.roster,
+        accepts=asked.accepts,
+        say=_say,
+    )
+    ended: KeyboardInterrupt | SurroundingsError | None = None
+    with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
+        outputs = Outputs(asked.out, asked.sheets, known, ledger, asked.accepts)
+        with ClassProgress(sys.stderr) as progress:
+            plan = run.make_plan(ledger, known.folder, setting, listener=progress)
+            if asked.regrade or asked.students:
+                chosen = None if asked.regrade else _chosen(asked.students, plan)
+                if dry_run:
+                    count = len(plan.items if chosen is None else chosen)
+                    _say(f"a regrade would mark {count} again")
+                else:
+                    plan = run.ask_regrade(ledger, plan, chosen)
+            _say_plan(plan)
+            if dry_run:
+                for item in plan.todo:
+                    _print(one_line(item.handed_in.student.name or item.student))
+                return 0
+            result_now = partial(_result, asked, ledger, known.folder, plan, started)
+            try:
+                if plan.todo:
+                    if outputs.can_lower:
+                        outputs.refuse_lower(result_now(), but=plan.students)
+                    run.carry_out(ledger, plan, setting, pool, listener=progress)
+            except (KeyboardInterrupt, SurroundingsError) as why:
+                ended = why
+        result = result_now()
+        written = outputs.write(result, say=_say)
+        _show(result, plan, ledger, asked, written)
+        status = _status(result)
+    if ended is not None:
+        _say_ended(ended, written)
+        raise ended
+    _say_faults(result)
+    if written.state == "refused":
+        raise written.failures[0]
+    raise_failures(written.failures)
+    return status
+
+
+def _say_ended(ended: KeyboardInterrupt | SurroundingsError, written: Outcome) -> None:
+    for failure in written.failures:
+        _say(str(failure))
+    if isinstance(ended, KeyboardInterrupt):
+        _say("interrupted: what was marked is kept, and the same command goes on from there")
+
+
+def _result(
+    asked: ClassOrder, ledger: Ledger, folder: ClassFolder, plan: run.Plan, started: datetime
+) -> ClassResult:
+    """Return the result of the class as the ledger has it now."""
+    return class_result(
+        ledger,
+        folder,
+        plan.items,
+        asked.order.assignment,
+        distro=asked.order.distro.name,
+        lang=asked.order.lang,
+        started=started,
+        seconds=(datetime.now(timezone.utc) - started).total_seconds(),
+    )
+
+
+@contextlib.contextmanager
+def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
+    """Open what marks: workers on this machine, or those of a cluster."""
+    order = asked.order
+    if not asked.scheduler:
+        setting = run.prove(order, say=_say)
+        cores = run.cores_here()
+        most = asked.workers or MOST_A_CORE * cores
+        yield setting, LocalPool(setting.job, asked.workers or cores, most=most)
+        return
+    from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
+
+    job = Job(order.assignment, order.distro.name, order.sandbox, order.limits, order.lang)
+    with Cluster(asked.scheduler, job, say=_say) as cluster:
+        setting = run.Setting(
+            assignment=order.assignment,
+            distro=order.distro,
+            limits=order.limits,
+            sandbox=cluster.sandbox,
+            key=cluster.surroundings,
+            lang=order.lang,
+        )
+        yield setting, cluster
+
+
+def _chosen(words: Sequence[str], plan: run.Plan) -> list[str]:
+    """Return the keys of the students who are to be marked again."""
+    students = {item.student: item.handed_in.student for item in plan.items}
+    return [find_student(word, list(students.values())).key for word in words]
+
+
+def _say_faults(result: ClassResult) -> None:
+    count = sum(entry.status == "error" for entry in result.entries)
+    if count:
+        who, it = (
+            ("1 submission was", "it") if count == 1 else (f"{count} submissions were", "them")
+        )
+        _say(f"{who} not marked: the grader failed on {it}, try by try, and works without {it}")
+        _say("the reasons are in the gradebook's notes; the same command tries again")
+
+
+def _status(result: ClassResult) -> int:
+    """Return the worst of the students; who handed in nothing is no student's fault of marking."""
+    marked = [e for e in result.entries if e.status not in ("missing", "elsewhere")]
+    return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
+
+
+def _say_plan(plan: run.Plan) -> None:
+    again = sum((item.student, item.key) in plan.regrades for item in plan.todo)
+    words = f"{len(plan.todo)} to mark" + (f" ({again} again)" if again else "")
+    _say(f"{words}, {plan.marked} marked before")
+
+
+def _show(
+    result: ClassResult, plan: run.Plan, ledger: Ledger, asked: ClassOrder, written: Outcome
+) -> None:
+    out = sys.stdout
+    width, styled = width_of(out), takes_styles(out)
+    if plan.regrades:
+        changes = changes_of(ledger, list(plan.regrades.values()))
+        _show_page(regrade_page(changes, width=width, styled=styled))
+    if not asked.quiet:
+        _show_page(class_page(result, width=width, styled=styled))
+    if written.state == "refused":
+        return
+    _print(f"page       {asked.out / INDEX}")
+    _print(f"gradebook  {asked.out / GRADEBOOK}")
+    if written.state == "unchanged":
+        _say("nothing has changed since these were written")
+
+
+def _say(text: str) -> None:
+    _write(sys.stderr, text)
+
+
+def _show_page(page: str) -> None:
+    show(page.rstrip("\n") + "\n", sys.stdout)
+
+
+def _print(text: str) -> None:
+    _write(sys.stdout, text)
+
+
+def _write(file: TextIO, text: str) -> None:
+    out = gate(file)
+    out.write(f"{text}\n")
+    out.flush()

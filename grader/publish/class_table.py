@@ -1,0 +1,146 @@
+"""The class on a terminal: a line a student, and for a regrade what it has changed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
+from grader.batch.ledger import Ledger
+from grader.batch.ledger_rows import Regrade
+from grader.batch.model import ClassResult
+from grader.batch.model import Entry
+from grader.batch.points import marks
+from grader.report.model import Report
+from grader.report.page import Page
+
+STYLES = {
+    "graded": "",
+    "ungradable": "bold magenta",
+    "error": "bold magenta",
+    "missing": "yellow",
+    "elsewhere": "yellow",
+    "pending": "cyan",
+}
+MOST_NAMES = 5  # of what failed, in one line
+
+
+@dataclass(frozen=True)
+class Change:
+    """What a regrade has changed for one student."""
+
+    name: str
+    before: float
+    after: float
+    lost: tuple[str, ...]
+    won: tuple[str, ...]
+
+    @property
+    def is_one(self) -> bool:
+        """Whether anything did change."""
+        return bool(self.lost or self.won) or self.before != self.after
+
+
+def class_page(result: ClassResult, *, width: int, styled: bool) -> str:
+    """Return the page of a class: who has how many points, and the first reasons."""
+    page = Page(width=width, styled=styled)
+    page.line((one_line(result.title), "bold"))
+    page.gap()
+    rows = [_row(entry) for entry in result.entries]
+    page.grid(["student", "points", "final", "failed"], rows)
+    page.gap()
+    page.line(_totals(result.entries))
+    for group in result.identical:
+        names = {entry.student.key: entry.student.name for entry in result.entries}
+        who = ", ".join(one_line(names[key] or key, most=40) for key in group)
+        page.line(f"The same once white space and comments are gone: {who}")
+    return str(page)
+
+
+def regrade_page(changes: Sequence[Change], *, width: int, styled: bool) -> str:
+    """Return the page of a regrade: before, after, and the checks that went over."""
+    page = Page(width=width, styled=styled)
+    changed = [change for change in changes if change.is_one]
+    same = len(changes) - len(changed)
+    page.line((f"Marked again: {len(changes)}, of which {same} as before.", "bold"))
+    if changed:
+        rows = [
+            [
+                (one_line(change.name, most=40), ""),
+                (points(change.before), ""),
+                (points(change.after), "bold"),
+                (_names(change.lost), "red"),
+                (_names(change.won), "green"),
+            ]
+            for change in changed
+        ]
+        page.grid(["student", "before", "after", "fails now", "passes now"], rows)
+    page.gap()
+    return str(page)
+
+
+def changes_of(ledger: Ledger, regrades: Sequence[Regrade]) -> list[Change]:
+    """Return what the regrades that are done have changed, in their order."""
+    now = ledger.verdicts()
+    found = []
+    for regrade in regrades:
+        row = now[regrade.student, regrade.key]
+        if row.id == regrade.before:
+            continue  # it could not be marked again: the one before stands
+        before, after = ledger.report(regrade.before), ledger.report(row.id)
+        passed = _passed(before), _passed(after)
+        found.append(
+            Change(
+                name=after.submission.name,
+                before=before.score,
+                after=after.score,
+                lost=tuple(sorted(passed[0] - passed[1])),
+                won=tuple(sorted(passed[1] - passed[0])),
+            )
+        )
+    return found
+
+
+def _passed(report: Report) -> set[str]:
+    return {check.id for check in report.checks if check.status == "passed"}
+
+
+def _row(entry: Entry) -> list[tuple[str, str]]:
+    name = one_line(entry.student.name or entry.student.key, most=40)
+    score = "-" if entry.score is None else f"{points(entry.score)} / {points(entry.max_score)}"
+    final = "-" if entry.final is None else points(entry.final)
+    style = STYLES[entry.status]
+    return [(name, style), (score, ""), (final, "bold"), (_reason(entry), style)]
+
+
+def _reason(entry: Entry) -> str:
+    if entry.status == "elsewhere":
+        return one_line("; ".join(entry.notes), most=120)
+    if entry.status == "error":
+        return one_line(f"not marked: {entry.notes[0] if entry.notes else entry.problem}", most=160)
+    if entry.status != "graded":
+        return one_line(entry.problem or entry.status, most=120)
+    failed = [mark.check.id for mark in marks(entry) if mark.check.status == "failed"]
+    late = f"late: -{points(entry.penalty)}" if entry.penalty else ""
+    corrected = "corrected" if entry.overrides else ""
+    return ", ".join(part for part in (_names(failed), late, corrected) if part)
+
+
+def _names(names: Sequence[str]) -> str:
+    more = len(names) - MOST_NAMES
+    shown = [one_line(name, most=60) for name in names[:MOST_NAMES]]
+    return ", ".join([*shown, f"{more} more"] if more > 0 else shown)
+
+
+def _totals(entries: Sequence[Entry]) -> str:
+    count = Counter[str](entry.status for entry in entries)
+    full = sum(1 for e in entries if e.report is not None and e.report.all_passed)
+    parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
+    words = {"ungradable": "cannot be marked", "missing": "handed in nothing"}
+    words["elsewhere"] = "handed in elsewhere"
+    words["error"] = "not marked, a fault of the grader"
+    words["pending"] = "still to be marked"
+    parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
+    return ", ".join(parts) + "."

@@ -1,0 +1,147 @@
+"""What one student is told: their points, how they came about, and each check that they may see.
+
+All of it is said in the entry's language.
+"""
+
+from __future__ import annotations
+
+import functools
+import html
+from dataclasses import replace
+
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import LANGUAGES
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import one_line
+from grader.batch.cells import number
+from grader.batch.model import Entry
+from grader.batch.words import STATES
+from grader.publish.pages.render import Renderer
+from grader.publish.pages.student import FOLDER
+from grader.publish.pages.student import KEY
+from grader.publish.pages.student import CheckView
+from grader.publish.pages.student import StudentView
+from grader.publish.pages.student import student_view
+from grader.report.blocks import WORDS
+from grader.report.blocks import all_of
+from grader.report.report_page import hidden_checks
+
+# where the instructor keeps the submission, and by what key, is not the student's business
+KEPT_BACK = (FOLDER, KEY)
+TOLD = (say("Found"), say("Fix"))  # of a check, where there is little room
+MOST = 300  # characters of one text in the short form
+MOST_CHECKS = 40
+
+
+def feedback_view(entry: Entry, *, show_hidden: bool) -> StudentView:
+    """Return what a student's page shows, without what is for the instructor alone."""
+    view = student_view(entry, show_hidden=show_hidden, lang=entry.lang)
+    kept_back = [Speaker(entry.lang)(name) for name in KEPT_BACK]
+    facts = tuple((name, value) for name, value in view.facts if name not in kept_back)
+    return replace(view, facts=facts, details=())
+
+
+def headline(entry: Entry) -> str:
+    """Return the result in a few words: `85 of 100 points`, or why there are none."""
+    told = say("No points yet")
+    if entry.final is not None:
+        most = number(entry.max_score)
+        told = say("{points} of {most} points", points=number(entry.final), most=most)
+    elif entry.status != "graded":
+        told = say("No points yet: {state}", state=STATES[entry.status])
+    return Speaker(entry.lang)(told)
+
+
+def hidden_words(view: StudentView) -> str:
+    """Return how many checks the student does not see, "" for none."""
+    return Speaker(view.entry.lang)(hidden_checks(view.hidden)) if view.hidden else ""
+
+
+def mark_of(one: CheckView, lang: str) -> str:
+    """Return a check's result and points in one line: `failed, 0 / 10 points`."""
+    check = one.check
+    most, state = number(check.max_score), WORDS[check.status]
+    given = say("{given} / {most} points", given=number(check.score), most=most)
+    if one.override is not None:
+        given = say(
+            "{given} / {most} points, corrected from {was}",
+            given=number(one.override.points),
+            most=most,
+            was=number(check.score),
+        )
+    elif check.status in ("inconclusive", "error"):
+        given = say("{most} points neither given nor taken", most=most)
+    if one.because:
+        state = say("{state} because of {checks}", state=state, checks=all_of(one.because))
+    return Speaker(lang)(joined(state, given, by=", "))
+
+
+def short_html(entry: Entry, *, show_hidden: bool) -> str:
+    """Return the feedback as a few lines of HTML without any line end or quotation mark.
+
+    Moodle keeps comments as HTML, and PHP's reader of CSV takes a backslash before a quotation
+    mark for an escape (PHP manual, `fgetcsv`): a cell without them is read the same everywhere.
+    """
+    view = feedback_view(entry, show_hidden=show_hidden)
+    open_ = [one for one in view.checks if one.check.status not in ("passed", "skipped")]
+    skipped = sum(one.check.status == "skipped" for one in view.checks)
+    speak = Speaker(entry.lang)
+    told = [line for line in (speak(entry.problem), *view.reckoning) if line]
+    lines = [_safe(line) for line in told]
+    lines += [_check(one, speak) for one in open_[:MOST_CHECKS]]
+    rest = [_more(len(open_) - MOST_CHECKS), _skipped(skipped), hidden_words(view)]
+    lines += [_safe(speak(line)) for line in rest if line]
+    items = "".join(f"<li>{line}</li>" for line in lines)
+    return f"<p><strong>{_safe(headline(entry))}</strong></p><ul>{items}</ul>"
+
+
+def _more(count: int) -> str:
+    """Return how many checks there was no room for, "" if none."""
+    if count == 1:
+        return say("1 more check did not pass")
+    return say("{count} more checks did not pass", count=count) if count > 0 else ""
+
+
+def _skipped(count: int) -> str:
+    """Return how many checks were not asked, "" if none."""
+    if count == 1:
+        return say("1 check skipped because of these")
+    return say("{count} checks skipped because of these", count=count) if count else ""
+
+
+def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
+    """Return the feedback as a page of its own, which opens offline and asks for nothing."""
+    view = feedback_view(entry, show_hidden=show_hidden)
+    speak = Speaker(entry.lang)
+    logs = [("transcript", speak(say("What ros2 run printed")), view.transcript)]
+    logs.append(("build-log", speak(say("What colcon build printed")), view.build_log))
+    return _renderer(one_line(title), entry.lang).page(
+        "feedback.html.j2",
+        script=False,
+        view=view,
+        headline=headline(entry),
+        logs=[log for log in logs if log[2].strip()],
+        log_titles={place: words for place, words, _ in logs},
+    )
+
+
+@functools.lru_cache(maxsize=len(LANGUAGES))
+def _renderer(heading: str, lang: str) -> Renderer:
+    """Return the renderer of a class: templates are compiled once for all students."""
+    return Renderer(heading=heading, pages={}, lang=lang)
+
+
+def _check(one: CheckView, speak: Speaker) -> str:
+    check, labels = one.check, [speak(label) for label in TOLD]
+    mark = mark_of(one, speak.lang)
+    text = f"<code>{_safe(check.id)}</code> {_safe(mark)}: {_safe(check.title)}"
+    for field in one.fields:
+        if field.label in labels:
+            text += f"<br>{_safe(field.label)}: {_safe(field.text)}"
+    return text
+
+
+def _safe(text: str) -> str:
+    """Return a text for HTML on one line; a backslash is written as its character reference."""
+    return html.escape(one_line(text, most=MOST)).replace("\\", "&#92;")

@@ -1,0 +1,110 @@
+"""`gradebook.csv`: every student of a class in one table, for people and their spreadsheets."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from datetime import datetime
+from datetime import timezone
+
+from grader.base.plain_text import points
+from grader.batch import cells
+from grader.batch.model import ClassResult
+from grader.batch.model import Entry
+from grader.batch.points import marks
+
+BEFORE = (
+    "key",
+    "name",
+    "email",
+    "username",
+    "id_number",
+    "section",
+    "status",
+    "score",
+    "penalty",
+    "final",
+    "max_score",
+    "attempt",
+    "submitted",
+    "late",
+)
+AFTER = ("mistakes", "notes")
+MOST_NOTES = 4_000  # characters
+
+
+def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
+    """Return the table in UTF-8, one row a student in the class's order, hidden checks too.
+
+    `bom` puts the byte order mark before it, by which Excel knows UTF-8. `submitted` is ISO 8601 in
+    UTC, `late` seconds. A check's cell is empty where its points could be neither given nor taken.
+    """
+    checks = check_ids(result)
+    out = io.StringIO()
+    # all quoted: a spreadsheet that splits at other characters than commas must not find one open
+    table = csv.writer(out, quoting=csv.QUOTE_ALL)
+    table.writerow([*BEFORE, *(cells.text(check) for check in checks), *AFTER])
+    for entry in result.entries:
+        table.writerow(_row(entry, checks))
+    return out.getvalue().encode("utf-8-sig" if bom else "utf-8")
+
+
+def check_ids(result: ClassResult) -> list[str]:
+    """Return the ids of all checks that anybody was asked, in the order of the reports."""
+    reports = (entry.report for entry in result.entries)
+    return list(dict.fromkeys(c.id for report in reports if report for c in report.checks))
+
+
+def _row(entry: Entry, checks: Sequence[str]) -> list[str]:
+    student = entry.student
+    given = {mark.check.id: mark.points for mark in marks(entry)}
+    who = (
+        student.key,
+        student.name,
+        student.email,
+        student.username,
+        student.id_number,
+        student.section,
+        entry.status,
+    )
+    return [
+        *(cells.text(value) for value in who),
+        cells.number(entry.score),
+        cells.number(entry.penalty),
+        cells.number(entry.final),
+        cells.number(entry.max_score),
+        str(entry.attempt),
+        _instant(entry.submitted),
+        cells.number(entry.late_seconds),
+        *(cells.number(given.get(check)) for check in checks),
+        cells.text(_mistakes(entry), most=MOST_NOTES),
+        cells.text(" | ".join(_notes(entry)), most=MOST_NOTES),
+    ]
+
+
+def _instant(value: datetime | None) -> str:
+    if value is None:
+        return ""
+    zoned = value if value.tzinfo else value.replace(tzinfo=timezone.utc)
+    return zoned.astimezone(timezone.utc).isoformat(timespec="seconds")
+
+
+def _mistakes(entry: Entry) -> str:
+    found = [m.id for mark in marks(entry) for m in mark.check.mistakes]
+    return " ".join(dict.fromkeys(found))
+
+
+def _notes(entry: Entry) -> list[str]:
+    notes = [entry.problem, *entry.notes]
+    for override in entry.overrides:
+        by = f" by {override.by}" if override.by else ""
+        what = override.check or "the total"
+        notes.append(
+            f"{what} corrected{by} to {points(override.points)} because: {override.because}"
+        )
+    if entry.same_as:
+        notes.append(f"same content as: {', '.join(entry.same_as)}")
+    if entry.report is not None:
+        notes += [entry.report.message, *entry.report.submission.notes]
+    return [note for note in notes if note.strip()]

@@ -1,0 +1,120 @@
+"""All files of a class, each written as a whole and for its owner only.
+
+One that cannot be made or written does not keep the others from being written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+from grader.base.folder import Folder
+from grader.batch.model import ClassResult
+from grader.batch.model import Entry
+from grader.batch.sheet import Filled
+from grader.batch.systems.canvas.write import CanvasGradebook
+from grader.batch.systems.canvas.write import new_gradebook
+from grader.batch.systems.moodle.gradebook_import import moodle_import
+from grader.batch.systems.moodle.worksheet import Worksheet
+from grader.publish.feedback import html_page
+from grader.publish.gradebook_csv import gradebook_csv
+from grader.publish.junit import class_xml
+from grader.publish.markdown import markdown
+from grader.publish.pages.names import page_names
+from grader.publish.written import Written
+from grader.report.files import could_not_write
+
+FEEDBACK = "feedback"
+GRADEBOOK = "gradebook.csv"
+WORKSHEET = "moodle-worksheet.csv"
+MOODLE = "moodle-gradebook.csv"
+CANVAS = "canvas-gradebook.csv"
+JUNIT = "junit.xml"
+
+
+def write_outputs(
+    result: ClassResult,
+    out: Path,
+    *,
+    worksheet: Worksheet | None = None,
+    canvas: CanvasGradebook | None = None,
+    canvas_column: str = "",
+    show_hidden: bool = False,
+    say: Callable[[str], None] | None = None,
+) -> Written:
+    """Write the files of a class below `out` (made if it is not there) and return their paths.
+
+    `worksheet` and `canvas` are the teacher's own files, of which filled copies are made; what
+    could not be filled in is told to `say`. What fails is in `failures`: UsageError for a teacher's
+    file that cannot be used so, SurroundingsError if the folder cannot be written. The files may
+    reach the disk a while later.
+    """
+    written = Written()
+    made: dict[str, Callable[[], Filled]] = {
+        GRADEBOOK: lambda: Filled(gradebook_csv(result, bom=True)),
+        JUNIT: lambda: Filled(class_xml(result)),
+    }
+    if worksheet is not None:
+        made[WORKSHEET] = lambda: worksheet.filled(result, show_hidden=show_hidden)
+    if result.system == "moodle":
+        made[MOODLE] = lambda: moodle_import(result, show_hidden=show_hidden)
+    if canvas is not None:
+        made[CANVAS] = lambda: canvas.filled(result)
+    elif result.system == "canvas":
+        made[CANVAS] = lambda: Filled(new_gradebook(result, title=canvas_column))
+    for name, make in made.items():
+        with written.going_on():
+            _write(out, "", name, make(), written, say)
+    for name, page in _feedback(result, show_hidden=show_hidden):
+        with written.going_on():
+            _write(out, FEEDBACK, name, Filled(page()), written, say)
+    return written
+
+
+def _feedback(
+    result: ClassResult, *, show_hidden: bool
+) -> Iterator[tuple[str, Callable[[], bytes]]]:
+    """Yield each student's two files, by name; two students never share one.
+
+    Who handed in elsewhere gets none: there is nothing to tell, and nothing that was missed.
+    """
+    title = result.title or result.assignment
+    pages = page_names(entry.student.key for entry in result.entries)
+    for entry in result.entries:
+        if entry.status == "elsewhere" and not entry.overrides:
+            continue
+        page = pages[entry.student.key]
+        yield page, partial(html_page, entry, title, show_hidden=show_hidden)
+        text = partial(_markdown, entry, title, show_hidden=show_hidden)
+        yield f"{page.removesuffix('.html')}.md", text
+
+
+def _markdown(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
+    return markdown(entry, title, show_hidden=show_hidden).encode()
+
+
+def _write(
+    out: Path,
+    folder: str,
+    name: str,
+    made: Filled,
+    written: Written,
+    say: Callable[[str], None] | None,
+) -> None:
+    """Write one file into `out`, or into a folder of ours in it."""
+    try:
+        out.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with Folder.open(out, durable=False) as outer:
+            if folder:
+                with outer.private(folder) as inner:
+                    inner.replace(name, made.content)
+            else:
+                outer.replace(name, made.content)
+    except OSError as error:
+        raise could_not_write(error, out, what=folder or name) from error
+    written.files.append(out / folder / name)
+    if say is not None:
+        for warning in made.warnings:
+            say(warning)

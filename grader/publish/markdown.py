@@ -1,0 +1,93 @@
+"""One student's feedback as Markdown (CommonMark); no text of a submission becomes markup."""
+
+from __future__ import annotations
+
+import re
+
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import first_lines
+from grader.base.plain_text import last_lines
+from grader.base.plain_text import one_line
+from grader.batch.model import Entry
+from grader.publish.feedback import feedback_view
+from grader.publish.feedback import headline
+from grader.publish.feedback import hidden_words
+from grader.publish.feedback import mark_of
+from grader.publish.pages.student import CheckView
+
+# CommonMark: a backslash before ASCII punctuation makes it a character like any other
+ACTIVE = re.compile(r"([\\`*_\[\]<>&#|~!$@]|:(?=//)|(?<=www)\.|^[-+=])", re.I)
+LIST_NUMBER = re.compile(r"^(\d+)([.)])")
+BACKTICKS = re.compile(r"`+")
+LOG_LINES, FIELD_LINES = 60, 30
+
+
+def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
+    """Return the feedback; hidden checks are counted only, unless `show_hidden`."""
+    view = feedback_view(entry, show_hidden=show_hidden)
+    student, speak = entry.student, Speaker(entry.lang)
+    lines = [f"# {_plain(student.name or student.key)}: {_plain(title)}", ""]
+    lines += [f"**{_plain(headline(entry))}**", ""]
+    if entry.problem:
+        lines += [_plain(speak(entry.problem)), ""]
+    lines += [f"- {_plain(line)}" for line in view.reckoning]
+    if view.checks:
+        head = speak(say("Checks"))
+        lines += ["", f"## {_plain(head)}", ""]
+        for one in view.checks:
+            lines.append(f"- {_code(one.check.id)} {_plain(mark_of(one, entry.lang))}")
+    if hidden := hidden_words(view):
+        lines.append(f"- {_plain(hidden)}")
+    for one in view.checks:
+        if one.needs_block or one.override is not None or one.check.advice:
+            lines += ["", *_block(one, speak)]
+    for head, text in (
+        (say("What ros2 run printed"), view.transcript),
+        (say("What colcon build printed"), view.build_log),
+    ):
+        if text.strip():
+            lines += ["", f"## {_plain(speak(head))}", ""]
+            lines += _fenced(last_lines(text, lines=LOG_LINES)[0])
+    return "\n".join(lines) + "\n"
+
+
+def _block(one: CheckView, speak: Speaker) -> list[str]:
+    lines = [f"## {_code(one.check.id)}: {_plain(one.check.title)}"]
+    for field in one.fields:
+        text = first_lines(field.text, lines=FIELD_LINES, most=1_000)
+        if not field.code:
+            lines += ["", f"{field.label}: {_plain(field.text)}"]
+        elif len(text) > 1:
+            lines += ["", f"{field.label}:", "", *_fenced(text)]
+        else:
+            lines += ["", f"{field.label}: {_code(text[0])}"]
+    if one.override is not None:
+        by, why = one.override.by, one.override.because
+        told = say("Corrected, because: {why}", why=why)
+        if by:
+            told = say("Corrected by {name}, because: {why}", name=by, why=why)
+        lines += ["", _plain(speak(told))]
+    return lines
+
+
+def _plain(text: str) -> str:
+    """Return a text as one line in which nothing is markup, wherever it stands."""
+    line = one_line(" ".join(first_lines(text, lines=40, most=1_000)), most=4_000).strip()
+    return LIST_NUMBER.sub(r"\1\\\2", ACTIVE.sub(r"\\\1", line))
+
+
+def _code(text: str) -> str:
+    """Return a text as code within a line; its fence is longer than any run of backticks in it."""
+    line = one_line(text, most=1_000)
+    fence = "`" * (_longest(line) + 1)
+    return f"{fence} {line} {fence}" if "`" in line or not line.strip() else f"{fence}{line}{fence}"
+
+
+def _fenced(lines: list[str]) -> list[str]:
+    fence = "`" * max(3, _longest("\n".join(lines)) + 1)
+    return [f"{fence}text", *lines, fence]
+
+
+def _longest(text: str) -> int:
+    return max((len(run) for run in BACKTICKS.findall(text)), default=0)

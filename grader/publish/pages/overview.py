@@ -1,0 +1,157 @@
+"""What a class's results say together: pure functions of a ClassResult."""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from grader.base.plain_text import one_line
+from grader.batch.model import ClassResult
+from grader.batch.model import Entry
+from grader.report.model import CheckResult
+
+BINS = 10
+SLOWEST = 10
+UNKNOWN = ("inconclusive", "error")
+
+
+@dataclass(frozen=True)
+class Bin:
+    """The submissions with `low` <= points < `high` (the last one: <= `high`)."""
+
+    low: float
+    high: float
+    count: int
+
+
+@dataclass(frozen=True)
+class Scores:
+    """The final points of the graded submissions, and their middle."""
+
+    count: int
+    median: float
+    mean: float
+    lowest: float
+    highest: float
+    bins: tuple[Bin, ...]
+
+
+@dataclass
+class CheckTally:
+    """How one check went in the class."""
+
+    id: str
+    title: str
+    visibility: str
+    passed: int = 0
+    failed: int = 0
+    skipped: int = 0
+    unknown: int = 0
+
+    @property
+    def rate(self) -> float:
+        """The failed among those of which it is known, 0 to 1."""
+        known = self.passed + self.failed
+        return self.failed / known if known else 0.0
+
+    @property
+    def clean(self) -> bool:
+        """Whether nobody failed it, as far as is known of all."""
+        return not self.failed and not self.unknown
+
+
+@dataclass
+class MistakeTally:
+    """Who made a mistake, at which checks, and what was found at the first of them."""
+
+    id: str
+    checks: list[str]
+    example: str
+    who: list[Entry]
+
+
+def shown(entry: Entry, *, show_hidden: bool) -> list[CheckResult]:
+    """Return the checks of an entry's report that may be shown; [] without a report."""
+    if entry.report is None:
+        return []
+    return [c for c in entry.report.checks if show_hidden or c.visibility == "visible"]
+
+
+def scores(result: ClassResult) -> Scores | None:
+    """Return the distribution of the final points of what was graded; None if nothing was."""
+    finals = [e.final for e in result.entries if e.status == "graded" and e.final is not None]
+    if not finals:
+        return None
+    return Scores(
+        count=len(finals),
+        median=statistics.median(finals),
+        mean=statistics.fmean(finals),
+        lowest=min(finals),
+        highest=max(finals),
+        bins=_bins(finals, result.max_score),
+    )
+
+
+def _bins(finals: Sequence[float], most: float) -> tuple[Bin, ...]:
+    if most <= 0:
+        return ()
+    counts = [0] * BINS
+    for final in finals:
+        # points beyond either end (a correction may give a bonus) are counted at that end
+        counts[min(max(math.floor(final / most * BINS), 0), BINS - 1)] += 1
+    edges = [most * k / BINS for k in range(BINS + 1)]
+    return tuple(Bin(a, b, n) for a, b, n in zip(edges, edges[1:], counts))
+
+
+def checks(result: ClassResult, *, show_hidden: bool) -> list[CheckTally]:
+    """Return every check, the one that failed most often first."""
+    found: dict[str, CheckTally] = {}
+    for entry in result.entries:
+        for check in shown(entry, show_hidden=show_hidden):
+            tally = found.setdefault(check.id, CheckTally(check.id, check.title, check.visibility))
+            if check.status in UNKNOWN:
+                tally.unknown += 1
+            elif check.status == "passed":
+                tally.passed += 1
+            elif check.status == "failed":
+                tally.failed += 1
+            else:
+                tally.skipped += 1
+    return sorted(found.values(), key=lambda tally: (-tally.rate, -tally.failed))
+
+
+def mistakes(result: ClassResult, *, show_hidden: bool) -> list[MistakeTally]:
+    """Return every mistake that was made, the most frequent first; each student counts once."""
+    found: dict[str, MistakeTally] = {}
+    for entry in result.entries:
+        for check in shown(entry, show_hidden=show_hidden):
+            for mistake in check.mistakes:
+                example = one_line(check.actual.strip(), most=160)
+                tally = found.setdefault(mistake.id, MistakeTally(mistake.id, [], example, []))
+                if check.id not in tally.checks:
+                    tally.checks.append(check.id)
+                if not tally.who or tally.who[-1] is not entry:
+                    tally.who.append(entry)
+    return sorted(found.values(), key=lambda tally: (-len(tally.who), tally.id))
+
+
+def unsure(result: ClassResult, *, show_hidden: bool) -> list[tuple[Entry, list[CheckResult]]]:
+    """Return the entries with checks that were neither passed nor failed for a fault not theirs."""
+    found = []
+    for entry in result.entries:
+        open_ = [c for c in shown(entry, show_hidden=show_hidden) if c.status in UNKNOWN]
+        if open_:
+            found.append((entry, open_))
+    return found
+
+
+def slowest(result: ClassResult) -> list[Entry]:
+    """Return the entries whose verdicts took longest."""
+    timed = [entry for entry in result.entries if entry.report is not None]
+    return sorted(timed, key=_total, reverse=True)[:SLOWEST]
+
+
+def _total(entry: Entry) -> float:
+    return entry.report.timing.total if entry.report is not None else 0.0

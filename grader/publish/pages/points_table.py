@@ -1,0 +1,93 @@
+"""How a student's final points came about, in sentences."""
+
+from __future__ import annotations
+
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.plain_text import points
+from grader.batch.model import Entry
+from grader.batch.model import Override
+from grader.batch.points import in_points
+from grader.batch.words import duration
+from grader.batch.words import instant
+from grader.report.blocks import UNSEEN
+from grader.report.model import Report
+
+
+def reckoning(entry: Entry, visible: set[str]) -> list[str]:
+    """Return how the final points came about, one step a line."""
+    report = entry.report
+    lines = _given(report) if report is not None else []
+    lines += [_correction(override, entry, visible) for override in entry.overrides]
+    if entry.overrides and entry.score is not None:
+        lines.append(say("With that it is {score}.", score=points(entry.score)))
+    if late := _lateness(entry):
+        lines.append(late)
+    if entry.attempts > 1:
+        counts = say(
+            "Attempt {number} of {count} is the one that counts.",
+            number=entry.attempt,
+            count=entry.attempts,
+        )
+        lines.append(counts)
+    graded = report is not None and report.status == "graded"
+    if len(lines) == 1 and graded and entry.final == entry.score:
+        return [say("As the checks gave them.")]
+    if entry.final is None:
+        return [*lines, say("Nothing goes into the gradebook yet.")]
+    final, most = points(entry.final), points(entry.max_score)
+    return [*lines, say("{points} of {most} go into the gradebook.", points=final, most=most)]
+
+
+def _given(report: Report) -> list[str]:
+    """Return what the checks gave."""
+    if report.status == "error":
+        ours = say("Not graded: the fault is the grader's or its machine's, not the submission's.")
+        return [ours]
+    score, most = points(report.score), points(report.max_score)
+    lines: list[str] = [say("The checks gave {score} of {most}.", score=score, most=most)]
+    if report.inconclusive:
+        open_ = in_points(report.inconclusive)
+        lines.append(say("{points} could be neither given nor taken.", points=open_))
+    return lines
+
+
+def _lateness(entry: Entry) -> str:
+    """Return what lateness took, "" if it is none."""
+    taken = in_points(entry.penalty)
+    if entry.late_seconds <= 0:
+        return say("Penalty: {points} taken.", points=taken) if entry.penalty else ""
+    late = duration(entry.late_seconds)
+    if not entry.penalty:
+        return say("Late by {duration}: no points taken.", duration=late)
+    return say("Late by {duration}: {points} taken.", duration=late, points=taken)
+
+
+def _correction(override: Override, entry: Entry, visible: set[str]) -> str:
+    known = {check.id: check for check in entry.report.checks} if entry.report else {}
+    hidden = override.check in known and override.check not in visible
+    check = known.get(override.check)
+    what = UNSEEN if hidden else override.check or say("the total")
+    given, why = points(override.points), override.because
+    before = points(check.score) if check is not None else ""
+    if hidden:
+        told = say(
+            "Corrected: {what} gives {points} instead of {before}.",
+            what=what,
+            points=given,
+            before=before,
+        )
+    elif before:
+        told = say(
+            "Corrected: {what} gives {points} instead of {before}, because: {why}",
+            what=what,
+            points=given,
+            before=before,
+            why=why,
+        )
+    else:
+        told = say(
+            "Corrected: {what} gives {points}, because: {why}", what=what, points=given, why=why
+        )
+    signed = ", ".join(part for part in (override.by, instant(override.at)) if part)
+    return joined(told, f"({signed})" if signed else "")

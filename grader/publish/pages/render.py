@@ -1,0 +1,120 @@
+"""HTML from templates. Every text is taken for hostile, whoever wrote it.
+
+Three walls, each enough by itself: in every expression of every template markup is escaped, what
+cannot be seen is spelled out and what is long is cut; the content security policy of each page allows only the
+style and the script of this room, by their hashes; and there is no place in a template where a text
+becomes an address, a style or a script.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from pathlib import Path
+
+from jinja2 import Environment
+from jinja2 import FileSystemLoader
+from jinja2 import StrictUndefined
+from markupsafe import Markup
+from markupsafe import escape
+
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import one_line
+from grader.base.plain_text import points
+from grader.base.plain_text import shorten
+from grader.base.plain_text import visible
+from grader.batch.model import Student
+from grader.batch.words import SIGNS
+from grader.batch.words import STATES
+from grader.batch.words import duration
+from grader.batch.words import instant
+from grader.batch.words import plural
+from grader.report.blocks import WORDS
+from grader.report.blocks import all_of
+from grader.report.report_page import hidden_checks
+
+TEMPLATES = Path(__file__).resolve().parent / "templates"
+MOST = 1_000  # characters of a text that is not a whole log or field
+MOST_NAME = 120
+
+
+class Renderer:
+    """Makes pages of the templates in one language; `values` are known in all of them.
+
+    What a template marks with `say` is said in the language where it comes out.
+    """
+
+    def __init__(self, *, lang: str = SOURCE, **values: object) -> None:
+        self._css = (TEMPLATES / "site.css").read_text(encoding="utf-8")
+        self._js = (TEMPLATES / "site.js").read_text(encoding="utf-8")
+        self._environment = _environment(Speaker(lang))
+        self._environment.globals.update(values)
+
+    def page(self, template: str, *, script: bool, **values: object) -> bytes:
+        """Return a page in UTF-8, with our script in it or none at all."""
+        js = self._js if script else ""
+        style, code = Markup(self._css), Markup(js)  # noqa: S704 - files of this room
+        known = {"css": style, "js": code, "policy": _policy(self._css, js)}
+        text = self._environment.get_template(template).render(known, **values)
+        return text.encode()
+
+
+def _environment(speak: Speaker) -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=lambda value: _tamed(speak(value) if isinstance(value, Message) else value),
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(seconds="{:.3f} s".format, whole=_whole)
+    environment.globals.update(
+        lang=speak.lang,
+        say=say,
+        all_of=all_of,
+        hidden_checks=hidden_checks,
+        states=STATES,
+        signs=SIGNS,
+        words=WORDS,
+        points=points,
+        duration=duration,
+        instant=instant,
+        plural=plural,
+        one_line=one_line,
+        who=_who,
+    )
+    return environment
+
+
+def _who(student: Student) -> str:
+    """Return a student's name, fit for a heading or a link."""
+    return one_line(student.name or student.key, most=MOST_NAME)
+
+
+def _tamed(value: object) -> object:
+    """Spell out what cannot be seen in a text and bound its length; markup of ours stays."""
+    if not isinstance(value, str) or isinstance(value, Markup):
+        return value
+    return visible(shorten(value, most=MOST))
+
+
+def _whole(text: str) -> Markup:
+    """Return a text that was cut already as what may stand between two tags."""
+    return escape(visible(text))
+
+
+def _policy(css: str, js: str) -> str:
+    """Return the content security policy: nothing but these two texts, and no requests."""
+    script = f"'{_hash(js)}'" if js else "'none'"
+    return (
+        f"default-src 'none'; style-src '{_hash(css)}'; script-src {script}; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def _hash(text: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

@@ -1,0 +1,193 @@
+"""What a student's page says: the reckoning of the points, the checks, the run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.translator import Speaker
+from grader.base.plain_text import first_lines
+from grader.batch.model import Entry
+from grader.batch.model import Override
+from grader.batch.words import instant
+from grader.publish.pages.charts import Timeline
+from grader.publish.pages.charts import timeline
+from grader.publish.pages.overview import shown
+from grader.publish.pages.points_table import reckoning
+from grader.report.blocks import UNSEEN
+from grader.report.blocks import evidence_of
+from grader.report.blocks import roots
+from grader.report.model import CheckResult
+from grader.report.model import Report
+from grader.report.report_page import ran_on
+
+FIELD_LINES, FIELD_CHARACTERS = 30, 1_000
+LOG_LINES, LOG_CHARACTERS = 2_000, 2_000  # the runner keeps 40,000 characters of each
+KEY, FOLDER = say("Key"), say("Folder")
+LOGS = {"colcon build printed": "build-log", "ros2 run printed": "transcript"}
+
+
+@dataclass(frozen=True)
+class Field:
+    """A labelled text of a check; `code` ones are shown letter by letter."""
+
+    label: str
+    text: str
+    code: bool = False
+
+
+@dataclass(frozen=True)
+class CheckView:
+    """One check as the page shows it; `log` is the id of the text that shows why it failed."""
+
+    check: CheckResult
+    fields: tuple[Field, ...]
+    because: tuple[str, ...]
+    override: Override | None
+    log: str
+
+    @property
+    def needs_block(self) -> bool:
+        """Whether there is something to tell beside its line of the table."""
+        return self.check.status not in ("passed", "skipped")
+
+
+@dataclass(frozen=True)
+class StudentView:
+    """A student's page."""
+
+    entry: Entry
+    checks: tuple[CheckView, ...]
+    hidden: int
+    reckoning: tuple[str, ...]
+    facts: tuple[tuple[str, str], ...]
+    details: tuple[tuple[str, str], ...]
+    timeline: Timeline | None
+    transcript: str
+    build_log: str
+
+    @property
+    def advice(self) -> list[CheckView]:
+        """The checks that passed and still have something to say."""
+        return [v for v in self.checks if v.check.status == "passed" and v.check.advice]
+
+
+def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> StudentView:
+    """Return what the page of one student shows, said in a language.
+
+    Without `show_hidden` there is no word of hidden checks.
+    """
+    speak = Speaker(lang)
+    report = entry.report
+    checks = shown(entry, show_hidden=show_hidden)
+    visible = {check.id for check in checks}
+    evidence = report.evidence if report else None
+    return StudentView(
+        entry=entry,
+        checks=tuple(_check(check, entry, visible, speak) for check in checks),
+        hidden=len(report.checks) - len(checks) if report else 0,
+        reckoning=tuple(speak(line) for line in reckoning(entry, visible)),
+        facts=tuple((speak(name), speak(value)) for name, value in _facts(entry) if value),
+        details=tuple((n, v) for n, v in _details(report) if v) if report else (),
+        timeline=timeline(report.observed) if report else None,
+        transcript=_log(evidence.transcript) if evidence else "",
+        build_log=_log(evidence.build_log) if evidence else "",
+    )
+
+
+def _check(check: CheckResult, entry: Entry, visible: set[str], speak: Speaker) -> CheckView:
+    assert entry.report is not None
+    because: list[str] = []
+    if check.status == "skipped":
+        names = [o.id if o.id in visible else UNSEEN for o in roots(check, entry.report.checks)]
+        because = [speak(name) for name in dict.fromkeys(names)]
+    _, title = evidence_of(check, entry.report.evidence)
+    log = next((place for start, place in LOGS.items() if title.startswith(start)), "")
+    return CheckView(
+        check=check,
+        fields=tuple(
+            Field(speak(f.label), speak(f.text), f.code) for f in _fields(check) if f.text.strip()
+        ),
+        because=tuple(because),
+        override=next((o for o in entry.overrides if o.check == check.id), None),
+        log=log if log and _log_text(entry.report, log).strip() else "",
+    )
+
+
+def _log_text(report: Report, place: str) -> str:
+    return report.evidence.build_log if place == "build-log" else report.evidence.transcript
+
+
+def _fields(check: CheckResult) -> list[Field]:
+    where = ""
+    if check.where is not None:
+        where = check.where.file
+        if check.where.line is not None:
+            where = say("{file}, line {line}", file=where, line=check.where.line)
+    open_ = {
+        "inconclusive": say("None taken, none given. Grade again when the machine is less busy."),
+        "error": say("None taken, none given: the fault is the grader's. Please report it."),
+    }
+    return [
+        Field(say("Expected"), _cut(check.expected), code=True),
+        Field(say("Found"), _cut(check.actual), code=True),
+        Field(say("Where"), where, code=True),
+        Field(say("Why"), _cut(check.rationale)),
+        Field(say("Points"), open_.get(check.status, "")),
+        Field(say("Fix"), _cut(check.fix)),
+        Field(say("Change"), _cut(check.patch), code=True),
+        *(Field(say("Also"), _cut(advice)) for advice in check.advice),
+        Field(say("Mistake"), ", ".join(mistake.id for mistake in check.mistakes), code=True),
+    ]
+
+
+def _facts(entry: Entry) -> list[tuple[str, str]]:
+    student, report = entry.student, entry.report
+    facts: list[tuple[str, str]] = [
+        (KEY, student.key if student.key != student.name else ""),
+        (say("Number"), student.id_number),
+        (say("User name"), student.username),
+        (say("Email"), student.email),
+        (say("Section"), student.section),
+        (say("Handed in"), instant(entry.submitted)),
+    ]
+    if report is not None:
+        facts += [
+            (say("Package"), report.submission.package or say("none was found")),
+            (FOLDER, report.submission.path),
+            (say("Ran on"), ran_on(report)),
+            (say("Command"), report.observed.command),
+        ]
+    return facts
+
+
+def _details(report: Report) -> list[tuple[str, str]]:
+    names = ("rclpy", "rmw", "python", "colcon", "setuptools", "image", "grader")
+    env, found = report.environment, [(name, getattr(report.environment, name)) for name in names]
+    for name, limit in env.limits.items():
+        value = f"{limit.value:,.10g} {limit.unit}".strip()
+        found.append((f"limit: {name}", f"{value}, held by {limit.held_by}"))
+    spent = [f"{name} {seconds:.2f} s" for name, seconds in report.timing.model_dump().items()]
+    found += [
+        ("time", ", ".join(spent)),
+        ("nodes", ", ".join(report.observed.nodes)),
+        ("started", report.started),
+        ("submission's SHA-256", report.submission.sha256),
+        ("assignment's SHA-256", report.assignment.sha256),
+    ]
+    return found
+
+
+def _cut(text: str) -> str:
+    return _lines(text, most_lines=FIELD_LINES, most=FIELD_CHARACTERS)
+
+
+def _log(text: str) -> str:
+    return _lines(text, most_lines=LOG_LINES, most=LOG_CHARACTERS)
+
+
+def _lines(text: str, *, most_lines: int, most: int) -> str:
+    found: Sequence[str] = first_lines(text, lines=most_lines, most=most)
+    return "\n".join(found).rstrip()

@@ -1,0 +1,198 @@
+"""The folder of a class: `index.html` and one page a student, opened from the disk as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import zip_longest
+from pathlib import Path
+
+from grader.base.folder import Folder
+from grader.base.plain_text import one_line
+from grader.batch.model import ClassResult
+from grader.batch.model import Entry
+from grader.batch.words import STATES
+from grader.batch.words import SYSTEMS
+from grader.batch.words import duration
+from grader.batch.words import instant
+from grader.publish.pages import overview
+from grader.publish.pages.charts import histogram
+from grader.publish.pages.names import page_names
+from grader.publish.pages.render import Renderer
+from grader.publish.pages.student import student_view
+from grader.report.files import could_not_write
+
+INDEX, STUDENTS = "index.html", "students"
+OURS = b'<!doctype html>\n<html lang="en" data-made-by="ros2-teaching-lab">'
+FEW = 8  # names that are shown without being asked for
+LOG_TITLES = {"transcript": "What ros2 run printed", "build-log": "What colcon build printed"}
+
+
+def write_site(result: ClassResult, out: Path, *, show_hidden: bool = True) -> Path:
+    """Write the pages into the folder `out` (made if it is not there); return `index.html`'s path.
+
+    They are a pure function of the result and can be read by their owner only. The page of a student
+    who was in the class at an earlier run and is no more is removed. `show_hidden` shows the checks
+    that students do not see. SurroundingsError if the folder cannot be written.
+    They may reach the disk a while later.
+    """
+    pages = page_names(entry.student.key for entry in result.entries)
+    renderer = Renderer(result=result, pages=pages, heading=_heading(result))
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.mkdir(mode=0o700, exist_ok=True)
+        with Folder.open(out, durable=False) as folder:
+            with folder.private(STUDENTS) as students:
+                _write_students(students, renderer, result, pages, show_hidden=show_hidden)
+                _remove_old(students, set(pages.values()))
+            folder.replace(INDEX, _index(renderer, result, show_hidden=show_hidden))
+    except OSError as error:
+        raise could_not_write(error, out, what="the page of the class") from error
+    return out / INDEX
+
+
+def _write_students(
+    folder: Folder,
+    renderer: Renderer,
+    result: ClassResult,
+    pages: dict[str, str],
+    *,
+    show_hidden: bool,
+) -> None:
+    entries = result.entries
+    around = zip_longest((None, *entries[:-1]), entries, entries[1:])
+    known = {entry.student.key: entry for entry in entries}
+    for before, entry, after in around:
+        if entry is None:
+            continue
+        view = student_view(entry, show_hidden=show_hidden)
+        logs = [("transcript", view.transcript), ("build-log", view.build_log)]
+        page = renderer.page(
+            "student.html.j2",
+            script=False,
+            view=view,
+            about=_about_student(result, entry),
+            before=before,
+            after=after,
+            notes=[*entry.notes, *(entry.report.submission.notes if entry.report else ())],
+            same=[known[key] for key in entry.same_as if key in known],
+            logs=[(place, LOG_TITLES[place], text) for place, text in logs if text.strip()],
+            log_titles=LOG_TITLES,
+        )
+        folder.replace(pages[entry.student.key], page)
+
+
+def _heading(result: ClassResult) -> str:
+    return one_line(result.title or result.assignment)
+
+
+def _about_student(result: ClassResult, entry: Entry) -> list[str]:
+    handed_in = f"handed in {instant(entry.submitted)}" if entry.submitted else ""
+    parts = (_heading(result), _number(entry), STATES[entry.status], handed_in)
+    return [part for part in parts if part]
+
+
+def _number(entry: Entry) -> str:
+    """Return the number by which the course knows the student, "" if that is the name."""
+    number = entry.student.id_number or entry.student.key
+    return one_line(number, most=60) if number != entry.student.name else ""
+
+
+def _remove_old(folder: Folder, kept: set[str]) -> None:
+    """Remove the pages of an earlier run that this one did not write; nothing that is not ours."""
+    for name in folder.names():
+        if name.endswith(".html") and name not in kept:
+            content = folder.read(name)
+            if content is not None and content.startswith(OURS):
+                folder.remove(name)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A student's line in the table; `find` has what the search finds beside what is seen."""
+
+    entry: Entry
+    number: str
+    attempt: str
+    failed: tuple[str, ...]
+    find: str
+
+
+def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> bytes:
+    entries = result.entries
+    scores = overview.scores(result)
+    asked = {
+        "unsure": overview.unsure(result, show_hidden=show_hidden),
+        "identical": _identical(result),
+        **{
+            status: [entry for entry in entries if entry.status == status]
+            for status in ("ungradable", "error", "elsewhere", "missing", "pending")
+        },
+    }
+    return renderer.page(
+        "index.html.j2",
+        script=True,
+        about=_about(result),
+        cards=_cards(entries),
+        attention=any(asked.values()),
+        **asked,
+        scores=scores,
+        histogram=histogram(scores.bins) if scores else None,
+        checks=overview.checks(result, show_hidden=show_hidden),
+        mistakes=overview.mistakes(result, show_hidden=show_hidden),
+        graded=sum(entry.report is not None for entry in entries),
+        few=FEW,
+        slowest=overview.slowest(result),
+        rows=[_row(entry, show_hidden=show_hidden) for entry in entries],
+        sections=any(entry.student.section for entry in entries),
+    )
+
+
+def _about(result: ClassResult) -> list[str]:
+    distros = f"ROS 2 {', '.join(result.distros)}" if result.distros else ""
+    took = f"took {duration(result.seconds)}" if result.seconds else ""
+    source = f"from {SYSTEMS[result.system]}"
+    parts = (result.assignment, source, distros, instant(result.started), took)
+    return [part for part in parts if part]
+
+
+def _cards(entries: Sequence[Entry]) -> list[tuple[str, int]]:
+    def count(status: str) -> int:
+        return sum(entry.status == status for entry in entries)
+
+    full = [e for e in entries if e.final is not None and e.final >= e.max_score]
+    cards = [
+        ("students", len(entries)),
+        ("graded", count("graded")),
+        ("with full marks", len(full)),
+        ("late", sum(entry.late_seconds > 0 for entry in entries)),
+        ("ungradable", count("ungradable")),
+        ("missing", count("missing")),
+    ]
+    rare = {
+        "a fault of the grader": count("error"),
+        "handed in elsewhere": count("elsewhere"),
+        "not marked yet": count("pending"),
+    }
+    return [*cards, *((name, number) for name, number in rare.items() if number)]
+
+
+def _identical(result: ClassResult) -> list[list[Entry]]:
+    known = {entry.student.key: entry for entry in result.entries}
+    groups = ([known[key] for key in group if key in known] for group in result.identical)
+    return [group for group in groups if len(group) > 1]
+
+
+def _row(entry: Entry, *, show_hidden: bool) -> Row:
+    student = entry.student
+    checks = overview.shown(entry, show_hidden=show_hidden)
+    mistakes = [mistake.id for check in checks for mistake in check.mistakes]
+    attempt = f"{entry.attempt} of {entry.attempts}" if entry.attempts > 1 else "1"
+    unseen = (student.key, student.email, student.username, *mistakes)
+    return Row(
+        entry=entry,
+        number=_number(entry),
+        attempt=attempt if entry.report else "",
+        failed=tuple(check.id for check in checks if check.status == "failed"),
+        find=" ".join(dict.fromkeys(one_line(part, most=120) for part in unseen if part)),
+    )

@@ -1,0 +1,258 @@
+"""Virtual time: the node runs with `use_sim_time`, and this module drives its `/clock`.
+
+The loop is closed: after each `/clock` message a barrier proves that the node has done what was
+due (two round trips to its parameter service, EXERCISE.md), so the period is measured exactly,
+however busy the machine is. Nodes that do not follow `/clock` are watched on the wall clock.
+"""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from grader.base.i18n.message import say
+from grader.course.assignment import Output
+from grader.run.observer import SECOND
+from grader.run.observer import Event
+from grader.run.observer import Observer
+from grader.run.observer import Watch
+
+MILLISECOND = 1_000_000
+BARRIER_SECONDS = 2.0  # wall time for one barrier
+SETTLE_SECONDS = 2.5  # wall time in which a node that spins answers for the first time
+SLOW_BARRIER = 0.2  # seconds of wall time after which the next tick itself is answer enough
+UNANSWERED = 5  # barriers in a row after which a node that did answer has stopped to
+TRIES, TRY_SECONDS = 12, 0.5  # a tick is missing after that many barriers and that much wall time
+GRID = 20  # steps a period when the period has to be found out
+WALL_TICKS = 5
+WALL_SPARE = 3.0  # seconds of wall time beyond the ticks' own
+STILL = 1.3  # periods of wall time for which the clock stands still to unmask a wall clock
+
+
+class VirtualClock:
+    """Drives `/clock` for one node and watches what comes when."""
+
+    def __init__(
+        self, observer: Observer, output: Output, *, deadline: float, fine: bool = False
+    ) -> None:
+        self._fine = fine
+        self._observer = observer
+        self._output = output
+        self._deadline = deadline  # of time.monotonic()
+        self._at = 0
+        self._before = 0
+        self._unanswered = 0
+        self._slow = False
+        self._due: int | None = None
+        self._due_at = -1
+        self._period = round(output.period * SECOND)
+
+    def drive(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Fill `watch`: N due instants, nothing a millisecond before, one tick at each."""
+        if not self._settle(watch):
+            if self._over():
+                return
+            watch.note = say("the node does not answer: it is not spinning")
+            self._watch_wall(watch, tell)
+            if watch.counted or not self._settle(watch):
+                return
+        watch.clock = "virtual"
+        began = time.monotonic()
+        if not self._at_due_instants(watch, self._period, tell):
+            self._find_period(watch, tell)
+        promptly = time.monotonic() - began < 0.5 * self._output.period * len(watch.dues)
+        if watch.missing or watch.early or not promptly:
+            self._unmask(watch, tell)
+
+    def _settle(self, watch: Watch) -> bool:
+        """Start the clock at 1 ms and return whether the node answers: then it spins."""
+        deadline = time.monotonic() + SETTLE_SECONDS
+        while True:
+            events, barrier = self._step(MILLISECOND, seconds=SETTLE_SECONDS / 10)
+            watch.before_start += events
+            watch.events += events
+            if barrier or self._over() or time.monotonic() > deadline:
+                watch.settled = watch.settled or bool(barrier)
+                return watch.settled
+
+    def _at_due_instants(self, watch: Watch, phase: int, tell: Callable[[Event], None]) -> bool:
+        """Watch the due instants from `phase` on; return whether each had its tick, and no other."""
+        already = len(watch.dues)
+        for k in range(already, self._output.ticks):
+            due = phase + (k - already) * self._period
+            early = self._go_to(due - MILLISECOND)
+            watch.events += early
+            watch.early += [e for e in early if e.n is not None and e.due is None]
+            found = self._wait_for_tick(due, k)
+            self._due, self._due_at = k, due
+            watch.dues.append(due / SECOND)
+            watch.events += found
+            for event in found:
+                tell(event)
+            if not found:
+                watch.missing.append(k)
+            if not found or watch.early or self._over():
+                return False
+        return True
+
+    def _go_to(self, at: int) -> list[Event]:
+        """Set the clock to an instant, in one step or, if fine, in many: a node that has faster
+        timers beside (or under) the count loses some of their ticks when the clock jumps.
+        """
+        events: list[Event] = []
+        if self._fine:
+            step = self._period // GRID
+            for between in range(self._at - self._at % step + step, at, step):
+                if not self._over():
+                    events += self._step(between)[0]
+        return events + self._step(at)[0]
+
+    def _wait_for_tick(self, due: int, k: int) -> list[Event]:
+        """Step to a due instant and return what came; [] only after enough barriers and time."""
+        began = time.monotonic()
+        found: list[Event] = []
+        for attempt in range(10 * TRIES):
+            events, _ = self._step(due, wait=attempt > 0, until_log=True)
+            found += [event if event.due is not None else replace(event, due=k) for event in events]
+            if any(event.n is not None for event in found):
+                break
+            enough = TRIES / 4 if found else TRIES  # another line has come: is it the tick?
+            if attempt >= enough and (found or time.monotonic() - began > TRY_SECONDS):
+                break
+            if self._over():
+                break
+        return found
+
+    def _find_period(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Find out at which instants the ticks do come: small steps, then exactly if it is P."""
+        step = max(self._period // GRID, MILLISECOND)
+        before = {id(event) for event in watch.before_start}
+        seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
+        stop = self._at + 12 * self._period
+        fresh: list[float] = []
+        while self._at < stop and len(fresh) < 6 and not self._over():
+            events, _ = self._step(self._at + step)
+            watch.events += events
+            ticks = [event for event in events if event.n is not None] or events
+            for event in ticks:
+                tell(event)
+            fresh += [event.virtual for event in ticks]
+        instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))
+        if len(instants) > 1:
+            gaps = [b - a for a, b in zip(instants, instants[1:])]
+            watch.period = statistics.median(gaps)
+            tolerance = step / SECOND * 1.01
+            if all(abs(gap - self._output.period) <= tolerance for gap in gaps) and len(fresh) > 2:
+                self._verify_phase(watch, round(instants[-1] * SECOND), step, tell)
+
+    def _verify_phase(
+        self, watch: Watch, last: int, step: int, tell: Callable[[Event], None]
+    ) -> None:
+        """The period may be right and only begun later: find the phase to 1 ms and ask again."""
+        events, _ = self._step(last + self._period - step)
+        watch.events += events
+        at = self._at
+        while at < last + self._period and not events and not self._over():
+            at += MILLISECOND
+            events, _ = self._step(at)
+            watch.events += events
+        if not events:
+            return
+        kept = (watch.early, watch.missing, watch.dues)
+        watch.early, watch.missing, watch.dues = [], [], []
+        if self._at_due_instants(watch, at + self._period, tell):
+            watch.period = self._output.period
+        else:
+            watch.early, watch.missing, watch.dues = kept
+
+    def _unmask(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Let the clock stand still: what comes now follows the wall clock."""
+        deadline = min(self._deadline, time.monotonic() + STILL * self._output.period)
+        still: list[Event] = []
+        while time.monotonic() < deadline and not self._observer.over:
+            still += self._observer.take(self._observer.probe.ask("wait", seconds=0.1))
+        watch.events += still
+        if any(event.n is not None for event in still) or (still and not watch.dues):
+            watch.note = say("lines came while the ROS clock stood still")
+            watch.period = None
+            self._watch_wall(watch, tell)
+
+    def _watch_wall(self, watch: Watch, tell: Callable[[Event], None]) -> None:
+        """Watch a node that does not follow `/clock`: a fixed number of ticks by their stamps."""
+        watch_wall(self._observer, self._output, watch, tell, deadline=self._deadline)
+
+    def _step(
+        self,
+        at: int,
+        *,
+        wait: bool = False,
+        until_log: bool = False,
+        seconds: float = BARRIER_SECONDS,
+    ) -> tuple[list[Event], bool | None]:
+        """Set the clock, make the barrier, and return what has come."""
+        self._at = max(at, self._at)
+        observer = self._observer
+        observer.now = self._at / SECOND
+        published = time.time()
+        enough = int(until_log and self._slow)
+        answer = observer.probe.ask("clock", seconds=seconds, at=self._at, until_log=enough)
+        self._slow = self._slow or time.time() - published > SLOW_BARRIER
+        events = observer.take(answer, seconds=0.02 if wait else 0)
+        events += observer.catch_up(answer.logs)
+        events = self._where_they_belong(events, published)
+        silent = answer.barrier is False and not events
+        self._unanswered = self._unanswered + 1 if silent else 0
+        self._before = self._at
+        if answer.clocks > 1:
+            raise ForeignClock(events)
+        return events, answer.barrier
+
+    def _where_they_belong(self, events: list[Event], published: float) -> list[Event]:
+        """Give what was logged before this step's clock message to the instant before."""
+        due = self._due if self._before == self._due_at else None
+        return [
+            replace(event, virtual=self._before / SECOND, due=due)
+            if event.record is not None and event.wall < published and self._before
+            else event
+            for event in events
+        ]
+
+    def _over(self) -> bool:
+        stuck = self._unanswered >= UNANSWERED and self._at > MILLISECOND
+        return stuck or self._observer.over or time.monotonic() > self._deadline
+
+
+class ForeignClock(Exception):  # noqa: N818
+    """Somebody else publishes `/clock` too: it measures nothing then."""
+
+    def __init__(self, events: list[Event]) -> None:
+        super().__init__("foreign clock")
+        self.events = events
+
+
+def watch_wall(
+    observer: Observer,
+    output: Output,
+    watch: Watch,
+    tell: Callable[[Event], None],
+    *,
+    deadline: float,
+) -> None:
+    """Watch a fixed number of ticks on the wall clock; the period is the median of their stamps."""
+    watch.clock = "wall"
+    watch.dues, watch.missing, watch.early = [], [], []
+    end = min(deadline, time.monotonic() + (WALL_TICKS + 1) * output.period + WALL_SPARE)
+    while time.monotonic() < end and not observer.over:
+        if len(watch.counted) > WALL_TICKS and any(e.n is not None for e in watch.events):
+            break
+        events = observer.take(observer.probe.ask("wait", seconds=0.05))
+        watch.events += events
+        for event in events:
+            tell(event)
+    watch.events += observer.settle()
+    watch.events.sort(key=lambda event: event.wall)
+    stamps = [event.wall for event in watch.counted]
+    if len(stamps) > 2:
+        watch.period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))

@@ -1,0 +1,208 @@
+"""What a run put out: the terminal's lines and ROS's log records brought together as events."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterable
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import field
+from dataclasses import replace
+from typing import Literal
+
+from grader.course.assignment import Output
+from grader.run.probe_link import Answer
+from grader.run.probe_link import LogRecord
+from grader.run.probe_link import NodeSeen
+from grader.run.probe_link import ProbeLink
+from grader.run.terminal import Line
+from grader.run.terminal import Terminal
+
+SECOND = 1_000_000_000
+GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
+LATE_GRACE = 1.0  # the same for what was logged before the probe had found the node
+PREFIX = 60  # bytes, about, that a log record has on a terminal beside its text
+
+Source = Literal["logger", "print", "faked"]
+
+
+@dataclass(frozen=True)
+class Event:
+    """One line that the node put out: when, and what ROS saw of it.
+
+    `virtual` and `wall` in seconds (None: the clock had not been started); `due` is the number of
+    the due instant at which it came, counted from 0, None if it came at another time.
+    """
+
+    text: str
+    wall: float
+    virtual: float
+    source: Source
+    n: int | None
+    due: int | None = None
+    record: LogRecord | None = None
+    logger: str = ""
+
+
+@dataclass
+class Watch:
+    """What a run showed: every event in order, and how the count was timed."""
+
+    clock: Literal["virtual", "wall"] | None = None
+    events: list[Event] = field(default_factory=list)
+    dues: list[float] = field(default_factory=list)
+    early: list[Event] = field(default_factory=list)
+    before_start: list[Event] = field(default_factory=list)
+    missing: list[int] = field(default_factory=list)
+    period: float | None = None
+    settled: bool = False
+    note: str = ""
+
+    @property
+    def counted(self) -> list[Event]:
+        """The events that are taken for the count: those of the pattern, else any."""
+        own = [event for event in self.events if event.n is not None]
+        if own:
+            return own
+        before = {id(event) for event in self.before_start}
+        others = [e for e in without_tracebacks(self.events) if id(e) not in before]
+        moments = {event.due if self.clock == "virtual" else event.wall for event in others}
+        # what comes once only is a message or a traceback, and no count
+        return others if len(moments - {None}) > 1 else []
+
+
+def without_tracebacks(events: Iterable[Event]) -> Iterator[Event]:
+    """Yield the events before the first traceback, and of those after it what ROS itself saw.
+
+    (A traceback reaches the terminal in pieces, at several moments: it is no count for that.)
+    """
+    broke = False
+    for event in events:
+        broke = broke or (event.source == "print" and event.text.startswith("Traceback (most"))
+        if not broke or event.source != "print":
+            yield event
+
+
+class Observer:
+    """Brings together what the terminal showed and what ROS saw."""
+
+    def __init__(self, terminal: Terminal, probe: ProbeLink, output: Output) -> None:
+        self.terminal = terminal
+        self.probe = probe
+        self.output = output
+        head, tail = output.text.split("{n}")
+        self._pattern = re.compile(re.escape(head) + r"(-?\d{1,18})" + re.escape(tail))
+        self._unmatched: list[Line] = []
+        self.records: list[LogRecord] = []
+        self._shown: set[int] = set()  # the stamps of the records that the terminal showed
+        self.now = 0.0  # virtual seconds
+        self._linked: float | None = None
+        self._mirrored = True  # whether the terminal shows what the logger says
+        self.logged = 0  # bytes that the log records would have on a terminal
+
+    @property
+    def flooded(self) -> bool:
+        """Whether the node has put out more than it may: on the terminal, or on /rosout alone."""
+        return self.terminal.flooded or self.logged >= self.terminal.most
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more is to be seen: the command has ended, or was stopped for its output."""
+        return self.terminal.ended or self.flooded
+
+    def linked(self, nodes: Sequence[NodeSeen]) -> None:
+        """Note when the probe could first hear a node's log records: older ones come late."""
+        if self._linked is None and any(node.rosout for node in nodes):
+            self._linked = time.time()
+
+    def number(self, text: str) -> int | None:
+        """Return the count in a line of the expected form, None for any other line."""
+        match = self._pattern.fullmatch(text)
+        if match is None or str(int(match.group(1))) != match.group(1):
+            return None  # 007 is no 7
+        return int(match.group(1))
+
+    def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
+        """Return the new events of an answer and of the terminal, in order."""
+        events = [self._of_record(record) for record in (answer.logs if answer else ())]
+        for line in self.terminal.read(seconds):
+            for part in line.parts():
+                if part.log is not None:
+                    self._unmatched.append(part)
+                elif part.text.strip():
+                    events.append(self._event(part.text, part.wall, "print", None))
+        return events + self._match()
+
+    def _of_record(self, record: LogRecord) -> Event:
+        self.records.append(record)
+        self.logged += len(record.text.encode()) + PREFIX
+        return self._event(record.text, record.stamp / SECOND, "logger", record)
+
+    def _event(self, text: str, wall: float, source: Source, record: LogRecord | None) -> Event:
+        return Event(text, wall, self.now, source, self.number(text), record=record)
+
+    def _match(self) -> list[Event]:
+        """Return the lines that look like log records but are none of ROS's, after a grace time."""
+        known = {
+            (r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]
+        }
+        faked, waiting = [], []
+        for line in self._unmatched:
+            assert line.log is not None
+            _, stamp, name, text = line.log
+            if (stamp, name, text) in known:
+                self._shown.add(stamp)
+            elif self._is_overdue(line):
+                faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
+            else:
+                waiting.append(line)
+        self._unmatched = waiting
+        return faked
+
+    def visible(self, events: Iterable[Event]) -> list[Event]:
+        """Return the events that a person at the terminal saw."""
+        return [e for e in events if e.record is None or e.record.stamp in self._shown]
+
+    def _is_overdue(self, line: Line) -> bool:
+        """Whether a line's log record would have come by now."""
+        if self._linked is None:
+            return time.time() - line.wall > LATE_GRACE
+        if line.wall < self._linked:
+            return time.time() - self._linked > LATE_GRACE
+        return time.time() - line.wall > GRACE
+
+    def catch_up(self, records: Sequence[LogRecord]) -> list[Event]:
+        """Return what was printed before the records, or right after them, and came later.
+
+        A container's terminal is slower than its network. A record's own line follows on the
+        terminal what was printed before it; what was printed after it may take as long again.
+        """
+        began = time.monotonic()
+        events: list[Event] = []
+        while self._mirrored and self._has_unshown(records):
+            late = time.monotonic() - began
+            self._mirrored = late < LATE_GRACE
+            events += self.take(seconds=GRACE / 4)
+            if not self._has_unshown(records):
+                events += self.take(seconds=max(late, GRACE / 4))
+        return events
+
+    def settle(self) -> list[Event]:
+        """Give every line that is still waiting for its log record its grace time, and every record
+        that is still waiting for its line: a container's terminal is slower than its network.
+        """
+        events: list[Event] = []
+        deadline = time.monotonic() + 2 * LATE_GRACE
+        while (
+            (self._unmatched or self._has_unshown(self.records[-4000:]))
+            and not self.flooded
+            and time.monotonic() < deadline
+        ):
+            events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
+        return events
+
+    def _has_unshown(self, records: Sequence[LogRecord]) -> bool:
+        """Whether a record's line may still come on the terminal."""
+        return not self.over and any(record.stamp not in self._shown for record in records)

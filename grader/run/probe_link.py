@@ -1,0 +1,129 @@
+"""The grader's end of the probe: one JSON line out, one in, never anything but text to be judged."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import math
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from grader.base.errors import SurroundingsError
+from grader.sandbox.base import Sandbox
+
+SOURCE = Path(__file__).with_name("probe.py")
+START_SECONDS = 30.0
+LONGEST_ANSWER = 8_000_000  # bytes
+END_SECONDS = 1.0
+PATIENCE = 20.0  # seconds beyond a command's own time in which an answer must come
+
+
+@dataclass(frozen=True)
+class LogRecord:
+    """One record of /rosout; `stamp` in nanoseconds of the epoch, `level` 10 to 50."""
+
+    level: int
+    name: str
+    text: str
+    function: str
+    file: str
+    line: int
+    stamp: int
+
+
+@dataclass(frozen=True)
+class NodeSeen:
+    """A node on the graph: its full name, and whether it has a /clock subscription and so on."""
+
+    name: str
+    clock: bool
+    rosout: bool
+    parameters: bool
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the probe said. `barrier`: every node answered (None: there is none to ask)."""
+
+    barrier: bool | None = None
+    logs: tuple[LogRecord, ...] = ()
+    nodes: tuple[NodeSeen, ...] = ()
+    clocks: int = 0
+    matched: bool = False
+
+
+class ProbeError(SurroundingsError):
+    """The probe did not answer: our side, never the student's."""
+
+
+class ProbeLink:
+    """A probe in a sandbox. It starts at once and answers when rclpy is up."""
+
+    def __init__(self, sandbox: Sandbox) -> None:
+        setup = f'. "{sandbox.ros_path}/setup.bash"; exec python3 -c "$PROBE"'
+        script = (
+            f"PROBE=$(cat <<'PROBE_ENDS'\n{SOURCE.read_text(encoding='utf-8')}\nPROBE_ENDS\n)\n"
+        )
+        self._pipe = sandbox.pipe(["bash", "-c", script + setup], role="probe")
+        self._buffer = b""
+        self._ready = False
+        self.until = math.inf
+        """The instant of time.monotonic() after which no answer is waited for."""
+
+    def ready(self) -> None:
+        """Wait until rclpy is up in the probe."""
+        if not self._ready:
+            self._read(START_SECONDS)
+            self._ready = True
+
+    def ask(self, do: str, *, seconds: float = 0, **more: int) -> Answer:
+        """Send one command and return the answer; ProbeError if none comes."""
+        self.ready()
+        try:
+            command = {"do": do, "seconds": seconds, **more}
+            self._pipe.write(json.dumps(command).encode() + b"\n")
+        except OSError as error:
+            raise self._lost("it has ended") from error
+        said = self._read(seconds + PATIENCE)
+        try:
+            return Answer(
+                barrier=said["barrier"],
+                logs=tuple(LogRecord(**log) for log in said["logs"]),
+                nodes=tuple(NodeSeen(**node) for node in said.get("nodes", ())),
+                clocks=said["clocks"],
+                matched=said.get("matched", False),
+            )
+        except (KeyError, TypeError) as error:
+            raise self._lost("its answer is not one of a probe") from error
+
+    def _read(self, seconds: float) -> dict[str, Any]:
+        deadline = min(time.monotonic() + seconds, self.until)
+        while b"\n" not in self._buffer:
+            left = deadline - time.monotonic()
+            data = self._pipe.read(left) if left > 0 else None
+            if data is None:  # (a part of an answer, however fast more of it comes, is none)
+                raise self._lost(f"no answer within {seconds:.0f} s")
+            if not data or len(self._buffer) > LONGEST_ANSWER:
+                raise self._lost("it has ended")
+            self._buffer += data
+        line, _, self._buffer = self._buffer.partition(b"\n")
+        try:
+            answer = json.loads(line)
+        except ValueError as error:
+            raise self._lost("its answer is not JSON") from error
+        if not isinstance(answer, dict):
+            raise self._lost("its answer is not a JSON object")
+        return answer
+
+    def _lost(self, why: str) -> ProbeError:
+        self._pipe.kill()
+        said = self._pipe.errors().decode(errors="replace").strip()
+        return ProbeError(f"the probe failed: {why}" + (f"\n{said}" if said else ""))
+
+    def close(self) -> None:
+        """End the probe: it is asked to, and killed if it does not."""
+        with contextlib.suppress(OSError, ValueError):
+            self._pipe.write(b'{"do": "end"}\n')
+        self._pipe.finish(END_SECONDS)

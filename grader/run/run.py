@@ -1,0 +1,190 @@
+"""One run: `ros2 run` on a pseudo-terminal, the probe beside it, then Ctrl+C."""
+
+from __future__ import annotations
+
+import math
+import shlex
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from dataclasses import field
+
+from grader.base.i18n.message import say
+from grader.course.assignment import Assignment
+from grader.run.clock import ForeignClock
+from grader.run.clock import VirtualClock
+from grader.run.clock import watch_wall
+from grader.run.observer import Event
+from grader.run.observer import Observer
+from grader.run.observer import Watch
+from grader.run.probe_link import NodeSeen
+from grader.run.probe_link import ProbeError
+from grader.run.probe_link import ProbeLink
+from grader.run.terminal import Terminal
+from grader.sandbox.base import UNRUNNABLE
+from grader.sandbox.base import Sandbox
+
+UNSEEN_SECONDS = 5.0  # wall time after its first line in which a node is on the graph, if it is one
+COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen
+OWN_TRACEBACK = '/bin/ros2", line '  # of the command itself
+END_SECONDS = 10.0  # of a run's room, for ending what does not end by itself
+
+
+@dataclass
+class Run:
+    """What one run showed. Times in seconds: `first_line` since `ros2 run` was started.
+
+    `logged` is how many bytes its log records would have on a terminal.
+    """
+
+    command: str
+    watch: Watch = field(default_factory=Watch)
+    nodes: tuple[NodeSeen, ...] = ()
+    started: bool = False
+    ended_by_itself: bool = False
+    interrupted: bool = False
+    stop_seconds: float | None = None
+    status: int | None = None
+    signal: int | None = None
+    transcript: str = ""
+    flooded: bool = False
+    logged: int = 0
+    resource: str = ""
+    inconsistent: bool = False
+    seconds: float = 0
+    node_seconds: float | None = None
+    first_line_seconds: float | None = None
+
+    @property
+    def doubts_ros2(self) -> bool:
+        """Whether `ros2` itself may not have run (the student's code can bring this about too)."""
+        unrunnable = self.status in UNRUNNABLE or OWN_TRACEBACK in self.transcript
+        return self.ended_by_itself and not self.nodes and unrunnable
+
+
+def ros2_run(assignment: Assignment) -> str:
+    """Return the student's command with the one thing that is added to it."""
+    words = ["ros2", "run", assignment.package, assignment.executable]
+    return shlex.join([*words, "--ros-args", "-p", "use_sim_time:=true"])
+
+
+def observe(
+    sandbox: Sandbox,
+    assignment: Assignment,
+    probe: ProbeLink,
+    tell: Callable[[Event], None],
+    *,
+    until: float = math.inf,
+    fine: bool = False,
+) -> Run:
+    """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, say what was seen.
+
+    It is over at `until` (of time.monotonic()), whatever happens. Raises ProbeError if our own side
+    failed. If the probe met a limit, the node fed it too much; if the node runs on beyond its
+    limits when the probe fails, that is what ends the run: both are the run's `resource`.
+    """
+    limits = sandbox.limits
+    run = Run(command=ros2_run(assignment))
+    probe.until = until - limits.stop_seconds - END_SECONDS
+    probe.ready()
+    script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {run.command}'
+    begin = time.monotonic()
+    longest = limits.run_seconds + limits.stop_seconds
+    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=int(limits.output))
+    try:
+        observer = Observer(terminal, probe, assignment.output)
+        follows = _wait_for_node(run, observer, begin, limits.start_seconds)
+        if run.nodes and not terminal.ended:
+            deadline = min(begin + limits.run_seconds, probe.until)
+            clock = VirtualClock(observer, assignment.output, deadline=deadline, fine=fine)
+            _watch(run, observer, clock, tell, follows=follows, deadline=deadline)
+        run.watch.events += observer.settle()
+        watch = run.watch
+        for seen in (watch.events, watch.before_start, watch.early):
+            seen[:] = observer.visible(seen)
+        counted = watch.counted
+        if counted:
+            run.first_line_seconds = counted[0].wall - terminal.started
+        run.ended_by_itself, run.flooded = terminal.ended, observer.flooded
+        run.logged = observer.logged
+        run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
+        _stop(run, terminal, limits.stop_seconds)
+        run.watch.events += observer.take()
+    except ProbeError:
+        overdue = time.monotonic() - begin > longest
+        terminal.read()  # so that it is known whether the node runs on
+        overdue = overdue and not terminal.ended
+        run.resource = sandbox.probe_met() or ("wall time" if overdue else "")
+        if not run.resource:
+            raise
+    finally:
+        terminal.close()
+        run.transcript = terminal.transcript
+        run.flooded = run.flooded or terminal.flooded
+        run.seconds = time.monotonic() - begin
+    return run
+
+
+def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> bool:
+    """Wait for a node on the graph; return whether it follows `/clock`."""
+    first_seen: float | None = None
+    first_line = begin
+    while not observer.over:
+        answer = observer.probe.ask("wait", seconds=0.02)
+        events = observer.take(answer)
+        run.watch.before_start += events
+        run.watch.events += events
+        now = time.monotonic()
+        observer.linked(answer.nodes)
+        if answer.nodes:
+            first_seen = first_seen or now
+            run.nodes = answer.nodes
+            run.node_seconds = first_seen - begin
+            node = answer.nodes[0]
+            if node.clock and node.parameters and answer.matched:
+                return True
+            if now - first_seen > COMPLETE_SECONDS:
+                return any(node.clock for node in answer.nodes)
+        elif now - begin > most or (run.watch.counted and now - first_line > UNSEEN_SECONDS):
+            return False
+        if not run.watch.counted:
+            first_line = now
+    return False
+
+
+def _watch(
+    run: Run,
+    observer: Observer,
+    clock: VirtualClock,
+    tell: Callable[[Event], None],
+    *,
+    follows: bool,
+    deadline: float,
+) -> None:
+    output = observer.output
+    if follows:
+        try:
+            clock.drive(run.watch, tell)
+        except ForeignClock as foreign:
+            run.watch.events += foreign.events
+            run.watch.note = say("the node publishes /clock itself")
+            watch_wall(observer, output, run.watch, tell, deadline=deadline)
+    else:
+        run.watch.note = say("the node does not follow /clock")
+        watch_wall(observer, output, run.watch, tell, deadline=deadline)
+    nodes = observer.probe.ask("look").nodes
+    run.nodes = nodes or run.nodes
+
+
+def _stop(run: Run, terminal: Terminal, seconds: float) -> None:
+    """Press Ctrl+C and see how it ends."""
+    pressed = time.monotonic()
+    if run.flooded:
+        return
+    if not terminal.ended:
+        run.interrupted = True
+        terminal.interrupt()
+    _, ended = terminal.finish(seconds)
+    if ended:
+        run.stop_seconds = time.monotonic() - pressed
+        run.status, run.signal = terminal.status

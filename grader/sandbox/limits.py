@@ -1,0 +1,88 @@
+"""The limits on a submission: each a number in one place.
+
+Seconds and bytes. An assignment (`limits:`) or the command line (`--limit name=value`) overrides
+any of them; the report says what held each one. Each in time is a deadline that no output extends.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import fields
+from dataclasses import replace
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+
+MEGABYTE = 1_000_000
+RUNS = 2  # for which a verdict has time: a run, and a second opinion on it
+OVERRUN_SECONDS = 30.0  # of a run, beyond its limits: the probe's answers, and the end of it all
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The limits of one verdict."""
+
+    build_seconds: float = 60
+    """Wall time of `colcon build`."""
+    start_seconds: float = 15
+    """Wall time from `ros2 run` until a node is on the ROS graph."""
+    run_seconds: float = 60
+    """Wall time of the whole run."""
+    stop_seconds: float = 5
+    """Wall time from Ctrl+C until the end of `ros2 run`."""
+    cpu_seconds: float = 60
+    """Processor time of each process."""
+    memory: float = 1_000 * MEGABYTE
+    """Of all processes and files in memory together; of each process where no cgroup is to be had."""
+    processes: float = 200
+    """Processes and threads."""
+    cpus: float = 2
+    """Processors that it may keep busy at once."""
+    file_size: float = 100 * MEGABYTE
+    """Of one file."""
+    workspace: float = 300 * MEGABYTE
+    """Of the workspace, a file system in memory; `/tmp`, `/dev/shm` and home have a tenth each."""
+    output: float = 1 * MEGABYTE
+    """What a command may print before it is stopped."""
+
+    @property
+    def a_run(self) -> float:
+        """Seconds of wall time that one run has room for; none is begun with less left."""
+        return self.start_seconds + self.run_seconds + self.stop_seconds + OVERRUN_SECONDS
+
+    @property
+    def verdict_seconds(self) -> float:
+        """The ceiling of a verdict in seconds of wall time, from the open sandbox to the last check.
+
+        It holds whatever is repeated inside: runs, second opinions, and tries after faults of ours.
+        """
+        return self.build_seconds + OVERRUN_SECONDS + RUNS * self.a_run
+
+    def override(self, values: Mapping[str, float]) -> Limits:
+        """Return these limits with some changed; UsageError for an unknown name or no number > 0."""
+        for name, value in values.items():
+            if name not in UNITS:
+                close = difflib.get_close_matches(name, UNITS, n=1)
+                hint = say("did you mean '{word}'?", word=close[0]) if close else ""
+                raise UsageError(
+                    say("there is no limit '{name}'", name=name),
+                    remedy=joined(hint, say("Limits: {names}.", names=", ".join(UNITS))),
+                )
+            if not value > 0:
+                number = f"{value:g}"
+                raise UsageError(
+                    say("the limit {name} must be above 0, not {value}", name=name, value=number)
+                )
+        return replace(self, **values)
+
+
+def _unit(name: str) -> str:
+    if name.endswith("_seconds"):
+        return "s"
+    return "" if name in ("processes", "cpus") else "bytes"
+
+
+UNITS = {field.name: _unit(field.name) for field in fields(Limits)}

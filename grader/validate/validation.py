@@ -1,0 +1,165 @@
+"""`grader validate`: does an assignment mark what it claims to mark?"""
+
+from __future__ import annotations
+
+import fnmatch
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from dataclasses import replace
+from pathlib import Path
+
+from grader.base.errors import UsageError
+from grader.mistakes.catalogue import CATALOGUE
+from grader.package.submission import Submission
+from grader.validate.automatic import generate
+from grader.validate.marking import Marked
+from grader.validate.marking import mark_all
+from grader.validate.marking import mark_files
+from grader.validate.marking import submit
+from grader.validate.marking import submit_path
+from grader.validate.matrix import Matrix
+from grader.validate.matrix import Row
+from grader.validate.matrix import as_json
+from grader.validate.mutant import Mutant
+from grader.validate.named import MUTANTS
+from grader.validate.named import Written
+from grader.validate.named import read_mutants
+from grader.validate.tree import Tree
+from grader.validate.tree import digest
+from grader.validate.tree import read_tree
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.mark import Order
+
+TELLS_EACH = 10.0  # seconds between two lines of progress
+SOLUTION, STARTER = "the solution", "the starter"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wish:
+    """What is to be validated: `order` says how to mark (its path is not looked at).
+
+    `keys` has the solution and mutants.yaml, `starter` what students begin with (None: nothing).
+    `static`: only the mutants whose files decide them; `only`: those whose name fits the pattern;
+    `workers`: how many are marked at once (0: as a class is).
+    """
+
+    order: Order
+    keys: Path
+    starter: Path | None = None
+    static: bool = False
+    workers: int = 0
+    only: str = "*"
+
+
+def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
+    """Mark the solution, the starter and the mutants; `say` is told how far it is.
+
+    Raises UsageError (AssignmentError for a fault in the files), SurroundingsError.
+    """
+    begin = time.monotonic()
+    assignment = wish.order.assignment
+    original = _solution(wish)
+    mutants = collect(wish, original)
+    chosen = [m for m in mutants if fnmatch.fnmatchcase(m.name, wish.only)]
+    if not chosen:
+        raise UsageError(f"no mutant has a name like '{wish.only}'")
+    marked, waiting = _by_files(chosen, original, wish.order)
+    if not wish.static:
+        say(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
+        marked |= _by_running({**_ends(wish), **waiting}, wish, say)
+    rows = tuple(Row(m, marked[m.name]) for m in chosen if m.name in marked)
+    return Matrix(
+        assignment=assignment.id,
+        checks=tuple(c for c in CHECKS if c in {use.id for use in assignment.checks}),
+        max_score=assignment.max_score,
+        rows=rows,
+        left_out=len(mutants) - len(rows),
+        solution=marked.get(SOLUTION),
+        starter=marked.get(STARTER),
+        seconds=time.monotonic() - begin,
+    )
+
+
+def collect(wish: Wish, original: Tree) -> list[Mutant]:
+    """Return the named mutants and the automatic ones that none of them is already."""
+    assignment = wish.order.assignment
+    automatic = tuple(generate(original, assignment))
+    ids = [use.id for use in assignment.checks]
+    path = wish.keys / MUTANTS
+    written = read_mutants(path, checks=ids, mistakes=CATALOGUE) if path.is_file() else Written()
+    seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
+    made = []
+    for mutant in automatic:
+        key = digest(mutant.of(original))
+        if key not in seen:
+            seen.add(key)
+            made.append(mutant)
+    whys = written.explained(mutant.name for mutant in made)
+    explained = [replace(mutant, equivalent=whys.get(mutant.name, "")) for mutant in made]
+    return [*written.mutants, *explained]
+
+
+def starter_of(file: Path) -> Path | None:
+    """Return what students of an assignment (its file) begin with."""
+    starter = file.parent / "starter"
+    return starter if starter.is_dir() else None
+
+
+def write_json(matrix: Matrix, path: Path) -> None:
+    """Write the matrix to a file. Raises UsageError where that cannot be."""
+    try:
+        path.write_text(as_json(matrix), encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror}") from None
+
+
+def _solution(wish: Wish) -> Tree:
+    assignment = wish.order.assignment
+    folder = wish.keys / "solution" / assignment.package
+    if not folder.is_dir():
+        raise UsageError(
+            f"there is no solution of {assignment.id}: no folder {folder}",
+            remedy="Put the package there, or name the folder above 'solution' with --keys.",
+        )
+    return read_tree(folder)
+
+
+def _ends(wish: Wish) -> dict[str, Submission]:
+    """Return what must have full marks, and what must not."""
+    ends = {SOLUTION: submit_path(wish.keys / "solution", wish.order)}
+    if wish.starter is not None:
+        ends[STARTER] = submit_path(wish.starter, wish.order)
+    return ends
+
+
+def _by_files(
+    mutants: list[Mutant], original: Tree, order: Order
+) -> tuple[dict[str, Marked], dict[str, Submission]]:
+    """Mark those whose files decide them; return what was found, and what has to be run."""
+    marked = {}
+    waiting = {}
+    for mutant in mutants:
+        submission = submit(mutant.of(original), order)
+        found = mark_files(submission, order) if mutant.may_be_static else None
+        if found and any(mutant.is_hit_by(check) for check in found.failed):
+            marked[mutant.name] = found
+        else:
+            waiting[mutant.name] = submission
+    return marked, waiting
+
+
+def _by_running(
+    waiting: dict[str, Submission], wish: Wish, say: Callable[[str], None]
+) -> dict[str, Marked]:
+    """Mark what has to be built and run, and tell how far it is."""
+    marked: dict[str, Marked] = {}
+    begin = told = time.monotonic()
+    for name, found in mark_all(waiting.items(), wish.order, workers=wish.workers):
+        marked[name] = found
+        now = time.monotonic()
+        if now - told >= TELLS_EACH:
+            told = now
+            left = (now - begin) / len(marked) * (len(waiting) - len(marked))
+            say(f"{len(marked)} of {len(waiting)} run, about {left:.0f} s left")
+    return marked

@@ -1,0 +1,171 @@
+"""The build stage: does the real `colcon build` make the package that ROS then finds?"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.report.model import Where
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+NEVER_CALLED = "was never called"
+ANSWER = 'File "<unknown>", line '  # colcon evaluates the answer: it has no file name
+
+
+@check("build.colcon", depends=["package.found"])
+def colcon_builds(evidence: Evidence) -> Passed:
+    """`colcon build` builds and installs the package."""
+    build = evidence.build
+    package = evidence.assignment.package
+    if build.stopped_by:
+        raise _stopped(evidence)
+    if build.status == 0 and build.is_installed(package):
+        return Passed(
+            actual=say(
+                "{command}: 1 package finished in {seconds} s",
+                command=build.command,
+                seconds=f"{build.seconds:.1f}",
+            )
+        )
+    for cause in ("package.manifest", "package.marker"):
+        if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, build.log)):
+            raise Blocked(by=cause)
+    if evidence.has_mistake("entry_point.mapping", "setup.missing"):
+        raise Blocked(by="entry_point.mapping")
+    if evidence.has_mistake("package.setup_cfg", "package.setup_cfg_syntax"):
+        raise Blocked(by="package.setup_cfg")
+    if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
+        raise Blocked(by="entry_point.mapping")
+    raise _broken(evidence)
+
+
+def _is_about(cause: str, log: str) -> bool:
+    words = {"package.manifest": "package.xml", "package.marker": "resource/"}
+    return words[cause] in log or (cause == "package.manifest" and "CMake" in log)
+
+
+def _stopped(evidence: Evidence) -> Failed:
+    build = evidence.build
+    if build.stopped_by == "wall time":
+        return Failed(
+            "build.timeout",
+            expected=say("colcon build ends within a few seconds"),
+            actual=say(
+                "it was still running after {seconds} s and was stopped",
+                seconds=f"{build.seconds:.0f}",
+            ),
+            where=Where(file="setup.py"),
+        )
+    return Failed(
+        "build.resource",
+        expected=say("colcon build within the limits of the sandbox"),
+        actual=say(
+            "the build was stopped: it met the limit on {limit}", limit=limit_name(build.stopped_by)
+        ),
+        where=Where(file="setup.py"),
+        params={"limit": build.stopped_by},
+    )
+
+
+def _broken(evidence: Evidence) -> Failed:
+    build = evidence.build
+    error, line = setup_error(build.log)
+    where = Where(file="setup.py", line=line)
+    expected = say("colcon build ends with: Summary: 1 package finished")
+    if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
+        return Failed(
+            "build.setup_prints",
+            expected=expected,
+            actual=say("setup.py prints something: colcon could not read its answer"),
+            where=Where(file="setup.py", line=_first_print(evidence)),
+        )
+    if error.startswith(("SyntaxError", "IndentationError", "TabError")):
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("Python cannot read setup.py: {error}", error=error),
+            where=where,
+            variant="unreadable",
+            params={"error": error},
+        )
+    if NEVER_CALLED in build.log:
+        return Failed(
+            "build.exited",
+            expected=expected,
+            actual=say("setup.py ended before it had called setup()"),
+            where=where,
+        )
+    if error:
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("setup.py stopped with {error}", error=error),
+            where=where,
+            params={"error": error},
+        )
+    ended = say("colcon ended with status {status}", status=str(build.status))
+    return Failed(
+        "build.failed",
+        expected=expected,
+        actual=_summary(build.log) or ended,
+        params={"status": -1 if build.status is None else build.status},
+    )
+
+
+def limit_name(limit: str) -> str:
+    """Return what a limit is called in a sentence."""
+    names = {
+        "wall time": say("wall time"),
+        "memory": say("memory"),
+        "processes": say("processes"),
+        "output": say("output"),
+    }
+    return names.get(limit, limit)
+
+
+def setup_error(log: str) -> tuple[str, int | None]:
+    """Return the Python error that ended setup.py, and its line there, if any.
+
+    colcon asks setup.py in a process of its own, by distutils' run_setup, which knows no file name;
+    that this process failed is an error in colcon's own traceback, behind the one that counts.
+    """
+    of_setup = re.sub(r"^subprocess\.CalledProcessError: .*$", "", log, flags=re.MULTILINE)
+    error, line = python_error(of_setup, "setup.py")
+    if not error:
+        return python_error(log, "setup.py")
+    nameless = re.findall(r'in run_setup\n.*\n  File "<string>", line (\d+)', of_setup)
+    return error, line or (int(nameless[-1]) if nameless else None)
+
+
+def python_error(text: str, file: str) -> tuple[str, int | None]:
+    """Return the last Python error in a text ("TypeError: …") and its line in `file`, if any."""
+    errors = re.findall(
+        r"^((?:[A-Za-z_][\w.]*\.)?[A-Z]\w*(?:Error|Exception|Exit|Interrupt|Iteration)(?:: .*)?)$",
+        text,
+        re.MULTILINE,
+    )
+    lines = re.findall(rf'File "[^"\n]*{re.escape(file)}", line (\d+)', text)
+    return (errors[-1][:400] if errors else ""), (int(lines[-1]) if lines else None)
+
+
+def _first_print(evidence: Evidence) -> int | None:
+    file = evidence.submission.file("setup.py")
+    text = file.data.decode("utf-8", errors="replace") if file is not None else ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if re.match(r"\s*print\s*\(", line):
+            return number
+    return None
+
+
+def _summary(log: str) -> str:
+    lines = [line.strip() for line in log.splitlines() if line.strip()]
+    wanted = ("Failed", "error:", "ERROR", "Error", "Summary:")
+    telling = [line for line in lines if any(word in line for word in wanted)]
+    return " / ".join(telling[:3])[:600]

@@ -1,0 +1,198 @@
+"""The running stage, second part: does the node count, in the right words and through its logger?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.nearest import compared
+from grader.verdict.checks.faults import flood
+from grader.verdict.checks.faults import line_of
+from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.faults import resource
+from grader.verdict.checks.faults import traceback_of
+from grader.verdict.checks.faults import words
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.report.model import Where
+    from grader.run.observer import Event
+    from grader.verdict.evidence import Evidence
+
+INFO = 20
+LOST = 1.0  # seconds before the last line of a node that ended, whose records may be lost with it
+LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+
+
+@check("run.output", depends=["run.starts"])
+def output(evidence: Evidence) -> Passed:
+    """The node counts: the right text, in the right order, one line each time."""
+    run, wanted = evidence.run, evidence.assignment.output
+    events = run.watch.counted
+    expected = f"{wanted.line(0)}, {wanted.line(1)}, {wanted.line(2)}, …"
+    if run.flooded:
+        raise flood(evidence, expected)
+    if not events:
+        raise resource(evidence, expected) if run.resource else _silent(evidence, expected)
+    shown = ", ".join(event.text[:80] for event in events[:4])
+    numbers = [event.n for event in events if event.n is not None]
+    if not numbers:
+        raise Failed(
+            "run.wrong_text",
+            expected=expected,
+            actual=_difference(wanted.line(0), events[0].text),
+            where=line_of(evidence, events[0].record),
+            params={"text": events[0].text[:200]},
+            words=words(evidence),
+        )
+    mistake, text = _count_fault(evidence, numbers)
+    if mistake:
+        raise Failed(
+            mistake,
+            expected=expected,
+            actual=joined(text, shown, by=": "),
+            where=line_of(evidence, events[0].record),
+            words=words(evidence),
+        )
+    _must_go_on(evidence, expected)
+    advice = []
+    if any(event.n is None for event in events + run.watch.events if event.due is not None):
+        advice.append(say("Other lines come beside the count; they were not asked for."))
+    lines = say("{count} lines: {shown}, …", count=len(numbers), shown=shown)
+    return Passed(actual=lines, advice=advice)
+
+
+def _silent(evidence: Evidence, expected: str) -> Failed:
+    run = evidence.run
+    error, where = traceback_of(evidence, run)
+    if run.ended_by_itself:
+        ended = say("no line came: the node stopped with {error}", error=error or _status(evidence))
+        return Failed(
+            "run.ended_early",
+            expected=expected,
+            actual=ended,
+            where=where or node_file(evidence),
+            variant="callback",
+            params={"error": error.partition(":")[0]},
+        )
+    return Failed(
+        "run.no_lines",
+        expected=expected,
+        actual=say("no line came at all"),
+        where=node_file(evidence),
+        words=words(evidence),
+    )
+
+
+def _status(evidence: Evidence) -> str:
+    return say("status {status}", status=str(evidence.run.status))
+
+
+def _count_fault(evidence: Evidence, numbers: list[int]) -> tuple[str, str]:
+    """Return mistake and what is wrong, if the numbers are not start, start + step, …."""
+    wanted, run = evidence.assignment.output, evidence.run
+    dues = [event.due for event in run.watch.counted if event.due is not None]
+    if len(dues) != len(set(dues)):
+        return "run.twice", say("more than one line came at a time")
+    if len(numbers) > 1 and len(set(numbers)) == 1:
+        return "run.constant_counter", say("the number never changes")
+    steps = {b - a for a, b in zip(numbers, numbers[1:])}
+    if numbers[0] != wanted.start:
+        first, start = str(numbers[0]), wanted.start
+        said = say("the count starts at {first}, not at {start}", first=first, start=start)
+        return "run.wrong_start", said
+    if steps - {wanted.step}:
+        said = say("the count does not go up by {step} each time", step=wanted.step)
+        return "run.wrong_step", said
+    return "", ""
+
+
+def _must_go_on(evidence: Evidence, expected: str) -> None:
+    run = evidence.run
+    watch = run.watch
+    events = watch.counted
+    last = max(event.virtual for event in events)
+    silent = bool(watch.missing) and last < watch.dues[watch.missing[0]]
+    few = watch.clock == "wall" and len(events) < 3
+    if not run.ended_by_itself and not silent and not few:
+        return
+    error, where = traceback_of(evidence, run)
+    actual = say("{count} lines, then no more came", count=len(events))
+    if run.ended_by_itself:
+        actual = say(
+            "{count} lines, then the node ended by itself ({error})",
+            count=len(events),
+            error=error or _status(evidence),
+        )
+    raise Failed(
+        "run.ended_early" if run.ended_by_itself else "run.stops",
+        expected=say("{lines} until Ctrl+C", lines=expected),
+        actual=actual,
+        where=where or node_file(evidence),
+    )
+
+
+def _difference(wanted: str, found: str) -> str:
+    """Return what was found; where it is like what was wanted, with the difference marked."""
+    return compared(found, wanted) or repr(found[:200])
+
+
+@check("run.logger", depends=["run.starts"])
+def logger(evidence: Evidence) -> Passed:
+    """The lines go through the node's own logger."""
+    run = evidence.run
+    events = run.watch.counted
+    if not events:
+        raise Blocked(by="run.output")
+    names = {node.name.strip("/").replace("/", ".") for node in run.nodes}
+    expected = say("log records of the node on /rosout, level INFO")
+    for event in events:
+        if run.ended_by_itself and event.source == "faked" and event.wall > events[-1].wall - LOST:
+            continue  # a node that ends at once can take its last records with it
+        _judge_record(event, names, expected, line_of(evidence, event.record))
+    said = say("{count} records of [{name}], INFO", count=len(events), name=min(names, default=""))
+    return Passed(actual=said)
+
+
+def _judge_record(event: Event, names: set[str], expected: str, where: Where) -> None:
+    """Raise Failed for a line that is no record of the node's own logger, at level INFO."""
+    if event.source == "print":
+        text = event.text[:80]
+        raise Failed(
+            "run.print_not_logger",
+            expected=expected,
+            actual=say("a line that ROS never saw: '{text}' (print?)", text=text),
+            where=where,
+        )
+    if event.source == "faked" and event.logger not in names:
+        raise _other_logger(expected, event.logger)
+    if event.source == "faked":
+        raise Failed(
+            "run.faked_log",
+            expected=expected,
+            actual=say("a line in the form of a log record that ROS never logged"),
+            where=where,
+        )
+    if event.record is not None and event.record.name not in names:
+        raise _other_logger(expected, event.record.name)
+    if event.record is not None and event.record.level != INFO:
+        level = LEVELS.get(event.record.level, str(event.record.level))
+        raise Failed(
+            "run.wrong_level",
+            expected=expected,
+            actual=say("level {level}", level=level),
+            where=where,
+        )
+
+
+def _other_logger(expected: str, name: str) -> Failed:
+    return Failed(
+        "run.other_logger",
+        expected=expected,
+        actual=say("records of the logger [{name}], which is not the node's", name=name),
+        params={"name": name},
+    )

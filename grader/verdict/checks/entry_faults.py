@@ -1,0 +1,221 @@
+"""What can be wrong with an entry of console_scripts: each fault told apart, with its one fix."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import say
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
+from grader.base.shown import shown
+from grader.mistakes.catalogue import CATALOGUE
+from grader.package.source.entry_points import Entry
+from grader.package.source.entry_points import EntryPoints
+from grader.report.model import Where
+from grader.verdict.checks.parsed import names_in
+from grader.verdict.registry import Failed
+
+if TYPE_CHECKING:
+    from grader.package.source.setup_py import SetupPy
+    from grader.verdict.evidence import Evidence
+
+
+def wanted_entry(evidence: Evidence) -> str:
+    """Return the entry that the assignment asks for."""
+    return f"{evidence.assignment.executable} = {evidence.assignment.target}"
+
+
+def title_of(mistake: str) -> Message:
+    """Return what the catalogue says in a few words of a mistake."""
+    return Message(CATALOGUE[mistake].title)
+
+
+def _failed(
+    evidence: Evidence,
+    entry: Entry,
+    mistake: str,
+    because: str = "",
+    *,
+    found: str = "",
+    meant_to_be: str = "",
+    variant: str = "",
+    words: dict[str, str] | None = None,
+    **params: str,
+) -> Failed:
+    """Return the fault of an entry; `found` is the part that should be `meant_to_be`."""
+    text = shown(entry.text)
+    said = say("'{entry}': {because}", entry=text, because=because or title_of(mistake))
+    return Failed(
+        mistake,
+        expected=f"'{wanted_entry(evidence)}'",
+        actual=with_difference(said, found or text, meant_to_be or wanted_entry(evidence)),
+        where=Where(file=entry.file, line=entry.line),
+        variant=variant,
+        params={"entry": text, **params},
+        words={"wanted": wanted_entry(evidence), **(words or {})},
+    )
+
+
+def broken(evidence: Evidence, entry: Entry) -> Failed:
+    """Return what keeps setuptools from reading an entry (ours or another: it stops the build)."""
+    pieces = [piece for piece, _ in entry.pieces]
+    if len(pieces) > 1 and sum("=" in piece or ":" in piece for piece in pieces) > 1:
+        return _failed(
+            evidence,
+            entry,
+            "setup.missing_comma",
+            words={"before": shown(pieces[0])},
+            line=str(entry.pieces[0][1]),
+        )
+    asked = entry.name == evidence.assignment.executable
+    asked = asked or evidence.assignment.executable in entry.text
+    mistake = _fault_of(entry.text, entry.target)
+    return _failed(evidence, entry, mistake, variant="" if asked else "other")
+
+
+def _fault_of(text: str, target: str) -> str:
+    """Return the mistake in an entry that is not `name = module:function`."""
+    if "=" not in text:
+        colon = re.match(r"\s{0,9}[\w-]{1,80}\s{0,9}:", text)
+        return "setup.colon_for_equals" if colon else "setup.no_equals"
+    faults = (
+        (not text.partition("=")[0].strip(), "setup.no_name"),
+        (not target, "setup.no_target"),
+        ("=" in target, "setup.two_equals"),
+        ("/" in target or "\\" in target, "setup.slash_in_target"),
+        ("(" in target, "setup.brackets"),
+        ("-" in target, "setup.dash_in_target"),
+        (target.count(":") > 1, "setup.two_colons"),
+        (" " in target, "setup.space_in_target"),
+    )
+    return next((mistake for holds, mistake in faults if holds), "setup.bad_entry")
+
+
+def duplicate(evidence: Evidence, entries: list[Entry]) -> Failed:
+    """Return the fault of several entries of one name."""
+    lines = ", ".join(str(entry.line) for entry in entries[:3])
+    said = say("the name is there {count} times, on lines {lines}", count=len(entries), lines=lines)
+    return _failed(evidence, entries[1], "setup.duplicate_entry", said)
+
+
+def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
+    """Return why there is no executable of the name: another name, another group, or no entry."""
+    wanted = evidence.assignment.executable
+    entries = points.group("console_scripts")
+    same = [e for e in entries if "".join(e.target.split()) == evidence.assignment.target]
+    names = [entry.name for entry in entries]
+    close = nearest(wanted, names, cutoff=0.7)
+    meant_here = same or [e for e in entries if e.name == close]
+    if meant_here:
+        entry = meant_here[0]
+        name = shown(entry.name)
+        spaced = "".join(entry.name.split()) != entry.name
+        said = say("the executable is called '{name}', not '{wanted}'", name=name, wanted=wanted)
+        return _failed(
+            evidence,
+            entry,
+            "setup.space_in_name" if spaced else "setup.other_executable",
+            "" if spaced else said,
+            found=name,
+            meant_to_be=wanted,
+            name=name,
+        )
+    for group, others in points.groups.items():
+        holds_it = any(entry.name == wanted for entry in others)
+        if holds_it or nearest("console_scripts", [group], cutoff=0.75):
+            return _other_group(evidence, points, group)
+    return _no_entry(evidence, points, setup)
+
+
+def _other_group(evidence: Evidence, points: EntryPoints, group: str) -> Failed:
+    others = points.group(group)
+    line = points.lines.get(group)
+    said = say("the group is called '{group}'", group=shown(group))
+    return Failed(
+        "setup.group_misspelt",
+        expected=say("'{entry}' in the group 'console_scripts'", entry=wanted_entry(evidence)),
+        actual=with_difference(said, group, "console_scripts"),
+        where=Where(file=others[0].file if others else "setup.py", line=line),
+        params={"group": shown(group)},
+    )
+
+
+def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
+    wanted = evidence.assignment.executable
+    marks = re.compile(rf"['\"]?{re.escape(wanted)}\s{{0,9}}=")
+    comment = next((row for row in setup.comments if marks.match(row[1])), None)
+    names = ", ".join(shown(entry.name) for entry in points.group("console_scripts")[:4])
+    line = points.lines.get("console_scripts", setup.line)
+    variant, actual = "", say("console_scripts has no entry")
+    if names:
+        actual = say("there are only: {names}", names=names)
+    if comment is not None:
+        line, variant = comment[0], "comment"
+        actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
+    elif not points.groups:
+        variant, actual = "nothing", say("setup() is given no entry_points")
+    return Failed(
+        "setup.no_entry",
+        expected=say("'{entry}' among the console_scripts", entry=wanted_entry(evidence)),
+        actual=actual,
+        where=Where(file="setup.py", line=line),
+        variant=variant,
+        words={"wanted": wanted_entry(evidence)},
+    )
+
+
+def other_target(evidence: Evidence, entry: Entry) -> Failed:
+    """Return which part of the target is not what was asked for."""
+    target = "".join(entry.target.split())
+    mistake, because = _part(evidence, target)
+    return _failed(
+        evidence,
+        entry,
+        mistake,
+        because,
+        found=shown(target),
+        meant_to_be=evidence.assignment.target,
+        target=shown(entry.target),
+    )
+
+
+def _part(evidence: Evidence, target: str) -> tuple[str, str]:
+    wanted, _, function = evidence.assignment.target.partition(":")
+    package, _, stem = wanted.rpartition(".")
+    module, colon, given = target.partition(":")
+    given = re.sub(r"\[.*\]", "", given)
+    if module == wanted:
+        if not colon:
+            return "setup.no_function", say(
+                "':{function}' is left out: a module cannot be called", function=function
+            )
+        other = say(
+            "the function is '{given}', not '{function}'", given=shown(given), function=function
+        )
+        return "setup.other_function", other + meant(function if nearest(given, [function]) else "")
+    if module == f"{wanted}.{function}" and not colon:
+        return "setup.dot_for_colon", ""
+    if module.endswith(".py") or ".py." in module:
+        return "setup.py_in_target", ""
+    if module in (stem, f".{stem}"):
+        return "setup.no_package_prefix", say(
+            "the package's name and a dot are missing: '{wanted}'", wanted=wanted
+        )
+    first, _, rest = module.partition(".")
+    if rest == stem:
+        return "setup.other_package", say(
+            "the package is '{found}', not '{package}'", found=shown(first), package=package
+        )
+    path = module.replace(".", "/")
+    submission = evidence.submission
+    if submission.file(f"{path}.py") or submission.file(f"{path}/__init__.py"):
+        return "setup.other_module", say(
+            "it leads to another module: '{module}'", module=shown(module)
+        )
+    modules = {n.removesuffix(".py") for n in names_in(evidence, package) if n.endswith(".py")}
+    hint = meant(nearest(module.rpartition(".")[2], {*modules, stem}))
+    none = say("there is no module '{module}'", module=shown(module))
+    return "setup.misspelt_module", none + hint

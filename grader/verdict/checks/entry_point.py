@@ -1,0 +1,140 @@
+"""The entry point as setup.py (or setup.cfg) writes it: which of its parts is wrong?
+
+`entry_points` maps the name that `ros2 run` is given to a function in a module of the package:
+`name = package.module:function`. What only running setup.py would tell is left to the build.
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
+from grader.base.shown import shown
+from grader.package.source.entry_points import EntryPoints
+from grader.package.source.entry_points import from_setup_cfg
+from grader.package.source.entry_points import from_setup_py
+from grader.package.source.python import PythonFault
+from grader.package.source.python import parse_python
+from grader.package.source.setup_cfg import SetupCfgFault
+from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.values import Table
+from grader.report.model import Where
+from grader.verdict.checks import entry_faults
+from grader.verdict.checks.parsed import file_of
+from grader.verdict.checks.parsed import node_path
+from grader.verdict.checks.parsed import reader_said
+from grader.verdict.checks.parsed import setup_py_of
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+
+if TYPE_CHECKING:
+    from grader.package.source.setup_py import SetupPy
+    from grader.verdict.evidence import Evidence
+
+GROUP = "console_scripts"
+
+
+def mapping_from_source(evidence: Evidence) -> Passed | None:
+    """Judge the mapping from the text alone; None if only running setup.py would tell.
+
+    Raises Failed with the part that is wrong.
+    """
+    file = file_of(evidence, "setup.py")
+    if file is None or file.unreadable:
+        raise _no_setup_py(file.reason if file else "")
+    setup = setup_py_of(evidence)
+    if setup is None or not setup.told:
+        return None
+    points = _points(evidence, setup)
+    if points is None:
+        return None
+    assignment = evidence.assignment
+    entries = points.group(GROUP)
+    for entry in entries:
+        if not entry.valid:
+            raise entry_faults.broken(evidence, entry)
+    named = [entry for entry in entries if entry.name == assignment.executable]
+    if len(named) > 1:
+        raise entry_faults.duplicate(evidence, named)
+    if not named:
+        if not points.told:
+            return None
+        raise entry_faults.missing(evidence, points, setup)
+    entry = named[0]
+    if "".join(entry.target.split()) != assignment.target:
+        raise entry_faults.other_target(evidence, entry)
+    text = shown(f"{entry.name} = {entry.target}")
+    said = say("{file}, line {line}: {entry}", file=entry.file, line=entry.line, entry=text)
+    return Passed(actual=said, advice=_advice(evidence))
+
+
+def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
+    """Return the entry points that count: setup.py's, or setup.cfg's where it has none.
+
+    (setuptools lets setup.cfg fill in only what setup() was not given.)
+    """
+    value = setup.argument("entry_points")
+    empty = isinstance(value, Table) and not value.pairs
+    if value is not None and not empty:
+        return from_setup_py(setup)
+    cfg = file_of(evidence, "setup.cfg")
+    if cfg is not None:
+        try:
+            found = from_setup_cfg(read_setup_cfg(cfg.data))
+        except SetupCfgFault:
+            found = EntryPoints()
+        if found.groups:
+            return found
+    project = file_of(evidence, "pyproject.toml")
+    if project is not None and b"[project" in project.data:
+        return None
+    return from_setup_py(setup)
+
+
+def _no_setup_py(reason: str) -> Failed:
+    cannot = say("setup.py cannot be read: {reason}", reason=reader_said(reason))
+    return Failed(
+        "setup.missing",
+        expected=say("a setup.py with the entry point"),
+        actual=cannot if reason else say("there is no setup.py"),
+        where=Where(file="setup.py"),
+    )
+
+
+def _advice(evidence: Evidence) -> list[str]:
+    """Return advice where the node's file has no such function: then the mapping leads nowhere."""
+    module, _, function = evidence.assignment.target.partition(":")
+    path = module.replace(".", "/") + ".py"
+    file = file_of(evidence, path)
+    if file is None or path != node_path(evidence):
+        return []
+    try:
+        names = _top_names(parse_python(file.data).tree)
+    except PythonFault:
+        return []
+    if function in names or "*" in names or "__getattr__" in names:
+        return []
+    close = nearest(function, names)
+    none = say("But {path} defines no function {function}", path=path, function=function)
+    rest = say(
+        ": ros2 run will stop with AttributeError. Define it: def {function}(args=None):",
+        function=function,
+    )
+    return [with_difference(none + meant(close) + rest, close, function)]
+
+
+def _top_names(tree: ast.Module) -> set[str]:
+    """Return every name that the module could have, wherever it is bound (`*` for all)."""
+    names: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.alias):
+            names.add(node.asname or node.name)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            names.add(node.id)
+    return names

@@ -1,0 +1,75 @@
+"""What the checks of a run have in common: places, tracebacks, and verdicts on limits."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import Value
+from grader.base.i18n.message import say
+from grader.mistakes.wanted import words_of
+from grader.report.model import Where
+from grader.verdict.checks.build import limit_name
+from grader.verdict.checks.build import python_error
+from grader.verdict.node_files import file_with_node
+from grader.verdict.registry import Failed
+
+if TYPE_CHECKING:
+    from grader.run.probe_link import LogRecord
+    from grader.run.run import Run
+    from grader.verdict.evidence import Evidence
+
+FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
+
+
+def node_file(evidence: Evidence) -> Where:
+    """Return the node's file as the place of a fault that has no line."""
+    return Where(file=f"{evidence.assignment.package}/{evidence.assignment.node_file}")
+
+
+def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
+    """Return the line of the node's file that logged a record, the file alone if that is unknown."""
+    place = node_file(evidence)
+    if record is not None and record.line > 0 and record.file.endswith(place.file):
+        return Where(file=place.file, line=record.line)
+    return place
+
+
+def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
+    """Return the last error that the run printed, and the student's own line it came from."""
+    error, _ = python_error(run.transcript, evidence.assignment.node_file)
+    package = evidence.assignment.package
+    mine = [m for m in FRAME.findall(run.transcript) if m[0].startswith(f"{package}/")]
+    if not mine:
+        return error, None
+    return error, Where(file=mine[-1][0], line=int(mine[-1][1]))
+
+
+def words(evidence: Evidence) -> dict[str, Value]:
+    """Return what the assignment and the node's source fill into a mistake's texts."""
+    within = file_with_node(evidence)
+    return words_of(evidence.assignment, within.source if within is not None else None)
+
+
+def flood(evidence: Evidence, expected: str) -> Failed:
+    """Return the verdict on a node that printed more than the limit."""
+    run = evidence.run
+    size = f"{max(len(run.transcript.encode()), run.logged) / 1e6:.1f}"
+    return Failed(
+        "run.too_much_output",
+        expected=expected,
+        actual=say("so much output that the run was stopped after {size} MB", size=size),
+        where=node_file(evidence),
+    )
+
+
+def resource(evidence: Evidence, expected: str) -> Failed:
+    """Return the verdict on a node that met a limit on memory or processes."""
+    limit = evidence.run.resource
+    return Failed(
+        "run.resource",
+        expected=expected,
+        actual=say("it met the limit on {limit} and was stopped", limit=limit_name(limit)),
+        where=node_file(evidence),
+        params={"limit": limit},
+    )

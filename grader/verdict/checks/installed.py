@@ -1,0 +1,102 @@
+"""The installed stage: is the executable where `ros2 run` looks for it?
+
+"No executable found" has four causes (EXERCISE.md); each gets its own answer here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.report.model import Where
+from grader.verdict.checks.build import setup_error
+from grader.verdict.checks.entry_faults import wanted_entry
+from grader.verdict.checks.entry_point import mapping_from_source
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+
+@check("entry_point.mapping", depends=["package.found"])
+def mapping(evidence: Evidence) -> Passed:
+    """setup.py maps the executable's name to the function that starts the node."""
+    said = mapping_from_source(evidence)
+    if said is not None:
+        return said
+    assignment = evidence.assignment
+    if not evidence.build.is_installed(assignment.package):
+        raise Blocked(by="build.colcon")
+    for line in evidence.build.entry_points.splitlines():
+        name, equals, target = (part.strip() for part in line.partition("="))
+        if equals and name == assignment.executable:
+            if target.replace(" ", "") == assignment.target:
+                entry = f"{name} = {target}"
+                return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
+            raise _computed(evidence, f"{name} = {target}")
+    none = say("no entry of the name {executable}", executable=assignment.executable)
+    raise _computed(evidence, none)
+
+
+def _computed(evidence: Evidence, actual: str) -> Failed:
+    entry = wanted_entry(evidence)
+    return Failed(
+        "entry_point.computed_mapping",
+        expected=say("'{entry}' among the console_scripts", entry=entry),
+        actual=actual,
+        where=Where(file="setup.py"),
+        words={"wanted": entry},
+    )
+
+
+@check("entry_point.executable", depends=["build.colcon"])
+def executable(evidence: Evidence) -> Passed:
+    """`ros2 run` finds the executable where it looks for it."""
+    package, name = evidence.assignment.package, evidence.assignment.executable
+    files = evidence.build.files
+    place = f"install/{package}/lib/{package}/{name}"
+    there = evidence.build.installed(f"lib/{package}/{name}")
+    found = files[there[0]] if there else None
+    if found is not None and found.kind == "f" and found.mode & 0o111:
+        return Passed(actual=there[0])
+    if found is not None and found.kind == "f":
+        raise Failed(
+            "entry_point.no_exec_bit",
+            expected=say("{place} with the exec bit", place=place),
+            actual=say(
+                "its mode is {mode}: ros2 run says No executable found", mode=f"{found.mode:04o}"
+            ),
+        )
+    for cause in ("entry_point.mapping", "package.setup_cfg"):
+        if evidence.has_failed(cause):
+            raise Blocked(by=cause)
+    elsewhere = sorted(p for p in files if p.startswith("install/") and p.endswith(f"/{name}"))
+    if elsewhere:
+        raise Failed(
+            "entry_point.elsewhere",
+            expected=place,
+            actual=say(
+                "it was installed as {path}: ros2 run says No executable found", path=elsewhere[0]
+            ),
+            where=Where(file="setup.cfg"),
+            params={"path": elsewhere[0]},
+            words={"package": package},
+        )
+    error, _ = setup_error(evidence.build.log)
+    nothing = say(
+        "nothing of the name {name} was installed: ros2 run says No executable found", name=name
+    )
+    with_error = say(
+        "nothing of the name {name} was installed ({error}): ros2 run says No executable found",
+        name=name,
+        error=error,
+    )
+    raise Failed(
+        "entry_point.not_installed",
+        expected=place,
+        actual=with_error if error else nothing,
+        where=Where(file="setup.py"),
+    )

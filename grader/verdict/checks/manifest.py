@@ -1,0 +1,259 @@
+"""What `package.manifest` looks at: package.xml, and whether setup.py has the same name."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import Value
+from grader.base.i18n.message import say
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
+from grader.base.shown import shown
+from grader.package.source.manifest import REQUIRED
+from grader.package.source.manifest import Element
+from grader.package.source.manifest import Manifest
+from grader.package.source.manifest import ManifestError
+from grader.package.source.manifest import read_manifest
+from grader.report.model import Where
+from grader.verdict.checks.parsed import file_of
+from grader.verdict.checks.parsed import names_in
+from grader.verdict.checks.parsed import reader_said
+from grader.verdict.checks.parsed import setup_py_of
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+FILE = "package.xml"
+BUILD_TYPE = "<export><build_type>ament_python</build_type></export>"
+XML_FAULTS = {  # what expat says most often, so that it can be said in another language
+    str(fault): fault
+    for fault in (
+        say("mismatched tag"),
+        say("not well-formed (invalid token)"),
+        say("no element found"),
+        say("unclosed token"),
+        say("undefined entity"),
+        say("junk after document element"),
+        say("duplicate attribute"),
+        say("XML or text declaration not at start of entity"),
+    )
+}
+COMMON = (
+    *("rclpy", "rclcpp", "std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "nav_msgs"),
+    *("visualization_msgs", "trajectory_msgs", "action_msgs", "builtin_interfaces"),
+    *("example_interfaces", "rcl_interfaces", "rosgraph_msgs", "turtlesim", "tf2_ros", "tf2_py"),
+    *("launch", "launch_ros", "ament_index_python", "ros2launch", "cv_bridge", "image_transport"),
+    *("ament_copyright", "ament_flake8", "ament_pep257", "ament_xmllint", "ament_mypy"),
+    *("ament_lint_auto", "ament_lint_common", "ament_cmake", "ament_python", "rviz2", "xacro"),
+    *("robot_state_publisher", "joint_state_publisher", "python3-pytest", "python3-setuptools"),
+)
+
+
+def check_manifest(evidence: Evidence) -> Passed:
+    """Judge package.xml; Failed names the first thing that is wrong."""
+    manifest = _read(evidence)
+    _check_build_type_place(manifest)
+    _check_rules(manifest)
+    _check_name(evidence, manifest)
+    _check_setup_name(evidence)
+    _check_build_type(manifest)
+    return Passed(actual=f"{manifest.name}, ament_python", advice=_advice(manifest))
+
+
+def _failed(
+    mistake: str,
+    actual: str,
+    line: int | None,
+    *,
+    expected: str = "",
+    variant: str = "",
+    params: dict[str, str | int | float] | None = None,
+    words: dict[str, Value] | None = None,
+) -> Failed:
+    return Failed(
+        mistake,
+        expected=expected or say("a valid package.xml"),
+        actual=actual,
+        where=Where(file=FILE, line=line),
+        variant=variant,
+        params=params,
+        words=words,
+    )
+
+
+def _read(evidence: Evidence) -> Manifest:
+    file = file_of(evidence, FILE)
+    if file is None:
+        close = nearest(FILE, names_in(evidence, ""), cutoff=0.75)
+        raise _failed(
+            "package.no_manifest",
+            with_difference(say("there is no package.xml") + meant(close), close, FILE),
+            None,
+            variant="renamed" if close else "",
+            words={"close": shown(close)},
+        )
+    if file.unreadable:
+        reason = reader_said(file.reason)
+        raise _failed(
+            "package.manifest_unreadable",
+            say("package.xml has no content here: {reason}", reason=reason),
+            None,
+        )
+    try:
+        return read_manifest(file.data)
+    except ManifestError as error:
+        raise _unusable(error, empty=not file.data.strip()) from None
+
+
+def _unusable(error: ManifestError, *, empty: bool) -> Failed:
+    text = XML_FAULTS.get(error.text) or reader_said(error.text)
+    if error.kind == "doctype":
+        actual: str = say("{text}: it is not read any further", text=text)
+        return _failed("package.manifest_doctype", actual, error.line)
+    if error.kind != "xml":
+        return _failed("package.manifest_rules", text, error.line)
+    actual = say("package.xml is empty")
+    if not empty:
+        actual = say("it is not well-formed XML: {text}", text=text)
+    return _failed(
+        "package.broken_xml",
+        actual,
+        error.line,
+        variant="empty" if empty else "",
+        params={"error": str(text)},
+    )
+
+
+def _check_rules(manifest: Manifest) -> None:
+    for tag in REQUIRED:
+        element = manifest.first(tag)
+        if element is None or (not element.text and tag != "description"):
+            raise _failed(
+                "package.manifest_tag",
+                say("<{tag}> is empty", tag=tag) if element else say("<{tag}> is missing", tag=tag),
+                element.line if element else None,
+                expected=say("<{tag}> with something in it", tag=tag),
+                variant="empty" if element else "",
+                params={"tag": tag},
+            )
+    if manifest.fault:
+        raise _failed(
+            "package.manifest_rules",
+            shown_long(manifest.fault),
+            _line_of_fault(manifest),
+            params={"error": shown_long(manifest.fault)},
+        )
+
+
+def shown_long(text: str) -> str:
+    """Return a message that may be longer than a name."""
+    return " ".join(shown(part) for part in text.split()[:60])
+
+
+def _line_of_fault(manifest: Manifest) -> int | None:
+    """Return the line of the tag that catkin_pkg's message is about, if it names one."""
+    for element in manifest.elements:
+        tag = element.tag
+        if any(f"{mark}{tag}{mark}" in manifest.fault for mark in "\"'") or (
+            f"following tags: {tag}" in manifest.fault
+        ):
+            return element.line
+    return None
+
+
+def _check_name(evidence: Evidence, manifest: Manifest) -> None:
+    package = evidence.assignment.package
+    if manifest.name == package:
+        return
+    element = manifest.first("name")
+    name = shown(manifest.name)
+    raise _failed(
+        "package.name_mismatch",
+        with_difference(Message("<name>{name}</name>", {"name": name}), name, package),
+        element.line if element else None,
+        expected=f"<name>{package}</name>",
+        params={"name": name, "file": FILE},
+        words={"package": package},
+    )
+
+
+def _check_setup_name(evidence: Evidence) -> None:
+    package = evidence.assignment.package
+    setup = setup_py_of(evidence)
+    name = setup.name if setup is not None else None
+    if name is None or name.value == package:
+        return
+    found = shown(name.value)
+    raise Failed(
+        "package.name_mismatch",
+        expected=say("setup.py: name='{package}', as in package.xml", package=package),
+        actual=with_difference(f"setup.py: name='{found}'", found, package),
+        where=Where(file="setup.py", line=name.line),
+        variant="setup",
+        params={"name": found, "file": "setup.py"},
+        words={"package": package},
+    )
+
+
+def _check_build_type_place(manifest: Manifest) -> None:
+    for element in manifest.all("build_type"):
+        raise _build_type(element, say("<build_type> stands outside of <export>"))
+
+
+def _check_build_type(manifest: Manifest) -> None:
+    elements = manifest.all("build_type", within="export")
+    if not elements:
+        raise _build_type(manifest.first("export"), say("there is no <build_type>"))
+    if len(elements) > 1:
+        many = say("there are {count} <build_type> tags", count=len(elements))
+        raise _build_type(elements[1], many)
+    if elements[0].text != "ament_python":
+        said = f"<build_type>{shown(elements[0].text)}</build_type>"
+        raise _build_type(elements[0], with_difference(said, elements[0].text, "ament_python"))
+
+
+def _build_type(element: Element | None, actual: str) -> Failed:
+    return _failed(
+        "package.build_type",
+        actual,
+        element.line if element else None,
+        expected=BUILD_TYPE,
+        variant="cmake" if "cmake" in actual else "",
+        params={"build_type": element.text[:80] if element and element.text.isprintable() else ""},
+    )
+
+
+def _advice(manifest: Manifest) -> list[str]:
+    """Return what could be better and costs nothing."""
+    names = {element.text: element.line for element in manifest.depends}
+    advice: list[str] = []
+    if "rclpy" not in names:
+        advice.append(
+            say(
+                "package.xml does not say that the package needs rclpy: add "
+                "<depend>rclpy</depend>. It runs here because rclpy is installed anyway."
+            )
+        )
+    for name, line in sorted(names.items()):
+        close = "" if name in COMMON else nearest(name, COMMON, cutoff=0.8)
+        if close:
+            unknown = say(
+                "package.xml, line {line}: the dependency '{name}' is not known",
+                line=line,
+                name=shown(name),
+            )
+            advice.append(with_difference(unknown + meant(close), name, close))
+        elif name in sys.stdlib_module_names:
+            advice.append(
+                say(
+                    "package.xml, line {line}: '{name}' is part of Python and needs no dependency.",
+                    line=line,
+                    name=name,
+                )
+            )
+    return advice[:5]

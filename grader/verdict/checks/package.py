@@ -1,0 +1,229 @@
+"""The package stage: is it there, and do the parts that carry its name agree?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.base.nearest import meant
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
+from grader.base.shown import shown
+from grader.package.source.setup_cfg import SetupCfg
+from grader.package.source.setup_cfg import SetupCfgFault
+from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.values import Computed
+from grader.package.source.values import Listing
+from grader.package.source.values import Text
+from grader.package.source.values import Value
+from grader.report.model import Where
+from grader.verdict.checks.manifest import check_manifest
+from grader.verdict.checks.parsed import file_of
+from grader.verdict.checks.parsed import names_in
+from grader.verdict.checks.parsed import reader_said
+from grader.verdict.checks.parsed import setup_py_of
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+INDEX = "share/ament_index/resource_index/packages"
+
+
+@check("package.found")
+def found(evidence: Evidence) -> Passed:
+    """There is one package to mark."""
+    submission, package = evidence.submission, evidence.assignment.package
+    if submission.root is None:
+        raise Failed(
+            submission.problem_mistake or "package.no_manifest",
+            expected=say(
+                "one package {package}: a folder with package.xml and setup.py in it",
+                package=package,
+            ),
+            actual=submission.problem,
+            variant="nothing",
+            fix=submission.problem_fix,
+        )
+    names = {c.path: c.name for c in submission.candidates}
+    name = names.get(submission.root, package)
+    place = say("the folder itself") if submission.root == "." else shown(submission.root)
+    actual = say("{name}, in {place}", name=shown(name), place=place)
+    return Passed(actual=actual, advice=submission.hints)
+
+
+@check("package.manifest", depends=["package.found"])
+def manifest(evidence: Evidence) -> Passed:
+    """package.xml is valid, its name is the package's, and its build type is ament_python."""
+    return check_manifest(evidence)
+
+
+@check("package.marker", depends=["package.found"])
+def marker(evidence: Evidence) -> Passed:
+    """The marker file by which ROS finds the package is there and is installed."""
+    package = evidence.assignment.package
+    path = f"resource/{package}"
+    there = evidence.submission.file(path)
+    if there is None or there.kind != "file":
+        raise _no_marker(evidence, path)
+    setup = setup_py_of(evidence)
+    if setup is None:
+        return Passed(actual=path)
+    data_files = setup.argument("data_files")
+    installed, told = _installed_in(data_files, INDEX)
+    if any(item.value.rpartition("/")[2] == package for item in installed) or not told:
+        where = say("{path}, installed in {folder}", path=path, folder=INDEX)
+        return Passed(actual=where if told else path)
+    if installed:
+        raise _other_marker(evidence, installed[0])
+    line = data_files.line if data_files is not None else setup.line
+    raise Failed(
+        "package.marker_not_installed",
+        expected=say("setup.py installs {path} in {folder}", path=path, folder=INDEX),
+        actual=say("data_files in setup.py has no line for it"),
+        where=Where(file="setup.py", line=line),
+    )
+
+
+def _no_marker(evidence: Evidence, path: str) -> Failed:
+    package = evidence.assignment.package
+    others = [name for name in names_in(evidence, "resource") if name != package]
+    variant, actual = "", say("there is no file {path}", path=path)
+    close = nearest(package, others) or (others[0] if len(others) == 1 else "")
+    if evidence.submission.file(path) is not None:
+        variant, actual = "folder", say("{path} is a folder", path=path)
+    elif close:
+        variant = "rename"
+        said = say("there is no {path}, but resource/{close}", path=path, close=shown(close))
+        actual = with_difference(said, close, package)
+    return Failed(
+        "package.marker_missing",
+        expected=say("an empty file {path}", path=path),
+        actual=actual,
+        variant=variant,
+        words={"package": package, "close": shown(close)},
+        where=Where(file=path),
+    )
+
+
+def _other_marker(evidence: Evidence, item: Text) -> Failed:
+    package = evidence.assignment.package
+    missing = file_of(evidence, item.value) is None
+    path = shown(item.value)
+    actual = say("it installs {path}", path=path)
+    if missing:
+        actual = say("it installs {path}, which is not there", path=path)
+    wanted = f"resource/{package}"
+    return Failed(
+        "package.marker_missing" if missing else "package.marker_not_installed",
+        expected=say("setup.py installs {path} in {folder}", path=wanted, folder=INDEX),
+        actual=with_difference(actual, item.value, wanted),
+        where=Where(file="setup.py", line=item.line),
+        variant="other",
+        params={"path": path},
+        words={"package": package},
+    )
+
+
+def _installed_in(data_files: Value | None, folder: str) -> tuple[list[Text], bool]:
+    """Return what data_files puts into a folder, and whether all of it could be told."""
+    if data_files is None:
+        return [], True
+    if not isinstance(data_files, Listing):
+        return [], False
+    found: list[Text] = []
+    told = True
+    for pair in data_files.items:
+        if not isinstance(pair, Listing) or len(pair.items) != 2:
+            told = False
+            continue
+        place, files = pair.items
+        if isinstance(place, Computed) or not isinstance(files, Listing):
+            told = False
+        elif isinstance(place, Text) and place.value.strip("/") == folder:
+            found += [item for item in files.items if isinstance(item, Text)]
+            told = told and all(isinstance(item, Text) for item in files.items)
+    return found, told
+
+
+@check("package.setup_cfg", depends=["package.found"])
+def setup_cfg(evidence: Evidence) -> Passed:
+    """setup.cfg has executables installed where `ros2 run` looks."""
+    package = evidence.assignment.package
+    wanted = f"$base/lib/{package}"
+    expected = say(
+        "[develop] script_dir={wanted} and [install] install_scripts={wanted}", wanted=wanted
+    )
+    file = file_of(evidence, "setup.cfg")
+    if file is None or file.unreadable:
+        raise Failed(
+            "package.setup_cfg_missing",
+            expected=expected,
+            actual=_no_cfg(evidence, file.reason if file else ""),
+            where=Where(file="setup.cfg"),
+            words={"package": package},
+        )
+    try:
+        cfg = read_setup_cfg(file.data)
+    except SetupCfgFault as fault:
+        raise Failed(
+            "package.setup_cfg_syntax",
+            expected=expected,
+            actual=say("setup.cfg cannot be understood: {text}", text=reader_said(fault.text)),
+            where=Where(file="setup.cfg", line=fault.line),
+        ) from None
+    advice = [
+        *_setting(cfg, "develop", "script_dir", wanted, expected),
+        *_setting(cfg, "install", "install_scripts", wanted, expected),
+    ]
+    return Passed(actual=expected, advice=advice)
+
+
+def _no_cfg(evidence: Evidence, reason: str) -> str:
+    if reason:
+        return say("setup.cfg cannot be read: {reason}", reason=reader_said(reason))
+    close = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8)
+    return with_difference(say("there is no setup.cfg") + meant(close), close, "setup.cfg")
+
+
+def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) -> list[str]:
+    """Check one setting; return advice on its spelling. Raises Failed."""
+    dashed = key.replace("_", "-")
+    settings = cfg.sections.get(section, {})
+    setting = settings.get(key) or settings.get(dashed)
+    if setting is not None and setting.value.rstrip("/") == wanted:
+        if key in settings:
+            return []
+        return [
+            say(
+                "Write {key} instead of {dashed} in setup.cfg: setuptools warns of the dash, and "
+                "some of its versions (78.0) refuse it.",
+                key=key,
+                dashed=dashed,
+            )
+        ]
+    line = cfg.lines.get(section)
+    if setting is not None:
+        line, variant = setting.line, ""
+        value = shown(setting.value)
+        said: str = say("[{section}] has {key}={value}", section=section, key=key, value=value)
+        actual = with_difference(said, setting.value, wanted)
+    elif section in cfg.sections:
+        variant, close = "key", nearest(key, settings)
+        said = say("[{section}] has no {key}", section=section, key=key) + meant(close)
+        actual = with_difference(said, close, key)
+    else:
+        variant, close = "section", nearest(section, cfg.sections)
+        said = say("there is no section [{section}]", section=section) + meant(close)
+        actual = with_difference(said, close, section)
+    raise Failed(
+        "package.setup_cfg_wrong",
+        expected=expected,
+        actual=actual,
+        where=Where(file="setup.cfg", line=line),
+        variant=variant,
+        params={"section": section, "key": key},
+        words={"wanted": wanted},
+    )

@@ -1,0 +1,56 @@
+"""The package's own files for the static checks: there or not, readable or not, parsed or not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import Message
+from grader.base.shown import shown
+from grader.package.source.python import PythonFault
+from grader.package.source.setup_py import SetupPy
+from grader.package.source.setup_py import read_setup_py
+
+if TYPE_CHECKING:
+    from grader.package.intake.model import SourceFile
+    from grader.verdict.evidence import Evidence
+
+
+def file_of(evidence: Evidence, path: str) -> SourceFile | None:
+    """Return a file of the package (no folder), or None."""
+    found = evidence.submission.file(path)
+    return found if found is not None and found.kind == "file" else None
+
+
+def setup_py_of(evidence: Evidence) -> SetupPy | None:
+    """Return what setup.py says; None if it is missing or Python cannot read it."""
+    file = file_of(evidence, "setup.py")
+    if file is None or file.unreadable:
+        return None
+    try:
+        return read_setup_py(file.data)
+    except PythonFault:
+        return None
+
+
+def node_path(evidence: Evidence) -> str:
+    """Return the path in the package that the assignment asks the node's file to have."""
+    return f"{evidence.assignment.package}/{evidence.assignment.node_file}"
+
+
+def names_in(evidence: Evidence, folder: str) -> list[str]:
+    """Return the names of the files directly in a folder of the package."""
+    start = f"{folder}/" if folder else ""
+    rest = [
+        file.path[len(start) :]
+        for file in evidence.submission.files
+        if file.path.startswith(start) and file.kind != "folder"
+    ]
+    return [name for name in rest if "/" not in name]
+
+
+def reader_said(text: str) -> str:
+    """Return why a file could not be read: words of ours as they are, others fit to be shown."""
+    if not isinstance(text, Message):
+        return shown(text)
+    values = {name: shown(v) if isinstance(v, str) else v for name, v in text.params.items()}
+    return Message(text.template, values)

@@ -1,0 +1,233 @@
+"""The source stage: the node's own file, its exec bit and its first line."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
+from grader.base.shown import shown
+from grader.mistakes.hints import hints
+from grader.package.source.node import NodeSource
+from grader.package.source.python import PythonFault
+from grader.package.source.python import parse_python
+from grader.report.model import Where
+from grader.verdict.checks.parsed import file_of
+from grader.verdict.checks.parsed import names_in
+from grader.verdict.checks.parsed import node_path
+from grader.verdict.checks.parsed import reader_said
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.package.intake.model import SourceFile
+    from grader.verdict.evidence import Evidence
+
+MOST_ADVICE = 5
+SHEBANG = "#!/usr/bin/env python3"
+PYTHON3 = re.compile(
+    rb"#![ \t]{0,9}(?:/usr/bin/env[ \t]{1,9}(?:-S[ \t]{1,9})?|/usr/bin/|/bin/|/usr/local/bin/)"
+    rb"python3(?:\.\d{1,2})?(?P<rest>[ \t][^\r\n]{0,200})?"
+)
+
+
+@check("source.node_file", depends=["package.found"])
+def node_file(evidence: Evidence) -> Passed:
+    """The node's file is in the inner folder, and Python can read it."""
+    path = node_path(evidence)
+    file = file_of(evidence, path)
+    if file is None:
+        raise _not_there(evidence, path)
+    if file.unreadable:
+        reason = reader_said(file.reason)
+        raise Failed(
+            "source.unreadable_node_file",
+            expected=say("a file {path} that can be read", path=path),
+            actual=say("it has no content here: {reason}", reason=reason),
+            where=Where(file=path),
+        )
+    if not file.data.strip():
+        raise Failed(
+            "source.empty_node_file",
+            expected=say("your node's code in {path}", path=path),
+            actual=say("the file is empty"),
+            where=Where(file=path),
+            words={"path": path},
+        )
+    try:
+        parsed = parse_python(file.data)
+    except PythonFault as fault:
+        raise _not_python(path, fault) from None
+    advice = hints(NodeSource(parsed))
+    inner = evidence.assignment.package
+    if evidence.submission.file(f"{inner}/__init__.py") is None:
+        no_init = say(
+            "There is no {inner}/__init__.py: without it find_packages() finds nothing to "
+            "install, and the node cannot be imported. Make it: an empty file is enough.",
+            inner=inner,
+        )
+        advice.insert(0, no_init)
+    return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _not_there(evidence: Evidence, path: str) -> Failed:
+    submission, name = evidence.submission, evidence.assignment.node_file
+    inner = evidence.assignment.package
+    expected = say("a file {path} in the package", path=path)
+    if path in submission.links_out:
+        return Failed(
+            "source.node_file_is_link",
+            expected=expected,
+            actual=say("it is a link that leads out of the package"),
+            where=Where(file=path),
+        )
+    inside = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
+    inside = [p for p in inside if file_of(evidence, p)]
+    elsewhere = inside or list(submission.node_files)
+    if elsewhere:
+        place = shown(elsewhere[0])
+        lies = say("it lies in {path}", path=place)
+        if not inside:
+            lies = say("it lies in {path}, outside of the package", path=place)
+        return Failed(
+            "source.misplaced_node_file",
+            expected=expected,
+            actual=lies,
+            where=Where(file=shown(inside[0])) if inside else None,
+            params={"path": place},
+            words={"wanted": path},
+        )
+    stem = name.removesuffix(".py")
+    beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
+    close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
+    close = close or nearest(name, beside, cutoff=0.75)
+    if close:
+        there = f"{inner}/{shown(close)}"
+        return Failed(
+            "source.misnamed_node_file",
+            expected=expected,
+            actual=with_difference(say("there is {path}", path=there), close, name),
+            where=Where(file=there),
+            params={"name": shown(close)},
+            words={"there": there, "path": path},
+        )
+    files = ", ".join(shown(n) for n in beside[:4]) or say("no file of yours yet")
+    actual = say("{inner}/ holds {files}", inner=inner, files=files)
+    if not submission.file(inner):
+        actual = say("there is no folder {inner} in the package", inner=inner)
+    return Failed(
+        "source.no_node_file",
+        expected=expected,
+        actual=actual,
+        where=Where(file=path),
+        words={"path": path},
+    )
+
+
+def _not_python(path: str, fault: PythonFault) -> Failed:
+    text = reader_said(fault.text)
+    code = say("in: {code}", code=shown(fault.shown)) if fault.shown else ""
+    return Failed(
+        "source.not_utf8" if fault.kind == "encoding" else "source.syntax_error",
+        expected=say("a file that Python can read"),
+        actual=joined(text, code, by=", "),
+        where=Where(file=path, line=fault.line),
+        variant=fault.kind,
+        params={"error": str(text), "kind": fault.kind},
+    )
+
+
+def _node(evidence: Evidence) -> SourceFile:
+    """Return the node's file; Blocked if there is none (a syntax error in it does not matter)."""
+    file = file_of(evidence, node_path(evidence))
+    if file is None:
+        raise Blocked(by="source.node_file")
+    return file
+
+
+@check("source.exec_bit", depends=["package.found"])
+def exec_bit(evidence: Evidence) -> Passed:
+    """The node's file is executable."""
+    path, name = node_path(evidence), evidence.assignment.node_file
+    file = _node(evidence)
+    mode = f"{file.mode & 0o777:04o}"
+    if evidence.submission.modes == "unknown":
+        note = say("not known: the place that it was handed in from keeps no exec bits")
+        if evidence.assignment.modes == "accept-unknown":
+            advice = say(
+                "See for yourself: ls -l {path} shows an x if the file is executable.", path=path
+            )
+            return Passed(actual=note, advice=[advice])
+        raise Failed(
+            "source.exec_bit_unknown",
+            expected=say("{path} with its exec bit recorded", path=path),
+            actual=note,
+            where=Where(file=path),
+            words={"file": name, "path": path},
+        )
+    if file.mode & 0o100:
+        return Passed(actual=say("mode {mode}", mode=mode))
+    raise Failed(
+        "source.not_executable",
+        expected=say("{path} with the exec bit, such as mode 0755", path=path),
+        actual=say("mode {mode}", mode=mode),
+        where=Where(file=path),
+        params={"mode": mode},
+        words={"file": name, "path": path},
+    )
+
+
+@check("source.shebang", depends=["package.found"])
+def shebang(evidence: Evidence) -> Passed:
+    """The node's file begins with a line that names Python 3."""
+    file = _node(evidence)
+    if file.unreadable:
+        raise Blocked(by="source.node_file")
+    first = file.data[:1000].partition(b"\n")[0]
+    match = PYTHON3.fullmatch(first)
+    if match is not None:
+        rest = match["rest"] or b""
+        through_env = b"/env" in first and b"-S" not in first
+        if not (rest.strip() and through_env):
+            return Passed(actual=shown(first.decode("utf-8", "replace")))
+    raise _no_shebang(evidence, file.data, first)
+
+
+def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
+    text = shown(first.decode("utf-8", "replace").strip()) or say("an empty line")
+    later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
+    line: int | None = 1
+    actual: str
+    if first[:3] == b"\xef\xbb\xbf":
+        mistake = "source.byte_order_mark"
+        actual = say("a byte order mark (three invisible bytes) is in front of line 1")
+    elif first[:2] == b"#!" and (b"\r" in first):
+        mistake = "source.crlf"
+        actual = say(
+            "line 1 ends as Windows ends lines (CRLF): Linux looks for a program 'python3\\r'"
+        )
+    elif first[:2] == b"#!":
+        mistake, actual = "source.wrong_shebang", with_difference(text, text, SHEBANG)
+        if PYTHON3.fullmatch(first):
+            actual = say("{text}: env takes all that follows it for one program's name", text=text)
+    elif later:
+        mistake, line = "source.shebang_not_first", later[0]
+        actual = say("the shebang is on line {line}; line 1 is: {text}", line=line, text=text)
+    elif "python" in text and "/bin/" in text:
+        mistake, actual = "source.wrong_shebang", with_difference(text, text, SHEBANG)
+    else:
+        mistake, actual = "source.no_shebang", say("line 1 is: {text}", text=text)
+        if not data.strip():
+            actual = say("the file is empty")
+    return Failed(
+        mistake,
+        expected=say("line 1: {shebang}", shebang=SHEBANG),
+        actual=actual,
+        where=Where(file=node_path(evidence), line=line),
+        words={"file": evidence.assignment.node_file, "path": node_path(evidence)},
+    )

@@ -1,0 +1,163 @@
+"""The running stage, first part: does the node start, stay, and end when Ctrl+C is pressed?"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.nearest import nearest
+from grader.base.nearest import with_difference
+from grader.verdict.checks.faults import flood
+from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.faults import resource
+from grader.verdict.checks.faults import traceback_of
+from grader.verdict.checks.faults import words
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Inconclusive
+from grader.verdict.registry import Outcome
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
+SIGNALLED = 240  # ros2 run passes on minus the number of the signal that ended the node, mod 256
+
+
+@check("run.starts", depends=["entry_point.executable"])
+def starts(evidence: Evidence) -> Passed:
+    """`ros2 run` starts the node and it stays."""
+    run = evidence.run
+    if run.started:
+        seconds = f"{run.node_seconds or 0:.1f}"
+        said = say("the node was on the ROS graph {seconds} s later", seconds=seconds)
+        return Passed(actual=said)
+    if run.resource:
+        raise resource(evidence, say("the node starts within the limits of the sandbox"))
+    if run.flooded:
+        raise flood(evidence, say("the node starts"))
+    if run.ended_by_itself:
+        raise _ended(evidence)
+    seconds = f"{run.seconds - (run.stop_seconds or 0):.0f}"
+    said = say("the program runs, but no node was seen within {seconds} s", seconds=seconds)
+    raise _no_node(evidence, said)
+
+
+def _ended(evidence: Evidence) -> Outcome:
+    """Return what is to be said of a program that ended before there was a node."""
+    run = evidence.run
+    for cause in ("source.node_file", "entry_point.mapping"):
+        if evidence.has_failed(cause):
+            return Blocked(by=cause)
+    if f"Package '{evidence.assignment.package}' not found" in run.transcript:
+        manifest = evidence.has_failed("package.manifest")
+        return Blocked(by="package.manifest" if manifest else "build.colcon")
+    error, where = traceback_of(evidence, run)
+    if error:
+        return Failed(
+            "run.died_at_start",
+            expected=say("the node starts and runs until Ctrl+C"),
+            actual=say("it stopped at its start with {error}", error=error),
+            where=where,
+            params={"error": error.partition(":")[0], "text": error},
+        )
+    if run.watch.counted and not run.nodes:
+        return _no_node(evidence, say("lines came, but no node was ever on the graph"))
+    return Failed(
+        "run.exits_at_once",
+        expected=say("the node runs until Ctrl+C"),
+        actual=say("it ended by itself at once, with status {status}", status=str(run.status)),
+        where=node_file(evidence),
+        words=words(evidence),
+    )
+
+
+def _no_node(evidence: Evidence, actual: str) -> Failed:
+    return Failed(
+        "run.no_node",
+        expected=say("a node {name} on the ROS graph", name=evidence.assignment.node_name),
+        actual=actual,
+        where=node_file(evidence),
+        words=words(evidence),
+    )
+
+
+@check("run.node_name", depends=["run.starts"])
+def node_name(evidence: Evidence) -> Passed:
+    """The node has the name that was asked for."""
+    wanted = evidence.assignment.node_name
+    names = [node.name for node in evidence.run.nodes]
+    if f"/{wanted}" in names:
+        return Passed(actual=f"/{wanted}")
+    if not names:
+        raise Inconclusive(say("the ROS graph could not be read"))
+    listed = ", ".join(names)
+    close = nearest(f"/{wanted}", names) or names[0]
+    raise Failed(
+        "run.wrong_node_name",
+        expected=f"/{wanted}",
+        actual=with_difference(listed, close, f"/{wanted}"),
+        where=node_file(evidence),
+        params={"name": names[0].lstrip("/")},
+        words={"wanted": wanted},
+    )
+
+
+def _handler_fails(last: str) -> bool:
+    """Whether it was a line of the student's, run because of Ctrl+C, that raised the last error."""
+    _, handling, after = last.rpartition("During handling of the above exception")
+    return bool(handling) and OWN_ERROR.search(after) is not None
+
+
+@check("run.interrupt", depends=["run.starts"])
+def interrupt(evidence: Evidence) -> Passed:
+    """Ctrl+C ends the node."""
+    run = evidence.run
+    if not run.interrupted:
+        raise Blocked(by="run.output")
+    expected = say("the node ends soon after Ctrl+C")
+    if run.stop_seconds is None:
+        raise Failed(
+            "run.ignores_interrupt",
+            expected=expected,
+            actual=say("it was still there and had to be killed"),
+            where=node_file(evidence),
+            words=words(evidence),
+        )
+    last = run.transcript.rstrip()[-3000:]
+    actual = say(
+        "ended {seconds} s after Ctrl+C with status {status}",
+        seconds=f"{run.stop_seconds:.1f}",
+        status=str(run.status),
+    )
+    if run.status in (0, 130, 254) or run.signal == 2:
+        caught = say("try: … except KeyboardInterrupt: around rclpy.spin spares the traceback.")
+        return Passed(actual=actual, advice=[caught] if run.status == 254 else [])
+    if run.status is not None and run.status > SIGNALLED:
+        crashed = say(
+            "The program crashed in ROS's own clean-up after Ctrl+C: do not leave a thread "
+            "spinning when {function} ends.",
+            function=evidence.assignment.function,
+        )
+        return Passed(actual=actual, advice=[crashed])
+    if "rcl_shutdown already called" in last:
+        known = say(
+            "The traceback after Ctrl+C is known: ROS has shut down already when your "
+            "rclpy.shutdown() is called. rclpy.try_shutdown() does it without."
+        )
+        return Passed(actual=actual, advice=[known])
+    interrupted = "ExternalShutdownException" in last or "KeyboardInterrupt" in last
+    if interrupted and not _handler_fails(last):
+        return Passed(actual=actual)
+    error, where = traceback_of(evidence, run)
+    raise Failed(
+        "run.error_at_stop",
+        expected=say("the node ends soon after Ctrl+C, without an error of its own"),
+        actual=joined(actual, error, by=": "),
+        where=where,
+        params={"error": error.partition(":")[0]},
+    )

@@ -1,0 +1,116 @@
+"""The running stage, third part: do the lines come at the right instants?"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.mistakes.from_source import longest_sleep
+from grader.verdict.checks.faults import line_of
+from grader.verdict.checks.faults import words
+from grader.verdict.node_files import file_with_node
+from grader.verdict.registry import Blocked
+from grader.verdict.registry import Failed
+from grader.verdict.registry import Inconclusive
+from grader.verdict.registry import Passed
+from grader.verdict.registry import check
+
+if TYPE_CHECKING:
+    from grader.run.observer import Event
+    from grader.verdict.evidence import Evidence
+
+WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # of the period, and seconds
+
+
+@check("run.period", depends=["run.starts"])
+def period(evidence: Evidence) -> Passed:
+    """A line comes once in each period, at the right instants."""
+    run, wanted = evidence.run, evidence.assignment.output
+    watch = run.watch
+    events = watch.counted
+    if not events:
+        raise Blocked(by="run.output")
+    every = f"{wanted.period:g}"
+    expected = say("one line every {period} s, the first after {period} s", period=every)
+    if watch.clock == "wall":
+        return _wall_period(evidence, expected)
+    if any(event.n is not None for event in watch.before_start):
+        raise Failed(
+            "run.by_hand",
+            expected=expected,
+            actual=say("a line came before any time had passed"),
+            where=line_of(evidence, watch.before_start[0].record),
+            words=words(evidence),
+        )
+    on_time = [event for event in events if event.due is not None]
+    stopped = len(on_time) > 1 and abs((watch.period or wanted.period) - wanted.period) < 0.001
+    if not watch.early and (not watch.missing or stopped):  # that it stops is run.output's to say
+        slow = _kept_apart(evidence, on_time)
+        if slow:
+            actual = say("a line about every {period} s", period=f"{slow:.2f}")
+            raise _wrong_period(evidence, expected, actual, seconds=slow)
+        each = say(
+            "{count} lines, each at its instant (to 1 ms of ROS time), none between",
+            count=len(on_time),
+        )
+        return Passed(actual=each)
+    late = events[0].virtual if watch.missing and events[0].due is None else 0.0
+    if watch.period is None and len(events) < 2 and late <= wanted.period:
+        raise Blocked(by="run.output")
+    seen = watch.period or (late if len(events) < 2 else 0.0)
+    actual = say("lines came at other instants")
+    if seen:
+        actual = say("a line about every {period} s", period=f"{seen:.2f}")
+    raise _wrong_period(evidence, expected, actual, seconds=seen)
+
+
+def _kept_apart(evidence: Evidence, on_time: Sequence[Event]) -> float:
+    """Return the wall time (s) between the lines of a callback that sleeps for more than a period.
+
+    ROS time waits for it; whoever looks at a terminal does too. Only a sleep that stands in the
+    source counts: what else takes long may be the machine's load. 0 where there is none.
+    """
+    within = file_with_node(evidence)
+    slept = longest_sleep(within.source) if within is not None else None
+    gaps = [after.wall - before.wall for before, after in pairwise(on_time)]
+    if slept is None or slept[1] <= evidence.assignment.output.period or not gaps:
+        return 0.0
+    gap = statistics.median(gaps)
+    return gap if gap >= slept[1] * (1 - WALL_TOLERANCE) else 0.0
+
+
+def _wall_period(evidence: Evidence, expected: str) -> Passed:
+    watch, wanted = evidence.run.watch, evidence.assignment.output
+    if watch.period is None:
+        raise Blocked(by="run.output")
+    slack = wanted.period * WALL_TOLERANCE + WALL_SLACK
+    median = f"{watch.period:.3f}"
+    actual = say("a line every {period} s of wall time (median)", period=median)
+    if abs(watch.period - wanted.period) <= slack:
+        advice = say(
+            "Judged on the wall clock, since {note}. A timer made with create_timer follows "
+            "ROS time, in simulation too; a loop with sleep does not.",
+            note=watch.note,
+        )
+        return Passed(actual=actual, advice=[advice])
+    if evidence.run.inconsistent:
+        busy = say(
+            "{actual}, but another run differed: the machine is too busy to tell", actual=actual
+        )
+        raise Inconclusive(busy)
+    raise _wrong_period(evidence, expected, actual, seconds=watch.period)
+
+
+def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
+    watch = evidence.run.watch
+    return Failed(
+        "run.wrong_period",
+        expected=expected,
+        actual=actual,
+        where=line_of(evidence, watch.counted[0].record),
+        params={"period": round(seconds, 3)},
+        words=words(evidence),
+    )

@@ -1,0 +1,118 @@
+"""Puts what was found together into the report."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import grader
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.package.submission import Submission
+from grader.report import model
+from grader.ros.distro import Distro
+from grader.ros.prefix import Ros
+from grader.run.run import Run
+from grader.verdict.evidence import Evidence
+
+MOST_EVIDENCE = 40_000  # characters of build log and of transcript in the report
+
+
+def compose(
+    evidence: Evidence,
+    results: Sequence[model.CheckResult],
+    distro: Distro,
+    ros: Ros,
+    speak: Speaker,
+) -> model.Report:
+    """Return the report of one submission; when, how long and in what sandbox is not in it yet."""
+    assignment, submission = evidence.assignment, evidence.submission
+    build = evidence.build if evidence.was_built else None
+    run = evidence.run if evidence.has_run else None
+    open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
+    unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
+    return model.Report(
+        assignment=model.AssignmentInfo(
+            id=assignment.id, title=assignment.title, sha256=assignment.sha256
+        ),
+        submission=model.SubmissionInfo(
+            name=submission.name,
+            path=_printable(submission.path),
+            sha256=submission.sha256,
+            package=_package_name(submission),
+            origin=submission.origin,
+            modes=submission.modes,
+            notes=[speak(note) for note in submission.notes],
+        ),
+        environment=model.Environment.model_validate(
+            {
+                "distro": distro.name,
+                "ros": ros.kind,
+                "sandbox": "none",
+                "grader": grader.__version__,
+                **ros.versions,
+            }
+        ),
+        status="graded",
+        message=speak(unknown) if open_ else "",
+        lang=speak.lang,
+        score=sum(r.score for r in results),
+        max_score=assignment.max_score,
+        checks=list(results),
+        observed=_observed(run, assignment.output.period),
+        evidence=model.Evidence(
+            build_log=_cut(build.log, speak) if build else "",
+            transcript=_cut(run.transcript, speak) if run else "",
+        ),
+        started="",
+    )
+
+
+def _printable(path: Path) -> str:
+    """Return a path as text that JSON can hold; bytes that are no UTF-8 are spelled out."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
+
+
+def _package_name(submission: Submission) -> str | None:
+    for candidate in submission.candidates:
+        if candidate.path == submission.root:
+            return candidate.name
+    return None
+
+
+def _observed(run: Run | None, period: float) -> model.Observed:
+    if run is None:
+        return model.Observed()
+    virtual = run.watch.clock == "virtual"
+    ticks = [
+        model.Tick(
+            n=event.n,
+            text=event.text[:500],
+            virtual=round(event.virtual, 3) if virtual else None,
+            wall=round(event.wall, 6),
+        )
+        for event in run.watch.counted[:200]
+    ]
+    return model.Observed(
+        command=run.command,
+        clock=run.watch.clock,
+        ticks=ticks,
+        period=period,
+        due=[round(due, 3) for due in run.watch.dues[:200]],
+        nodes=[node.name for node in run.nodes],
+        exit=model.Exit(
+            status=run.status,
+            signal=run.signal,
+            seconds=None if run.stop_seconds is None else round(run.stop_seconds, 3),
+        ),
+    )
+
+
+def _cut(text: str, speak: Speaker) -> str:
+    """Return a text cut in its middle: how it began and how it ended tell the most."""
+    if len(text) <= MOST_EVIDENCE:
+        return text
+    half = MOST_EVIDENCE // 2
+    left_out = say("… {count} characters left out …", count=len(text) - 2 * half)
+    return f"{text[:half]}\n{speak(left_out)}\n{text[-half:]}"

@@ -1,0 +1,142 @@
+"""From what a check saw to what the student did: the root cause stands before its consequences."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import Message
+from grader.base.i18n.message import joined
+from grader.base.i18n.message import say
+from grader.base.nearest import compared
+from grader.base.nearest import meant
+from grader.base.shown import shown
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.catalogue import RANK
+from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_traceback import recognise
+from grader.mistakes.kind import Finding
+from grader.mistakes.raised import Raised
+from grader.mistakes.suspect import Suspect
+from grader.report.model import Mistake
+from grader.report.model import Where
+from grader.verdict.checks.faults import traceback_of
+from grader.verdict.checks.parsed import node_path
+from grader.verdict.node_files import file_at
+from grader.verdict.node_files import file_with_main
+from grader.verdict.node_files import file_with_node
+from grader.verdict.registry import Failed
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
+OF_MAIN = ("run.exits_at_once", "run.no_node")
+SHORTEST = 3  # characters of a line that is worth being shown
+
+
+def diagnose(failed: Failed, evidence: Evidence) -> tuple[Failed, str]:
+    """Look for the mistake behind a failed check, and put it first.
+
+    Return the failure, and the check decided before that failed for the same mistake.
+    """
+    symptom = failed.mistakes[0].id
+    if not symptom.startswith("run."):
+        return failed, ""
+    try:
+        found = _root(symptom, failed, evidence)
+    except RecursionError:  # nobody's first node; what the check saw still holds
+        found = None
+    if found is not None:
+        _explain(failed, found)
+    _show_line(failed, evidence)
+    failed.mistakes.sort(key=lambda mistake: RANK[mistake.id])
+    return failed, _same_root(failed, evidence)
+
+
+def _root(symptom: str, failed: Failed, evidence: Evidence) -> Finding | None:
+    if symptom in RAISES:
+        error, where = traceback_of(evidence, evidence.run)
+        if error:
+            return _not_installed(error, evidence) or _raised(error, where, evidence)
+    within = file_with_main(evidence) if symptom in OF_MAIN else file_with_node(evidence)
+    if within is None:
+        return None
+    suspect = Suspect(within.source, within.path, evidence.assignment)
+    if symptom == "run.wrong_text":
+        return _text(failed, suspect)
+    if symptom == "run.wrong_node_name" and within.source.super_init is not None:
+        failed.where = Where(file=within.path, line=within.source.super_init.lineno)
+    if symptom == "run.wrong_period" and within.source.timers:
+        failed.where = Where(file=within.path, line=within.source.timers[0].line)
+    look = LOOKS.get(symptom)
+    return look(suspect) if look is not None else None
+
+
+def _raised(error: str, where: Where | None, evidence: Evidence) -> Finding | None:
+    within = file_at(evidence, where.file if where else node_path(evidence))
+    if within is None:
+        return None
+    return recognise(Raised(error, within.path, where, within.source, evidence.assignment))
+
+
+def _not_installed(error: str, evidence: Evidence) -> Finding | None:
+    """Tell a module that was not installed from one that is not there."""
+    package = evidence.assignment.package
+    module = rf"{re.escape(package)}(?:\.{re.escape(evidence.assignment.node_file[:-3])})?"
+    if not re.search(rf"No module named '{module}'", error):
+        return None
+    init = f"{package}/__init__.py"
+    if evidence.submission.file(init) is None:
+        return Finding(kind="source.no_init_file", words={"path": init}, where=Where(file=init))
+    return Finding(kind="setup.not_packaged", where=Where(file="setup.py"))
+
+
+def _text(failed: Failed, suspect: Suspect) -> Finding | None:
+    """Tell a text with the wrong number in it from another text."""
+    text = str(failed.mistakes[0].params.get("text", ""))
+    line = failed.where.line if failed.where else None
+    head, tail = suspect.output.text.split("{n}")
+    if re.search(r"\{[\w.]{1,80}\}", text):
+        return suspect.finding("f_prefix", line)
+    if text.split() == f"{head}{tail}".split():
+        return suspect.finding("text_without_number", line)
+    number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
+    return suspect.finding("number_format", line) if re.fullmatch(number, text) else None
+
+
+def _explain(failed: Failed, found: Finding) -> None:
+    """Let a failed check say what the root cause's entry says."""
+    kind = CATALOGUE[found.kind]
+    values = {**found.params, **found.words}
+    failed.rationale = kind.rationale(values, found.variant)
+    failed.fix = kind.mend(values, found.variant)
+    failed.mistakes.insert(0, Mistake(id=found.kind, params=dict(found.params)))
+    if found.where is not None and (found.where.line or failed.where is None):
+        failed.where = found.where
+    title = Message(kind.title)
+    name, close = str(found.params.get("name", "")), str(found.params.get("close", ""))
+    difference = compared(name, close) if close else ""
+    failed.actual = joined(failed.actual, title + meant(close), difference, by="\n")
+
+
+def _show_line(failed: Failed, evidence: Evidence) -> None:
+    """Add the line of the source itself to what was found."""
+    where = failed.where
+    within = file_at(evidence, where.file) if where is not None and where.line else None
+    if where is None or within is None:
+        return
+    code = within.source.line(where.line)
+    if len(code) >= SHORTEST:
+        line = say("line {line}: {code}", line=where.line or 0, code=shown(code))
+        failed.actual = joined(failed.actual, line, by="\n")
+
+
+def _same_root(failed: Failed, evidence: Evidence) -> str:
+    """Return the check decided before that failed for the same mistake at the same place."""
+    root = failed.mistakes[0]
+    for check_id, result in evidence.results.items():
+        same = result.mistakes[:1] == [root] and result.where == failed.where
+        if result.status == "failed" and same and result.visibility == "visible":
+            return check_id
+    return ""

@@ -1,0 +1,159 @@
+"""Mends one mistake after the other until none is left that can be mended, all in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from collections.abc import Iterable
+from dataclasses import dataclass
+from dataclasses import replace
+
+from grader.base.i18n.translator import SOURCE
+from grader.course.assignment import Assignment
+from grader.mistakes.fixes import syntax
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.case import Finding
+from grader.mistakes.fixes.case import Mend
+from grader.mistakes.fixes.case import finding_of
+from grader.mistakes.fixes.table import ADVISED
+from grader.mistakes.fixes.table import STATIC
+from grader.mistakes.fixes.table import mends_for
+from grader.package.edit.diff import diff
+from grader.package.edit.files import Files
+from grader.package.submission import Submission
+from grader.report.model import CheckResult
+from grader.verdict.static import findings
+
+MOST_STEPS = 30
+"""How many mends one package gets at most: each mistake needs one, and a package has 16 checks."""
+MOST_PATCH = 50_000
+"""Bytes of a diff in a report: twice that of every line of an exercise."""
+Judge = Callable[[Files], list[Finding]]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The files as they are and as they would be, what was mended, and what is left."""
+
+    old: Files
+    new: Files
+    mended: tuple[Finding, ...] = ()
+    left: tuple[Finding, ...] = ()
+
+    @property
+    def patch(self) -> bytes:
+        """The difference; empty where nothing is to be changed."""
+        return diff(self.old, self.new)
+
+
+def patch_for(result: CheckResult, submission: Submission, assignment: Assignment) -> str:
+    """Return the diff after which a check that failed passes; empty where no mend is certain.
+
+    What only a run tells cannot be asked here again: there the mend knows the mistake by its form.
+    """
+    finding = finding_of(result)
+    if finding is None or submission.root is None:
+        return ""
+    old = Files.of(submission)
+    if finding.check in STATIC:
+        plan = mend_files(submission, assignment, only=finding.check)
+        new = old if any(f.check == finding.check for f in plan.left) else plan.new
+    else:
+        new = first_mend(Case(old, finding, assignment), mends_for(finding)) or old
+    patch = diff(old, new)
+    if len(patch) > MOST_PATCH:
+        return ""
+    try:
+        return patch.decode("utf-8")
+    except UnicodeDecodeError:  # JSON holds no other bytes
+        return ""
+
+
+def mend_files(
+    submission: Submission, assignment: Assignment, only: str = "", *, lang: str = SOURCE
+) -> Plan:
+    """Mend what the files alone show to be wrong (in one check, if `only` names it)."""
+
+    def judge(files: Files) -> list[Finding]:
+        return findings(files, submission, assignment, only, lang=lang)
+
+    old = Files.of(submission)
+    if only:
+        return mend(old, assignment, judge)
+    # (a setup.py that Python cannot read answers nothing: no check of the files fails by it)
+    readable = syntax.setup_py(Case(old, Finding("", ""), assignment)) or old
+    plan = mend(readable, assignment, judge)
+    return _advised(replace(plan, old=old), assignment, judge)
+
+
+def mend(files: Files, assignment: Assignment, judge: Judge) -> Plan:
+    """Mend until the judge finds nothing more that can be mended.
+
+    A mend after which the same is found again has not helped: it is taken back.
+    """
+    start, mended = files, []
+    found = judge(files)
+    for _ in range(MOST_STEPS):
+        step = _step(files, assignment, found, judge)
+        if step is None:
+            break
+        done, files, found = step
+        mended.append(done)
+    return Plan(start, files, tuple(mended), tuple(found))
+
+
+def _step(
+    files: Files,
+    assignment: Assignment,
+    found: list[Finding],
+    judge: Judge,
+) -> tuple[Finding, Files, list[Finding]] | None:
+    for finding in found:
+        case = Case(files, finding, assignment)
+        for new in _tries(case, mends_for(finding)):
+            after = judge(new)
+            gone = finding.known_by not in [f.known_by for f in after]
+            if gone and _no_worse(found, after, case):
+                return finding, new, after
+    return None
+
+
+def _no_worse(before: list[Finding], after: list[Finding], case: Case) -> bool:
+    """Whether no check fails that passed before, but for later ones, which can be asked only now."""
+    order = [use.id for use in case.assignment.checks]
+    at = order.index(case.finding.check) if case.finding.check in order else len(order)
+    new = {f.check for f in after} - {f.check for f in before}
+    return all(order.index(check) > at for check in new)
+
+
+def _tries(case: Case, mends: Iterable[Mend]) -> Iterable[Files]:
+    for attempt in mends:
+        new = attempt(case)
+        if new is not None and not _breaks_python(case.files, new):
+            yield new
+
+
+def _breaks_python(old: Files, new: Files) -> bool:
+    """Whether a file that Python could read is one that it cannot read after a mend."""
+    for path, file in new.by_path.items():
+        before = old.by_path.get(path)
+        changed = before is not None and before.data != file.data
+        if before is None or not changed or not path.endswith(".py"):
+            continue
+        if syntax.fault_of(file.data) is not None and syntax.fault_of(before.data) is None:
+            return True
+    return False
+
+
+def first_mend(case: Case, mends: Iterable[Mend]) -> Files | None:
+    """Return what the first mend makes that is certain; None if none is."""
+    return next(iter(_tries(case, mends)), None)
+
+
+def _advised(plan: Plan, assignment: Assignment, judge: Judge) -> Plan:
+    files, left = plan.new, list(plan.left)
+    for attempt in ADVISED:
+        case = Case(files, Finding("", ""), assignment)
+        new = attempt(case)
+        if new is not None and _no_worse(left, judge(new), case):
+            files = new
+    return replace(plan, new=files)

@@ -1,0 +1,162 @@
+"""The runner: takes one submission through intake, build and run, and decides each check.
+
+It prints nothing: it emits events, and returns the report.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from dataclasses import field
+from datetime import datetime
+from datetime import timezone
+from pathlib import Path
+
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Speaker
+from grader.course.assignment import Assignment
+from grader.package.submission import Submission
+from grader.package.submission import take_in
+from grader.report import events
+from grader.report import model
+from grader.ros.distro import Distro
+from grader.run.observer import Event
+from grader.run.session import Session
+from grader.sandbox.choose import open_sandbox
+from grader.sandbox.limits import Limits
+from grader.verdict.ask import ask
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.compose import compose
+from grader.verdict.evidence import Evidence
+from grader.verdict.fix import patch_for
+
+STAGES = {
+    "package": ("intake", say("looking at the package")),
+    "source": ("intake", say("looking at the package")),
+    "build": ("build", say("building with colcon")),
+    "entry_point": ("build", say("building with colcon")),
+    "run": ("run", say("running the node")),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Order:
+    """What is to be marked, and how; `lang` is the language of every text in the report."""
+
+    path: Path
+    assignment: Assignment
+    distro: Distro
+    sandbox: str = "auto"
+    name: str | None = None
+    limits: Limits = field(default_factory=Limits)
+    own_code: bool = False
+    lang: str = "en"
+    student_id: str = ""
+    modes_kept: bool = True
+    """False where the way here lost the exec bits of the files (see `take_in`)."""
+
+
+def grade(order: Order, listener: events.Listener) -> model.Report:
+    """Mark one submission on one distro.
+
+    Raises UsageError for a path that does not exist or cannot be read, SurroundingsError where
+    the grader's own surroundings fail; everything else is in the report.
+    """
+    begin = time.monotonic()
+    submission = take_in(
+        order.path,
+        package=order.assignment.package,
+        node_file=order.assignment.node_file,
+        name=order.name,
+        modes_kept=order.modes_kept,
+    )
+    return mark(submission, order, listener, intake=time.monotonic() - begin)
+
+
+def mark(
+    submission: Submission, order: Order, listener: events.Listener, *, intake: float = 0
+) -> model.Report:
+    """Mark what was taken in before, which took `intake` seconds; all else as `grade`."""
+    started = datetime.now(timezone.utc)
+    begin = time.monotonic() - intake
+    assignment = order.assignment
+    speak = Speaker(order.lang)
+    opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
+    listener(events.StageStarted("setup", speak(opening)))
+    sandbox = open_sandbox(
+        order.sandbox,
+        order.distro,
+        order.limits,
+        own_code=order.own_code,
+        say=lambda text: listener(events.Note(text)),
+    )
+    setup = time.monotonic() - begin - intake
+    listener(events.StageFinished("setup", setup))
+    with Session(sandbox, assignment) as session:
+        evidence = _evidence(session, submission, listener)
+        results = _decide(evidence, assignment, listener, speak)
+        limits = sandbox.limit_report()
+    report = compose(evidence, results, order.distro, sandbox.ros, speak)
+    environment = report.environment.model_copy(update={"sandbox": sandbox.name, "limits": limits})
+    timing = model.Timing(
+        setup=round(setup, 3),
+        intake=round(intake, 3),
+        build=round(session.timing["build"], 3),
+        run=round(session.timing["run"], 3),
+        total=round(time.monotonic() - begin, 3),
+    )
+    whose = report.submission.model_copy(update={"student_id": order.student_id or None})
+    return report.model_copy(
+        update={
+            "submission": whose,
+            "environment": environment,
+            "timing": timing,
+            "started": started.isoformat(),
+        }
+    )
+
+
+def _evidence(session: Session, submission: Submission, listener: events.Listener) -> Evidence:
+    def tick(event: Event) -> None:
+        listener(events.TickSeen(event.n, event.text, event.virtual))
+
+    return Evidence(
+        session.assignment,
+        submission,
+        build=lambda: session.build(submission),
+        run=lambda: session.run(tick),
+    )
+
+
+def _decide(
+    evidence: Evidence, assignment: Assignment, listener: events.Listener, speak: Speaker
+) -> list[model.CheckResult]:
+    uses = {use.id: use for use in assignment.checks}
+    stage = ""
+    begin = time.monotonic()
+    for check_id, check in CHECKS.items():
+        if check_id not in uses:
+            continue
+        now, title = STAGES[check_id.partition(".")[0]]
+        if now != stage:
+            if stage:
+                listener(events.StageFinished(stage, time.monotonic() - begin))
+            stage, begin = now, time.monotonic()
+            listener(events.StageStarted(stage, speak(title)))
+        visibility = uses[check_id].visibility
+        listener(events.CheckStarted(check.id, speak(check.title), visibility))
+        result = ask(check, evidence, speak)
+        if result.status == "failed":
+            result = result.model_copy(update={"patch": _patch(result, evidence, listener)})
+        evidence.results[check_id] = result
+        listener(events.CheckFinished(result))
+    listener(events.StageFinished(stage, time.monotonic() - begin))
+    return [evidence.results[use.id] for use in assignment.checks]
+
+
+def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:
+    try:
+        return patch_for(result, evidence.submission, evidence.assignment)
+    except Exception as fault:  # of ours: it must not lose the verdict, which has no change then
+        listener(events.Note(f"{result.id}: no change could be made, a fault of ours: {fault!r}"))
+        return ""

@@ -1,0 +1,109 @@
+"""From the words of the command line to what is to be marked; every word is checked first."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import chosen_language
+from grader.course.assignment import Assignment
+from grader.course.assignment import load_assignment
+from grader.course.find import assignment_file
+from grader.course.find import own_keys
+from grader.ros.distro import find_distro
+from grader.sandbox.choose import check_name
+from grader.sandbox.limits import UNITS
+from grader.sandbox.limits import Limits
+from grader.verdict.mark import Order
+
+HIDDEN = "hidden.yaml"
+
+
+def make_orders(
+    path: Path,
+    assignment: str | None,
+    distro: str,
+    sandbox: str,
+    limits: tuple[str, ...],
+    *,
+    name: str | None = None,
+    own_code: bool = False,
+    keys: Path | None = None,
+    lang: str | None = None,
+) -> list[Order]:
+    """Check every word of the command line before anything is run.
+
+    `assignment` is an id, a file's path, or None for the one that is meant (`lessons.chosen`);
+    `keys` the instructor's folder of it (default: the grader's own, if any).
+    """
+    check_name(sandbox)
+    distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
+    if not distros:
+        raise UsageError(say("no distro was named"), remedy=say("For example: --distro jazzy"))
+    given = _limit_values(limits)
+    wanted = visible_part(assignment) if own_code else with_hidden(assignment, keys)
+    bounds = Limits().override(wanted.limits).override(given)
+    return [
+        Order(
+            path=path,
+            assignment=wanted,
+            distro=found,
+            sandbox=sandbox,
+            name=name,
+            limits=bounds,
+            own_code=own_code,
+            lang=lang or chosen_language(os.environ),
+        )
+        for found in dict.fromkeys(distros)
+    ]
+
+
+def own_place() -> Path:
+    """Return where a student's own package is when no path is given: ~/ros2_ws, else here."""
+    workspace = Path.home() / "ros2_ws"
+    return workspace if workspace.is_dir() else Path.cwd()
+
+
+def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
+    values = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        try:
+            values[name.strip()] = float(value)
+        except ValueError:
+            equals = ""
+        if not equals:
+            raise UsageError(say("--limit takes NAME=NUMBER, not '{word}'", word=word))
+    return values
+
+
+def visible_part(assignment: str | None) -> Assignment:
+    """Return an assignment as students have it: of its id or its file's path, or the one meant."""
+    return load_assignment(assignment_file(assignment), known_limits=tuple(UNITS))
+
+
+def with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
+    """Return an assignment with the hidden checks of the instructor's folder.
+
+    Raises UsageError where it announces hidden checks and that folder has none.
+    """
+    file = assignment_file(assignment)
+    folder = keys or own_keys(file)
+    if keys is not None and not keys.is_dir():
+        raise UsageError(say("there is no folder {path}", path=str(keys)))
+    hidden = folder / HIDDEN if folder is not None else None
+    there = hidden is not None and hidden.is_file()
+    loaded = load_assignment(file, hidden=hidden if there else None, known_limits=tuple(UNITS))
+    if loaded.hidden_checks and not there:
+        raise UsageError(
+            say(
+                "hidden_checks is {count} in {file}, but there is no {name}",
+                file=str(file),
+                count=loaded.hidden_checks,
+                name=str(hidden or HIDDEN),
+            ),
+            remedy=say("Name the folder that has {name} with --keys.", name=HIDDEN),
+        )
+    return loaded
