@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from setuptools import find_namespace_packages
+from setuptools import find_packages
 from setuptools import setup
 
 PACKAGE = "ros2_teaching_lab"
@@ -17,10 +17,15 @@ for file in sorted(COURSE.rglob("*")):
 setup(
     name=PACKAGE,
     version="0.1.0",
-    packages=find_namespace_packages(include=["grader", "grader.*"]),
+    packages=find_packages(include=["grader", "grader.*"]),
     include_package_data=True,
     package_data={
-        "": ["*.toml", "*.json", "*.txt", "*.in", "*.yaml", "*.mo", "*.j2", "*.css", "*.js"]
+        "": ["*.toml", "*.json", "*.txt", "*.in"],
+        "grader": ["keys/*/*.yaml"],  # hidden checks and mutants: data, no package
+        "grader.base.i18n": ["*/LC_MESSAGES/*.mo"],
+        "grader.publish.pages": ["templates/*"],
+        "grader.ros": ["locks/*"],
+        "grader.ros.ros2_command": ["licenses/*"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),

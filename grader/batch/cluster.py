@@ -25,10 +25,10 @@ from typing import Any
 
 from grader.base.errors import GraderError
 from grader.base.errors import SurroundingsError
+from grader.base.project import PACKAGE
 from grader.batch.cluster_worker import Checked
 from grader.batch.cluster_worker import check_here
 from grader.batch.cluster_worker import mark_here
-from grader.batch.keys import GRADER
 from grader.batch.keys import NOT_MARKING
 from grader.batch.keys import source_digest
 from grader.batch.trial import Trial
@@ -252,7 +252,7 @@ class Cluster:
         if found.problem:
             self._say(f"{address} is not used: {found.problem}")
         elif found.surroundings != self.surroundings:
-            same = found.grader == source_digest(GRADER, NOT_MARKING)
+            same = found.grader == source_digest(PACKAGE, NOT_MARKING)
             why = f"it has another ROS ({found.ros})" if same else "it has another grader"
             self._say(f"{address} is not used: {why}")
         else:

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 
 from grader.base.errors import GraderError
-from grader.batch.keys import GRADER
+from grader.base.project import PACKAGE
 from grader.batch.keys import NOT_MARKING
 from grader.batch.keys import source_digest
 from grader.batch.keys import surroundings_key
@@ -36,7 +36,7 @@ class Checked:
 def check_here(job: str) -> str:
     """Say what this machine would mark with: runs on a worker, and tries its sandbox once."""
     wanted = Job.from_text(job)
-    own = source_digest(GRADER, NOT_MARKING)
+    own = source_digest(PACKAGE, NOT_MARKING)
     try:
         distro = find_distro(wanted.distro)
         sandbox = open_sandbox(wanted.sandbox, distro, wanted.limits, say=_unheard)

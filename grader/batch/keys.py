@@ -13,18 +13,17 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-import grader
+from grader.base.project import PACKAGE
 from grader.course.assignment import Assignment
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
 
-GRADER = Path(grader.__file__).resolve().parent
-NOT_MARKING = ("batch", "gradebook", "site", "keys")  # folders that only hand verdicts on
+NOT_MARKING = ("batch", "publish", "keys")  # folders that only hand verdicts on
 SOURCES = (".py", ".toml", ".json", ".yaml", ".txt", ".bash", ".in", ".j2", ".css", ".js", ".mo")
 
 
 @functools.cache
-def source_digest(folder: Path = GRADER, leave_out: tuple[str, ...] = ()) -> str:
+def source_digest(folder: Path = PACKAGE, leave_out: tuple[str, ...] = ()) -> str:
     """Return the hash of a folder's sources, but for the subfolders that are to be left out."""
     digest = hashlib.sha256()
     for path in sorted(folder.rglob("*")):
@@ -38,7 +37,7 @@ def source_digest(folder: Path = GRADER, leave_out: tuple[str, ...] = ()) -> str
 def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits, *, lang: str) -> str:
     """Return the hash of everything that decides a verdict, but for the submission."""
     made_of = [ros.distro.name, ros.kind, ros.versions]
-    source = source_digest(GRADER, NOT_MARKING)
+    source = source_digest(PACKAGE, NOT_MARKING)
     parts = [assignment.sha256, made_of, asdict(limits), lang, source]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 

@@ -20,10 +20,9 @@ from collections.abc import Iterable
 from collections.abc import Iterator
 from dataclasses import dataclass
 from dataclasses import field
-from pathlib import Path
 from typing import IO
 
-import grader
+from grader.base.project import CHECKOUT
 from grader.batch.idleness import Idleness
 from grader.batch.proof import prove
 from grader.batch.trial import Trial
@@ -32,7 +31,6 @@ from grader.batch.work import Done
 from grader.batch.work import Job
 from grader.batch.work import Task
 
-ROOT = Path(grader.__file__).resolve().parent.parent
 END_SECONDS = 10.0  # in which a worker that is asked to ends, with its sandbox
 CHUNK = 1 << 20
 LOOK_SECONDS = 0.5  # over which a core must be idle
@@ -250,4 +248,4 @@ def _close(worker: Worker) -> None:
 
 def _python_path() -> list[str]:
     """Return where a worker finds this grader: a checkout need not be the current folder."""
-    return [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH", "")])]
+    return [str(CHECKOUT), *filter(None, [os.environ.get("PYTHONPATH", "")])]

@@ -23,27 +23,27 @@ from grader.base.i18n.translator import DOMAIN
 from grader.base.i18n.translator import FOLDER
 from grader.base.i18n.translator import LANGUAGES
 from grader.base.i18n.translator import SOURCE
+from grader.base.project import CHECKOUT
 from grader.cli.localized import CLICK_COUNTED
 from grader.verdict.checks.all import CHECKS
 
-ROOT = FOLDER.parents[1]
-ROOMS = ("grader", "lab")  # (the lab's texts are here too: it brings no catalogue of its own)
+FOLDERS = ("grader", "lab")  # (the lab's texts are here too: it brings no catalogue of its own)
 KEYWORDS = {"say": None, "msg": None}
 TEMPLATE = "jinja2.ext:babel_extract"
-MARKS = "from grader.locale.message import "
+MARKS = "from grader.base.i18n.message import "
 COUNTED = "grader/cli/localized.py"
 MADE = datetime(2026, 1, 1, tzinfo=timezone.utc)  # the same at every run: only texts make a change
 
 
 def templates() -> Iterator[tuple[str, str]]:
     """Yield every text that is marked for translation, and the file that it is from."""
-    for path in sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py")):
+    for path in sorted(path for folder in FOLDERS for path in (CHECKOUT / folder).rglob("*.py")):
         if MARKS not in path.read_text(encoding="utf-8"):
             continue  # (a `say` of its own, that prints)
         for _, found, _, _ in extract_from_file("python", path, keywords=KEYWORDS):
             yield str(found), _place(path)
     strict = {"silent": "false"}  # (a template that cannot be read is told)
-    for path in sorted((ROOT / "grader/publish/pages/templates").glob("*.j2")):
+    for path in sorted((CHECKOUT / "grader/publish/pages/templates").glob("*.j2")):
         for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
             yield str(found), _place(path)
     for check in CHECKS.values():
@@ -51,7 +51,7 @@ def templates() -> Iterator[tuple[str, str]]:
 
 
 def _place(path: Path) -> str:
-    return path.relative_to(ROOT).as_posix()
+    return path.relative_to(CHECKOUT).as_posix()
 
 
 def po_path(lang: str) -> Path:

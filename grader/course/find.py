@@ -10,12 +10,14 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
+from grader.base.project import CHECKOUT
+from grader.base.project import PACKAGE
+from grader.base.project import SHARES
 
 COURSE = "GRADER_COURSE"  # names another course folder than our own
 LESSON = "GRADER_ASSIGNMENT"  # names the lesson that is meant; a lab sets it for what is in it
 FILE = "assignment.yaml"
-HERE = Path(__file__).resolve().parent
-KEYS = HERE / "keys"
+KEYS = PACKAGE / "keys"
 
 
 def course_folder() -> Path:
@@ -26,8 +28,7 @@ def course_folder() -> Path:
 
 def own_course() -> Path:
     """Return the course that comes with the grader."""
-    shares = [parent / "share" / "ros2_teaching_lab" / "course" for parent in HERE.parents]
-    places = [HERE.parent / "lab" / "course", *shares]
+    places = [CHECKOUT / "lab" / "course", *(share / "course" for share in SHARES)]
     return next((place for place in places if place.is_dir()), places[0])
 
 

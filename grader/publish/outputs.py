@@ -19,7 +19,7 @@ from typing import Literal
 from grader.base.errors import UsageError
 from grader.batch.accept import refuse_lower
 from grader.batch.beforehand import Beforehand
-from grader.batch.keys import GRADER
+from grader.base.project import PACKAGE
 from grader.batch.keys import source_digest
 from grader.batch.ledger import Ledger
 from grader.batch.model import ClassResult
@@ -131,7 +131,7 @@ class Outputs:
         bare = replace(result, entries=(), started=None, seconds=0)
         entries = [asdict(replace(e, report=None)) for e in result.entries]
         sheets = [asdict(self.sheets), self.known.sheets.digest]
-        parts = [asdict(bare), entries, sheets, source_digest(GRADER)]
+        parts = [asdict(bare), entries, sheets, source_digest(PACKAGE)]
         text = json.dumps(parts, default=str, sort_keys=True).encode()
         return hashlib.sha256(text).hexdigest()
 

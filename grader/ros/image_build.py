@@ -18,6 +18,8 @@ import grader
 from grader.base.cache import Say
 from grader.base.errors import SurroundingsError
 from grader.base.errors import UsageError
+from grader.base.project import CHECKOUT
+from grader.base.project import SHARES
 from grader.ros.distro import Distro
 from grader.ros.images import Base
 from grader.ros.images import Stage
@@ -161,10 +163,10 @@ def _failed(name: str, said: str, tail: list[str], arguments: dict[str, str]) ->
 
 def root() -> Path:
     """Return the folder that is the build's context: this checkout, or the installed share."""
-    here = Path(__file__).resolve()
-    shares = [parent / "share" / "ros2_teaching_lab" for parent in here.parents]
-    places = [here.parents[2], *shares]
-    found = next((place for place in places if (place / "docker" / "Dockerfile").is_file()), None)
+    found = next(
+        (place for place in (CHECKOUT, *SHARES) if (place / "docker" / "Dockerfile").is_file()),
+        None,
+    )
     if found is None:
         raise SurroundingsError(
             "the Dockerfiles are not here", remedy="Build images from a checkout of the project."

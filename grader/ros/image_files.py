@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import json
 import sys
-from pathlib import Path
 
+from grader.base.project import CHECKOUT
 from grader.ros.distro import Distro
 from grader.ros.distro import distros
 from grader.ros.images import REPOSITORY
 
-BAKE = Path(__file__).resolve().parents[2] / "docker" / "docker-bake.json"
+BAKE = CHECKOUT / "docker" / "docker-bake.json"
 STAGES = ("grade", "lab")
 
 

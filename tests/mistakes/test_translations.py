@@ -57,7 +57,7 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
 
 def marked() -> Iterator[str]:
     """Yield every text that the source marks, as Python reads it (Babel reads tokens)."""
-    for path in sorted(path for room in update.ROOMS for path in (ROOT / room).rglob("*.py")):
+    for path in sorted(path for room in update.FOLDERS for path in (ROOT / room).rglob("*.py")):
         source = path.read_text(encoding="utf-8")
         if update.MARKS not in source:
             continue

@@ -18,11 +18,11 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE
 from grader.base.i18n.translator import Speaker
+from grader.base.project import CHECKOUT
 from grader.course.find import assignment_file
 from grader.verdict.order import HIDDEN
 from grader.verdict.order import with_hidden
 
-ROOT = Path(__file__).resolve().parents[2]
 PARTS = (
     "grader",
     "lab/course",
@@ -80,7 +80,7 @@ def gradescope_zip(
     distro: str = "jazzy",
     sandbox: str = "account",
     lang: str = SOURCE,
-    root: Path = ROOT,
+    root: Path = CHECKOUT,
 ) -> bytes:
     """Return the archive; `assignment` is an id, the path of an assignment.yaml, or the one meant.
 
