@@ -31,7 +31,7 @@ from grader.verdict.fix import mend
 from grader.verdict.fix import mend_files
 from grader.verdict.mark import Order
 from grader.verdict.mark import grade
-from grader.verdict.static import ask
+from grader.verdict.static import decided
 
 Tell = Callable[[str], None]
 
@@ -145,7 +145,7 @@ def _unasked(wish: Wish, plan: Plan, submission: Submission) -> list[Finding]:
     """Return the checks of the files that the files do not answer, where nothing will be run."""
     if wish.runs and not wish.only:
         return []
-    results = ask(plan.new.put_into(submission), wish.order.assignment, wish.only)
+    results = decided(plan.new.put_into(submission), wish.order.assignment, wish.only)
     wanted = [wish.only] if wish.only else [u.id for u in wish.order.assignment.checks]
     undecided = [check for check in wanted if check in STATIC and check not in results]
     unknown = Speaker(wish.order.lang)(say("the files alone do not tell"))
@@ -210,7 +210,7 @@ def _finish(wish: Wish, submission: Submission, plan: Plan, tell: Tell) -> None:
         tell(say("Nothing is wrong."))
     elif wish.writes:
         root = submission.path / (submission.root or ".")
-        backups = apply(plan, root)
+        backups = apply(plan.old, plan.new, root)
         tell(say("Written to {path}.", path=shown(str(root))))
         if backups:
             names = ", ".join(shown(backup) for backup in backups)

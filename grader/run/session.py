@@ -18,11 +18,14 @@ from grader.run.workspace import Build
 from grader.run.workspace import build
 from grader.sandbox.base import Sandbox
 from grader.sandbox.proof import prove_again
-from grader.verdict.registry import Inconclusive
 
 WORKS_SECONDS = 10.0
 RUNS = 3  # how often a run is tried when our own side fails
 AGREE = 0.1  # of the period: two runs on the wall clock that differ by more say nothing
+
+
+class Unobserved(Exception):  # noqa: N818 - it says nothing about the node
+    """Our own side kept us from seeing what the node does."""
 
 
 class Session:
@@ -67,7 +70,7 @@ class Session:
         return replace(made, stopped_by=made.stopped_by or self._resource(made.status))
 
     def run(self, tell: Callable[[Event], None]) -> Run:
-        """Run the node; a run that our own side spoilt is repeated, Inconclusive if all were.
+        """Run the node; a run that our own side spoilt is repeated; Unobserved if all were.
 
         A run that would cost points for its timing is repeated too, with the clock in fine steps:
         neither the load of the machine nor a jump of the clock may look like the node's fault. What
@@ -106,9 +109,9 @@ class Session:
                 continue
             return run
         if failure is None:
-            raise Inconclusive("the verdict's time was used up, and a run would not have fitted in")
+            raise Unobserved("the verdict's time was used up, and a run would not have fitted in")
         prove_again(self.sandbox)
-        raise Inconclusive(f"the probe failed in {tries} of {tries} runs, the last time: {failure}")
+        raise Unobserved(f"the probe failed in {tries} of {tries} runs, the last time: {failure}")
 
     def _works(self) -> bool:
         """Whether a command that does nothing succeeds: that one ended at once is the node's then."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import tempfile
 from collections.abc import Iterable
 from collections.abc import Iterator
@@ -10,9 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field
 from pathlib import Path
-from typing import NoReturn
 
-from grader.base.i18n.translator import Speaker
 from grader.batch.local_pool import LocalPool
 from grader.batch.run import cores_here
 from grader.batch.run import prove
@@ -25,11 +24,9 @@ from grader.report.model import CheckResult
 from grader.report.model import CheckStatus
 from grader.validate.tree import Tree
 from grader.validate.tree import write_tree
-from grader.verdict.ask import ask
 from grader.verdict.checks.all import CHECKS
-from grader.verdict.evidence import Evidence
 from grader.verdict.mark import Order
-from grader.verdict.registry import Inconclusive
+from grader.verdict.static import ask_files
 
 # what is asked before anything is built
 STATIC_STAGES = ("package", "source", "entry_point")
@@ -82,16 +79,9 @@ def submit_path(path: Path, order: Order) -> Submission:
 
 def mark_files(submission: Submission, order: Order) -> Marked:
     """Mark a package by its files alone, as far as they go: what needs a build is not asked."""
-    evidence = Evidence(order.assignment, submission, build=_not_built, run=_not_built)
-    used = {use.id for use in order.assignment.checks}
-    for check in CHECKS.values():
-        if check.id not in used or check.id.partition(".")[0] not in STATIC_STAGES:
-            continue
-        result = ask(check, evidence, Speaker(order.lang))
-        if result.status in UNDECIDED:
-            break
-        evidence.results[check.id] = result
-    return _marked(evidence.results.values())
+    only = [check for check in CHECKS if check.partition(".")[0] in STATIC_STAGES]
+    results = ask_files(submission, order.assignment, only=only, lang=order.lang)
+    return _marked(itertools.takewhile(lambda result: result.status not in UNDECIDED, results))
 
 
 def mark_all(
@@ -133,10 +123,6 @@ def _marked(
         ran=ran,
         seconds=seconds,
     )
-
-
-def _not_built() -> NoReturn:
-    raise Inconclusive("the files alone do not decide")
 
 
 def _unheard(what: object) -> None:

@@ -1,97 +1,168 @@
-"""Asks a check, and puts what it says into a result in the reader's language."""
+"""Asks the checks in order, and puts what each one found into a result in the reader's language."""
 
 from __future__ import annotations
 
 import time
 import traceback
-from typing import cast
+from collections.abc import Callable
+from collections.abc import Collection
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Speaker
-from grader.course.assignment import CheckUse
-from grader.report import model
+from grader.course.assignment import Assignment
+from grader.report.model import CheckResult
+from grader.report.model import CheckStatus
+from grader.report.model import Mistake
+from grader.report.model import Visibility
+from grader.report.model import Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.diagnose import diagnose
 from grader.verdict.evidence import Evidence
 from grader.verdict.registry import Blocked
 from grader.verdict.registry import Check
-from grader.verdict.registry import Failed
 from grader.verdict.registry import Inconclusive
 from grader.verdict.registry import Passed
 
 
-def ask(check: Check, evidence: Evidence, speak: Speaker) -> model.CheckResult:
-    """Ask one check; the build and the run happen in the first check that needs them."""
-    uses = {use.id: use for use in evidence.assignment.checks}
-    return spoken(_found(check, uses[check.id], evidence, uses), speak)
+@dataclass(frozen=True)
+class Question:
+    """A check that an assignment uses; `depends` names those of its dependencies that it uses too."""
+
+    check: Check
+    points: float
+    visibility: Visibility
+    depends: tuple[str, ...]
 
 
-def told(said: Passed | Failed | Inconclusive) -> dict[str, object]:
-    """Return what a check said as fields of its result, not yet in the reader's language."""
-    if isinstance(said, Passed):
-        return {"status": "passed", "actual": said.actual, "advice": list(said.advice)}
-    if isinstance(said, Failed):
-        texts = ("expected", "actual", "rationale", "fix", "advice")
-        found: dict[str, object] = {name: getattr(said, name) for name in texts}
-        return {"status": "failed", "mistakes": said.mistakes, "where": said.where, **found}
-    return {"status": "inconclusive", "actual": said.reason}
+Announce = Callable[[Question], None]
 
 
-def spoken(found: dict[str, object], speak: Speaker) -> model.CheckResult:
-    """Return a result with all its texts in the reader's language."""
-    texts = {name: speak(text) for name, text in found.items() if isinstance(text, str)}
-    advice = [speak(text) for text in cast("list[str]", found.get("advice", []))]
-    return model.CheckResult.model_validate({**found, **texts, "advice": advice})
+def questions(assignment: Assignment) -> list[Question]:
+    """Return what an assignment asks, a cause before what it causes."""
+    uses = {use.id: use for use in assignment.checks}
+    return [
+        Question(
+            check,
+            uses[check.id].points,
+            uses[check.id].visibility,
+            tuple(dependency for dependency in check.depends if dependency in uses),
+        )
+        for check in CHECKS.values()
+        if check.id in uses
+    ]
 
 
-def _found(
-    check: Check, use: CheckUse, evidence: Evidence, uses: dict[str, CheckUse]
-) -> dict[str, object]:
-    common = {
-        "id": check.id,
-        "title": check.title,
-        "max_score": use.points,
-        "visibility": use.visibility,
-        "depends": [dependency for dependency in check.depends if dependency in uses],
-    }
-    blocker = _blocker(check, evidence)
-    if blocker:
-        return _skipped(common, blocker, evidence)
+def ask_in_order(
+    evidence: Evidence,
+    speak: Speaker,
+    *,
+    only: Collection[str] | None = None,
+    announce: Announce | None = None,
+) -> Iterator[CheckResult]:
+    """Ask the assignment's checks (those in `only`) and yield each result once it is in the evidence.
+
+    `announce` hears of each check before it is asked. The build and the run happen in the first
+    check that needs them. Raises SurroundingsError; any other fault of ours is a result of the
+    status `error`.
+    """
+    for question in questions(evidence.assignment):
+        if only is not None and question.check.id not in only:
+            continue
+        if announce is not None:
+            announce(question)
+        result = _ask(question, evidence, speak)
+        evidence.results[result.id] = result
+        yield result
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    """What a check found, before its texts are in the reader's language."""
+
+    status: CheckStatus
+    score: float = 0
+    rationale: str = ""
+    expected: str = ""
+    actual: str = ""
+    fix: str = ""
+    advice: Sequence[str] = ()
+    mistakes: Sequence[Mistake] = ()
+    where: Where | None = None
+    consequence_of: str = ""
+    blocked_by: str = ""
+
+
+def _ask(question: Question, evidence: Evidence, speak: Speaker) -> CheckResult:
     begin = time.monotonic()
-    found: dict[str, object]
     try:
-        said = check.ask(evidence)
-        if isinstance(said, Blocked):
-            return _skipped(common, said.by, evidence)
-        if isinstance(said, Failed):
-            failed, cause = diagnose(said, evidence)
-            found = {**told(failed), "consequence_of": cause}
-        else:
-            found = told(said)
+        found = _found(question, evidence)
     except SurroundingsError:
         raise
     except Exception:  # a fault of ours in one check must not lose the verdict on the others
-        found = {"status": "error", "actual": traceback.format_exc(limit=-4)}
-    if found["status"] == "passed":
-        found["score"] = use.points
-    seconds = round(time.monotonic() - begin, 3)
-    return {**common, **found, "seconds": seconds}
+        found = _Found(status="error", actual=traceback.format_exc(limit=-4))
+    return CheckResult(
+        id=question.check.id,
+        title=speak(question.check.title),
+        status=found.status,
+        score=found.score,
+        max_score=question.points,
+        visibility=question.visibility,
+        rationale=speak(found.rationale),
+        expected=speak(found.expected),
+        actual=speak(found.actual),
+        fix=speak(found.fix),
+        advice=[speak(text) for text in found.advice],
+        mistakes=list(found.mistakes),
+        where=found.where,
+        depends=list(question.depends),
+        consequence_of=found.consequence_of,
+        blocked_by=found.blocked_by,
+        seconds=0 if found.status == "skipped" else round(time.monotonic() - begin, 3),
+    )
 
 
-def _blocker(check: Check, evidence: Evidence) -> str:
-    for dependency in check.depends:
+def _found(question: Question, evidence: Evidence) -> _Found:
+    blocker = _blocker(question, evidence)
+    outcome = Blocked(by=blocker) if blocker else question.check.ask(evidence)
+    if isinstance(outcome, Passed):
+        return _Found(
+            status="passed", score=question.points, actual=outcome.actual, advice=outcome.advice
+        )
+    if isinstance(outcome, Inconclusive):
+        return _Found(status="inconclusive", actual=outcome.reason)
+    if isinstance(outcome, Blocked):
+        return _skipped(question, outcome.by, evidence)
+    failed, cause = diagnose(outcome, evidence)
+    return _Found(
+        status="failed",
+        rationale=failed.rationale,
+        expected=failed.expected,
+        actual=failed.actual,
+        fix=failed.fix,
+        advice=failed.advice,
+        mistakes=failed.mistakes,
+        where=failed.where,
+        consequence_of=cause,
+    )
+
+
+def _blocker(question: Question, evidence: Evidence) -> str:
+    for dependency in question.check.depends:
         result = evidence.results.get(dependency)
         if result is not None and result.status != "passed":
             return result.blocked_by or dependency
     return ""
 
 
-def _skipped(common: dict[str, object], by: str, evidence: Evidence) -> dict[str, object]:
+def _skipped(question: Question, by: str, evidence: Evidence) -> _Found:
     cause = evidence.results.get(by)
     root = (cause.blocked_by if cause is not None else "") or by
     title = CHECKS[root].title if root in CHECKS else root
-    if evidence.is_hidden(root) and common["visibility"] == "visible":
+    if evidence.is_hidden(root) and question.visibility == "visible":
         title = say("a hidden check")
     actual = say("not asked, because of: {title}", title=title)
-    return {**common, "status": "skipped", "blocked_by": root, "actual": actual}
+    return _Found(status="skipped", blocked_by=root, actual=actual)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from collections.abc import Sequence
+from datetime import datetime
 from pathlib import Path
 
 import grader
@@ -11,7 +13,6 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Speaker
 from grader.package.submission import Submission
 from grader.report import model
-from grader.ros.distro import Distro
 from grader.ros.prefix import Ros
 from grader.run.run import Run
 from grader.verdict.evidence import Evidence
@@ -22,11 +23,16 @@ MOST_EVIDENCE = 40_000  # characters of build log and of transcript in the repor
 def compose(
     evidence: Evidence,
     results: Sequence[model.CheckResult],
-    distro: Distro,
+    *,
+    student_id: str,
     ros: Ros,
+    sandbox: str,
+    limits: Mapping[str, model.LimitInfo],
+    timing: model.Timing,
+    started: datetime,
     speak: Speaker,
 ) -> model.Report:
-    """Return the report of one submission; when, how long and in what sandbox is not in it yet."""
+    """Return the report of one submission; its texts are in the language of `speak`."""
     assignment, submission = evidence.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None
@@ -38,6 +44,7 @@ def compose(
         ),
         submission=model.SubmissionInfo(
             name=submission.name,
+            student_id=student_id or None,
             path=_printable(submission.path),
             sha256=submission.sha256,
             package=_package_name(submission),
@@ -47,9 +54,10 @@ def compose(
         ),
         environment=model.Environment.model_validate(
             {
-                "distro": distro.name,
+                "distro": ros.distro.name,
                 "ros": ros.kind,
-                "sandbox": "none",
+                "sandbox": sandbox,
+                "limits": limits,
                 "grader": grader.__version__,
                 **ros.versions,
             }
@@ -65,7 +73,8 @@ def compose(
             build_log=_cut(build.log, speak) if build else "",
             transcript=_cut(run.transcript, speak) if run else "",
         ),
-        started="",
+        timing=timing,
+        started=started.isoformat(),
     )
 
 

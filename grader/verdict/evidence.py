@@ -11,6 +11,7 @@ from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.run.run import Run
+from grader.run.session import Unobserved
 from grader.run.workspace import Build
 from grader.verdict.registry import Inconclusive
 
@@ -48,9 +49,9 @@ class Evidence:
             try:
                 _ = self.build  # also where no check asks how it went
                 self._run = self._make_run()
-            except Inconclusive as failure:
-                self.run_failed = failure
-                raise
+            except Unobserved as failure:
+                self.run_failed = Inconclusive(str(failure))
+                raise self.run_failed from failure
         return self._run
 
     @property

@@ -24,8 +24,8 @@ from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.ask import ask
-from grader.verdict.checks.all import CHECKS
+from grader.verdict.ask import Question
+from grader.verdict.ask import ask_in_order
 from grader.verdict.compose import compose
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
@@ -94,10 +94,8 @@ def mark(
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
-        results = _decide(evidence, assignment, listener, speak)
+        results = _decide(evidence, listener, speak)
         limits = sandbox.limit_report()
-    report = compose(evidence, results, order.distro, sandbox.ros, speak)
-    environment = report.environment.model_copy(update={"sandbox": sandbox.name, "limits": limits})
     timing = model.Timing(
         setup=round(setup, 3),
         intake=round(intake, 3),
@@ -105,14 +103,16 @@ def mark(
         run=round(session.timing["run"], 3),
         total=round(time.monotonic() - begin, 3),
     )
-    whose = report.submission.model_copy(update={"student_id": order.student_id or None})
-    return report.model_copy(
-        update={
-            "submission": whose,
-            "environment": environment,
-            "timing": timing,
-            "started": started.isoformat(),
-        }
+    return compose(
+        evidence,
+        results,
+        student_id=order.student_id,
+        ros=sandbox.ros,
+        sandbox=sandbox.name,
+        limits=limits,
+        timing=timing,
+        started=started,
+        speak=speak,
     )
 
 
@@ -129,29 +129,40 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
 
 
 def _decide(
-    evidence: Evidence, assignment: Assignment, listener: events.Listener, speak: Speaker
+    evidence: Evidence, listener: events.Listener, speak: Speaker
 ) -> list[model.CheckResult]:
-    uses = {use.id: use for use in assignment.checks}
-    stage = ""
-    begin = time.monotonic()
-    for check_id, check in CHECKS.items():
-        if check_id not in uses:
-            continue
-        now, title = STAGES[check_id.partition(".")[0]]
-        if now != stage:
-            if stage:
-                listener(events.StageFinished(stage, time.monotonic() - begin))
-            stage, begin = now, time.monotonic()
-            listener(events.StageStarted(stage, speak(title)))
-        visibility = uses[check_id].visibility
-        listener(events.CheckStarted(check.id, speak(check.title), visibility))
-        result = ask(check, evidence, speak)
+    stages = _Stages(listener, speak)
+    for result in ask_in_order(evidence, speak, announce=stages.announce):
         if result.status == "failed":
-            result = result.model_copy(update={"patch": _patch(result, evidence, listener)})
-        evidence.results[check_id] = result
-        listener(events.CheckFinished(result))
-    listener(events.StageFinished(stage, time.monotonic() - begin))
-    return [evidence.results[use.id] for use in assignment.checks]
+            patch = _patch(result, evidence, listener)
+            evidence.results[result.id] = result.model_copy(update={"patch": patch})
+        listener(events.CheckFinished(evidence.results[result.id]))
+    stages.finish()
+    return [evidence.results[use.id] for use in evidence.assignment.checks]
+
+
+class _Stages:
+    """Tells a listener of each check that is asked, and of the stage that it belongs to."""
+
+    def __init__(self, listener: events.Listener, speak: Speaker) -> None:
+        self._listener = listener
+        self._speak = speak
+        self._stage = ""
+        self._begin = 0.0
+
+    def announce(self, question: Question) -> None:
+        stage, title = STAGES[question.check.id.partition(".")[0]]
+        if stage != self._stage:
+            self.finish()
+            self._stage, self._begin = stage, time.monotonic()
+            self._listener(events.StageStarted(stage, self._speak(title)))
+        check = question.check
+        self._listener(events.CheckStarted(check.id, self._speak(check.title), question.visibility))
+
+    def finish(self) -> None:
+        if self._stage:
+            seconds = time.monotonic() - self._begin
+            self._listener(events.StageFinished(self._stage, seconds))
 
 
 def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:

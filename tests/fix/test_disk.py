@@ -15,7 +15,6 @@ from grader.validate.tree import Chmod
 from grader.validate.tree import Delete
 from grader.validate.tree import Move
 from grader.validate.tree import Replace
-from grader.verdict.fix import Plan
 from tests.corpus.model import MANIFEST
 from tests.corpus.model import MARKER
 from tests.corpus.model import NODE
@@ -41,12 +40,17 @@ def tree(root: Path) -> dict[str, tuple[bytes, int]]:
     }
 
 
+def write_plan(root: Path) -> list[str]:
+    plan = plan_of(root)
+    return apply(plan.old, plan.new, root)
+
+
 def test_the_package_is_then_as_planned_and_the_old_files_are_kept(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, ENTRY, Delete(MARKER), Chmod(NODE, 0o640))
     (root / MANIFEST).chmod(0o660)
     before = tree(root)
     plan = plan_of(root)
-    backups = apply(plan, root)
+    backups = apply(plan.old, plan.new, root)
     assert backups == [f"{MANIFEST}.~1~", f"{SETUP}.~1~"]
     after = taken(root)
     assert {f.path: f.data for f in after.files if f.kind == "file"} == contents(plan.new)
@@ -60,13 +64,13 @@ def test_the_package_is_then_as_planned_and_the_old_files_are_kept(tmp_path: Pat
 def test_a_second_backup_does_not_replace_the_first(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     (root / f"{MANIFEST}.~1~").write_text("an older one")
-    assert apply(plan_of(root), root) == [f"{MANIFEST}.~2~"]
+    assert write_plan(root) == [f"{MANIFEST}.~2~"]
     assert (root / f"{MANIFEST}.~1~").read_text() == "an older one"
 
 
 def test_a_file_that_moves_is_not_left_behind(tmp_path: Path) -> None:
     root = edited(tmp_path, Move(NODE, "scripts/my_first_node.py"))
-    apply(plan_of(root), root)
+    write_plan(root)
     assert not (root / "scripts/my_first_node.py").exists()
     assert (root / NODE).stat().st_mode & 0o111
 
@@ -117,7 +121,7 @@ def test_what_may_not_be_written_is_refused_and_nothing_is(
     meanwhile(root)
     before = tree(tmp_path)
     with pytest.raises(UsageError, match=said) as caught:
-        apply(plan, root)
+        apply(plan.old, plan.new, root)
     assert "Nothing was written" in str(caught.value)
     assert tree(tmp_path) == before
 
@@ -149,7 +153,7 @@ def test_a_failure_half_way_brings_everything_back(
 
     monkeypatch.setattr(os, "rename", full)
     with pytest.raises(raised):
-        apply(plan, root)
+        apply(plan.old, plan.new, root)
     assert tree(root) == before
 
 
@@ -158,7 +162,7 @@ def test_a_plan_with_a_path_out_of_the_package_is_refused(tmp_path: Path) -> Non
     old = Files.of(taken(root))
     for path in ("../outside.txt", "a/../../outside.txt", "/outside.txt"):
         with pytest.raises(UsageError):
-            apply(Plan(old, old.with_data(path, b"x")), root)
+            apply(old, old.with_data(path, b"x"), root)
     assert not (tmp_path / "outside.txt").exists()
 
 
@@ -166,7 +170,7 @@ def test_other_names_of_a_file_keep_its_old_bytes(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     os.link(root / MANIFEST, tmp_path / "another name")
     old = (root / MANIFEST).read_bytes()
-    apply(plan_of(root), root)
+    write_plan(root)
     assert (tmp_path / "another name").read_bytes() == old != (root / MANIFEST).read_bytes()
 
 

@@ -9,9 +9,9 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import BOM
 from grader.package.edit.text import MOST_BYTES
 from grader.package.edit.text import read_source
+from grader.package.source.python import SHEBANG
 from grader.package.source.python import PythonFault
 from grader.package.source.python import parse_python
-from grader.verdict.checks.source import SHEBANG
 
 SCRIPT = re.compile(r"[#!\s]*(?:/|\b)(?:usr/|bin/|env\b)[\w/ .-]*python[\d.]*\s*", re.IGNORECASE)
 LATE = 20

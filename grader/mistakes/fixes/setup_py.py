@@ -11,7 +11,7 @@ from grader.mistakes.fixes.setup_call import SetupCall
 from grader.mistakes.fixes.setup_call import read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
-from grader.verdict.checks.package import INDEX
+from grader.package.source.setup_py import INDEX
 
 
 def name(case: Case) -> Files | None:

@@ -1,4 +1,4 @@
-"""Writing a plan to the student's own copy: all of it or nothing, and never out of the package.
+"""Writing changed files to the student's own copy: all of it or nothing, and never out of the package.
 
 Every folder on the way is opened without following links (openat(2), O_NOFOLLOW), so that neither
 a link in the package nor one that is put there meanwhile leads out of it. A file is written beside
@@ -21,8 +21,8 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
 from grader.base.shown import shown
+from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile
-from grader.verdict.fix import Plan
 
 FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 FILE = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
@@ -46,25 +46,25 @@ class Change:
     after: SourceFile
 
 
-def changes(plan: Plan) -> list[Change]:
-    """Return the files that a plan changes."""
+def changes(old: Files, new: Files) -> list[Change]:
+    """Return the files that differ."""
     found = []
-    for path, after in sorted(plan.new.by_path.items()):
-        source = plan.new.moved.get(path, path)
-        before = plan.old.by_path.get(source)
+    for path, after in sorted(new.by_path.items()):
+        source = new.moved.get(path, path)
+        before = old.by_path.get(source)
         same = before is not None and (before.data, before.mode) == (after.data, after.mode)
         if after.kind == "file" and not (same and source == path):
             found.append(Change(source if before else None, before, path, after))
     return found
 
 
-def apply(plan: Plan, root: Path) -> list[str]:
-    """Write a plan to the package in the folder `root` and return the backups' paths in it.
+def apply(old: Files, new: Files, root: Path) -> list[str]:
+    """Write the new files to the package in the folder `root` and return the backups' paths in it.
 
     Raises UsageError, with nothing written, for what may not be written to, is a link, or is not
     any more as it was when it was looked at.
     """
-    todo = changes(plan)
+    todo = changes(old, new)
     backups: list[str] = []
     undo: list[tuple[Change, str]] = []
     with _package(root) as top:

@@ -12,6 +12,9 @@ from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 
+SHEBANG = "#!/usr/bin/env python3"
+"""The first line that the course asks for."""
+
 MOST_BYTES = 100_000
 """Beyond it a hostile file takes seconds and hundreds of megabytes to parse."""
 ENCODINGS = re.compile(

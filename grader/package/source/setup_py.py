@@ -15,6 +15,9 @@ from grader.package.source.values import Table
 from grader.package.source.values import Text
 from grader.package.source.values import Value
 
+INDEX = "share/ament_index/resource_index/packages"
+"""Where `data_files` installs the package's marker."""
+
 MOST_COMMENTS = 200
 
 

@@ -12,6 +12,7 @@ from grader.base.shown import shown
 from grader.package.source.setup_cfg import SetupCfg
 from grader.package.source.setup_cfg import SetupCfgFault
 from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.setup_py import INDEX
 from grader.package.source.values import Computed
 from grader.package.source.values import Listing
 from grader.package.source.values import Text
@@ -28,8 +29,6 @@ from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
-
-INDEX = "share/ament_index/resource_index/packages"
 
 
 @check("package.found")

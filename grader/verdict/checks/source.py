@@ -12,6 +12,7 @@ from grader.base.nearest import with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
 from grader.package.source.node import NodeSource
+from grader.package.source.python import SHEBANG
 from grader.package.source.python import PythonFault
 from grader.package.source.python import parse_python
 from grader.report.model import Where
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 MOST_ADVICE = 5
-SHEBANG = "#!/usr/bin/env python3"
 PYTHON3 = re.compile(
     rb"#![ \t]{0,9}(?:/usr/bin/env[ \t]{1,9}(?:-S[ \t]{1,9})?|/usr/bin/|/bin/|/usr/local/bin/)"
     rb"python3(?:\.\d{1,2})?(?P<rest>[ \t][^\r\n]{0,200})?"
