@@ -98,6 +98,7 @@ lint:
 	@.venv/bin/python -m ruff check .
 	@.venv/bin/python -m ruff format --check .
 	@.venv/bin/python -m mypy grader lab tests
+	@.venv/bin/lint-imports
 
 bench:  ## Measure a verdict against the bare commands, as ratios in one run (with Docker, as root)
 	@$(BOOTSTRAP) --tests

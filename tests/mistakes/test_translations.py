@@ -74,7 +74,7 @@ def test_every_text_that_is_marked_is_gathered() -> None:
     assert set(marked()) - gathered == set()
 
 
-@pytest.mark.parametrize("room", ["gradebook", "site", "fix", "batch", "sandbox", "ros", "lab"])
+@pytest.mark.parametrize("room", ["publish", "cli", "verdict", "mistakes", "batch", "sandbox", "ros", "lab"])
 def test_the_texts_of_every_room_that_students_read_are_gathered(room: str) -> None:
     places = {place for _, place in update.templates()}
     folder = "lab" if room == "lab" else f"grader/{room}"
