@@ -3,22 +3,30 @@
 Needs Babel, which is part of the tests' environment; a run of the grader needs only the compiled
 catalogues. New texts get an empty translation: fill them in `<lang>/LC_MESSAGES/grader.po` and run
 it again.
+
+A translation is found by its English text. `--renamed FILE` keeps it when that text changes: FILE is
+a JSON object of old texts and new ones.
 """
 
 from __future__ import annotations
 
 import io
+import json
+from collections.abc import Collection
 from collections.abc import Iterator
+from collections.abc import Mapping
 from datetime import datetime
 from datetime import timezone
 from pathlib import Path
 
+import click
 from babel.messages.catalog import Catalog
 from babel.messages.extract import extract_from_file
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po
 from babel.messages.pofile import write_po
 
+from grader.base.errors import UsageError
 from grader.base.i18n.translator import DOMAIN
 from grader.base.i18n.translator import FOLDER
 from grader.base.i18n.translator import LANGUAGES
@@ -68,9 +76,14 @@ def read(lang: str) -> Catalog:
         return read_po(file, locale=lang, domain=DOMAIN)
 
 
-def gathered(lang: str) -> Catalog:
-    """Return the catalogue of a language with the texts of today and the translations known."""
+def gathered(lang: str, renamed: Mapping[str, str] | None = None) -> Catalog:
+    """Return the catalogue of a language with the texts of today and the translations known.
+
+    `renamed` (old text: new text) tells under which text a translation was known before. Raises
+    UsageError for a new text that is not marked anywhere, or an old one that still is.
+    """
     known = read(lang)
+    before = _before(renamed or {}, {template for template, _ in templates()})
     catalog = Catalog(
         locale=lang,
         domain=DOMAIN,
@@ -80,12 +93,27 @@ def gathered(lang: str) -> Catalog:
         revision_date=MADE,
     )
     for template, place in templates():
-        message = known.get(template)
+        message = known.get(template) or known.get(before.get(template, template))
         catalog.add(template, message.string if message else "", locations=[(place, 0)])
     for pair in CLICK_COUNTED:
         message = known.get(pair)
         catalog.add(pair, message.string if message else ("",), locations=[(COUNTED, 0)])
     return catalog
+
+
+def _before(renamed: Mapping[str, str], marked: Collection[str]) -> dict[str, str]:
+    """Return the old text of each new one."""
+    unknown = [new for new in renamed.values() if new not in marked]
+    still = [old for old in renamed if old in marked]
+    if unknown or still:
+        raise UsageError(
+            "the map of renamed texts does not fit the source: "
+            + "; ".join(
+                [f"{text!r} is not marked" for text in unknown]
+                + [f"{text!r} is still marked" for text in still]
+            )
+        )
+    return {new: old for old, new in renamed.items()}
 
 
 def po_bytes(catalog: Catalog) -> bytes:
@@ -102,18 +130,29 @@ def mo_bytes(catalog: Catalog) -> bytes:
     return out.getvalue()
 
 
-def main() -> None:
+@click.command()
+@click.option(
+    "--renamed",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    help="A JSON object: the old English text of each text that was changed, and the new one.",
+)
+def main(renamed: Path | None) -> None:
     """Write every language's .po and .mo anew."""
+    texts: dict[str, str] = json.loads(renamed.read_text(encoding="utf-8")) if renamed else {}
     for lang in LANGUAGES:
         if lang == SOURCE:
             continue
-        catalog = gathered(lang)
+        before = len([m for m in read(lang) if m.id and m.string])
+        catalog = gathered(lang, texts)
         path = po_path(lang)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(po_bytes(catalog))
         path.with_suffix(".mo").write_bytes(mo_bytes(catalog))
         left = [str(message.id) for message in catalog if message.id and not message.string]
-        print(f"{lang}: {len(catalog)} texts, {len(left)} of them not translated")
+        print(
+            f"{lang}: {len(catalog)} texts, {len(left)} of them not translated "
+            f"({before} were translated before, {len(texts)} renamed)"
+        )
 
 
 if __name__ == "__main__":

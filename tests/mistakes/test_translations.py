@@ -10,8 +10,10 @@ from pathlib import Path
 
 import click
 import pytest
+from babel.messages.catalog import Catalog
 from babel.messages.extract import extract_from_file
 
+from grader.base.errors import UsageError
 from grader.base.i18n.translator import LANGUAGES
 from grader.cli import update_translations as update
 from grader.cli.localized import CLICK
@@ -74,7 +76,9 @@ def test_every_text_that_is_marked_is_gathered() -> None:
     assert set(marked()) - gathered == set()
 
 
-@pytest.mark.parametrize("room", ["publish", "cli", "verdict", "mistakes", "batch", "sandbox", "ros", "lab"])
+@pytest.mark.parametrize(
+    "room", ["publish", "cli", "verdict", "mistakes", "batch", "sandbox", "ros", "lab"]
+)
 def test_the_texts_of_every_room_that_students_read_are_gathered(room: str) -> None:
     places = {place for _, place in update.templates()}
     folder = "lab" if room == "lab" else f"grader/{room}"
@@ -117,3 +121,28 @@ def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang
 def test_there_are_no_texts_left_over() -> None:
     known = {template for template, _ in update.templates()}
     assert {m.id for m in update.read("ko") if m.id} == {*known, *CLICK_COUNTED}
+
+
+def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -> None:
+    known = Catalog(locale="ko")
+    known.add("Mend the line.", "그 줄을 고치십시오.")
+    monkeypatch.setattr(update, "read", lambda lang: known)
+    monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
+    kept = update.gathered("ko", {"Mend the line.": "Fix the line."}).get("Fix the line.")
+    assert kept is not None
+    assert kept.string == "그 줄을 고치십시오."
+
+
+@pytest.mark.parametrize(
+    ("renamed", "reason"),
+    [
+        ({"Mend the line.": "Fix that line."}, "'Fix that line.' is not marked"),
+        ({"Fix the line.": "Fix the line."}, "'Fix the line.' is still marked"),
+    ],
+)
+def test_a_map_of_renamed_texts_that_does_not_fit_the_source_is_refused(
+    renamed: dict[str, str], reason: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
+    with pytest.raises(UsageError, match=reason):
+        update.gathered("ko", renamed)
