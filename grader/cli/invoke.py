@@ -32,7 +32,7 @@ def _terminated(number: int, frame: FrameType | None) -> None:
 
 
 def run(command: click.Command, name: str, argv: list[str] | None) -> int:
-    """Run a command line and return its exit status: DESIGN's contract."""
+    """Run a command line and return its exit status: docs/architecture.md."""
     signal.signal(signal.SIGTERM, _terminated)
     signal.signal(signal.SIGHUP, _terminated)
     words = sys.argv[1:] if argv is None else argv

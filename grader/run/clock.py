@@ -1,7 +1,7 @@
 """Virtual time: the node runs with `use_sim_time`, and this module drives its `/clock`.
 
 The loop is closed: after each `/clock` message a barrier proves that the node has done what was
-due (two round trips to its parameter service, EXERCISE.md), so the period is measured exactly,
+due (two round trips to its parameter service, docs/architecture.md), so the period is measured exactly,
 however busy the machine is. Nodes that do not follow `/clock` are watched on the wall clock.
 """
 

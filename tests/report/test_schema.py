@@ -23,7 +23,7 @@ SCHEMA = json.loads(PATH.read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 STATUSES = ["passed", "failed", "skipped", "inconclusive", "error"]
 
-# The fields of the published form, from DESIGN.md, "Contract"
+# The fields of the published form, as README and docs promise them
 CONTRACT: dict[str, set[str]] = {
     "": {"schema", "assignment", "submission", "environment", "status", "message", "score",
          "max_score", "lang", "attempts", "checks", "observed", "evidence", "timing", "started"},

@@ -1,6 +1,6 @@
 """The installed stage: is the executable where `ros2 run` looks for it?
 
-"No executable found" has four causes (EXERCISE.md); each gets its own answer here.
+"No executable found" has four causes (docs/architecture.md); each gets its own answer here.
 """
 
 from __future__ import annotations
