@@ -6,8 +6,8 @@ grader (it may run under another Python) and knows nothing of points.
 
 Commands (`do`), all times in nanoseconds of ROS time, `seconds` the longest wall time to take:
 `look` answers at once; `wait` until something new was logged, or the graph changed; `clock`
-publishes `at` and makes two round trips to every node (the barrier of docs/architecture.md; `until_log`: or
-until something is logged); `end`.
+publishes `at` and makes two round trips to every node (docs/architecture.md, "The barrier";
+`until_log`: or until something is logged); `end`.
 Answer: `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock).
 """
 
