@@ -15,9 +15,10 @@ from grader.package.submission import Submission
 from grader.package.submission import take_in
 from grader.run.workspace import Build
 from grader.verdict.checks.entry_point import mapping_from_source
+from grader.verdict.diagnose import Diagnosis
+from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Passed
 from grader.verdict.registry import Check
-from grader.verdict.registry import Failed
-from grader.verdict.registry import Passed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -116,22 +117,23 @@ class Bench:
     def passes(self, check: Check) -> Passed:
         return check.function(self.evidence()) or Passed()
 
-    def fails(self, check: Check) -> Failed:
+    def fails(self, check: Check) -> Diagnosis:
         with pytest.raises(Failed) as caught:
             check.function(self.evidence())
-        return told(caught.value)
+        return explained(caught.value)
 
     def maps(self) -> Passed | None:
         return mapping_from_source(self.evidence())
 
-    def misses(self) -> Failed:
+    def misses(self) -> Diagnosis:
         with pytest.raises(Failed) as caught:
             mapping_from_source(self.evidence())
-        return told(caught.value)
+        return explained(caught.value)
 
 
-def told(failed: Failed) -> Failed:
-    """Return a failure after a look at what every one must have."""
+def explained(outcome: Failed) -> Diagnosis:
+    """Return a failure with its entry's texts, after a look at what every one must have."""
+    failed = Diagnosis.of(outcome)
     for text in (failed.expected, failed.actual, failed.rationale, failed.fix):
         assert text.strip()
         assert all(line.isprintable() for line in text.split("\n"))
@@ -143,9 +145,9 @@ def told(failed: Failed) -> Failed:
     return failed
 
 
-def mistake(failed: Failed) -> str:
+def mistake(failed: Diagnosis) -> str:
     return failed.mistakes[0].id
 
 
-def line(failed: Failed) -> int | None:
+def line(failed: Diagnosis) -> int | None:
     return failed.where.line if failed.where else None

@@ -14,7 +14,7 @@ from grader.run.observer import Watch
 from grader.run.run import Run
 from grader.verdict.checks.counting import logger
 from grader.verdict.evidence import Evidence
-from grader.verdict.registry import Failed
+from grader.verdict.outcome import Failed
 from tests.conftest import ROOT
 from tests.static_bench import BUILT
 
@@ -55,7 +55,7 @@ def test_a_record_lost_with_its_node_is_not_called_a_forgery() -> None:
 def test_a_forged_record_of_a_node_that_runs_on_is_one() -> None:
     with pytest.raises(Failed) as failed:
         logger.function(run_of(event("Hello time: 2", due=2, source="faked", n=2), ended=False))
-    assert failed.value.mistakes
+    assert failed.value.mistake
 
 
 def test_a_forgery_long_before_the_end_is_one_all_the_same() -> None:

@@ -13,10 +13,10 @@ from grader.run.run import Run
 from grader.verdict.checks.starting import interrupt
 from grader.verdict.checks.timing import period
 from grader.verdict.evidence import Evidence
-from grader.verdict.registry import Blocked
+from grader.verdict.outcome import Blocked
+from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Passed
 from grader.verdict.registry import Check
-from grader.verdict.registry import Failed
-from grader.verdict.registry import Passed
 from tests.corpus.build import SOLUTION
 from tests.static_bench import BUILT
 from tests.static_bench import NODE
@@ -80,8 +80,8 @@ def test_one_line_much_too_late_is_a_wrong_period(bench: Bench) -> None:
     seen.events.append(line(0, virtual=10.0, wall=1.0, due=None))
     with pytest.raises(Failed) as caught:
         ask(period, bench, Run("ros2 run", seen, started=True))
-    assert caught.value.mistakes[0].id == "run.wrong_period"
-    assert caught.value.mistakes[0].params == {"period": 10.0}
+    assert caught.value.mistake.id == "run.wrong_period"
+    assert caught.value.mistake.params == {"period": 10.0}
     assert "10.00 s" in caught.value.actual
 
 
@@ -99,7 +99,7 @@ def test_a_callback_that_sleeps_for_longer_than_the_period_is_late(bench: Bench)
     source = RIGHT.replace(STEP, f"{STEP}\n        time.sleep(3)")
     with pytest.raises(Failed) as caught:
         ask(period, bench, on_time([0.1, 3.1, 6.2, 9.2]), source)
-    assert caught.value.mistakes[0].params["period"] == pytest.approx(3.0, abs=0.11)
+    assert caught.value.mistake.params["period"] == pytest.approx(3.0, abs=0.11)
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def test_a_slow_machine_makes_nobody_late(bench: Bench, source: str, walls: list
 def test_a_handler_of_ctrl_c_that_fails_is_an_error_at_the_stop(bench: Bench, error: str) -> None:
     with pytest.raises(Failed) as caught:
         ask(interrupt, bench, ended(HANDLER.format(line=26, error=error), status=1))
-    assert caught.value.mistakes[0].id == "run.error_at_stop"
+    assert caught.value.mistake.id == "run.error_at_stop"
     assert caught.value.where is not None
     assert caught.value.where.line == 26
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.verdict.checks import source
-from grader.verdict.registry import Blocked
+from grader.verdict.outcome import Blocked
 
 from .static_bench import ASSIGNMENT
 from .static_bench import NAME

@@ -29,8 +29,7 @@ from grader.run.workspace import Build
 from grader.validate.tree import Delete
 from grader.validate.tree import Edit
 from grader.validate.tree import Replace
-from grader.verdict.ask import ask
-from grader.verdict.checks.all import CHECKS
+from grader.verdict.ask import ask_in_order
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
 from tests import stage
@@ -232,7 +231,7 @@ def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) ->
     submission = weather.taken(folder, *mistake.edits)
     run = mistake.run or counted("Reading {n}")
     evidence = Evidence(assignment, submission, build=lambda: BUILT, run=lambda: run)
-    result = ask(CHECKS[mistake.check], evidence, Speaker(lang))
+    (result,) = ask_in_order(evidence, Speaker(lang), only=[mistake.check])
     assert result.status == "failed", result
     return result.model_copy(update={"patch": patch_for(result, submission, assignment)})
 
@@ -266,8 +265,11 @@ def test_the_right_package_passes_every_check_of_a_run(tmp_path: Path) -> None:
     wanted = weather.assignment(tmp_path)
     run = counted("Reading {n}")
     evidence = Evidence(wanted, weather.taken(tmp_path), build=lambda: BUILT, run=lambda: run)
-    for check in ("package.manifest", "entry_point.mapping", "run.starts", "run.output"):
-        assert ask(CHECKS[check], evidence, Speaker("en")).status == "passed"
+    only = ("package.manifest", "entry_point.mapping", "run.starts", "run.output")
+    found = {
+        result.id: result.status for result in ask_in_order(evidence, Speaker("en"), only=only)
+    }
+    assert found == dict.fromkeys(only, "passed")
 
 
 @pytest.mark.prefix

@@ -22,10 +22,10 @@ from grader.report.model import Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.diagnose import diagnose
 from grader.verdict.evidence import Evidence
-from grader.verdict.registry import Blocked
+from grader.verdict.outcome import Blocked
+from grader.verdict.outcome import Inconclusive
+from grader.verdict.outcome import Passed
 from grader.verdict.registry import Check
-from grader.verdict.registry import Inconclusive
-from grader.verdict.registry import Passed
 
 
 @dataclass(frozen=True)
@@ -136,17 +136,17 @@ def _found(question: Question, evidence: Evidence) -> _Found:
         return _Found(status="inconclusive", actual=outcome.reason)
     if isinstance(outcome, Blocked):
         return _skipped(question, outcome.by, evidence)
-    failed, cause = diagnose(outcome, evidence)
+    diagnosis = diagnose(outcome, evidence)
     return _Found(
         status="failed",
-        rationale=failed.rationale,
-        expected=failed.expected,
-        actual=failed.actual,
-        fix=failed.fix,
-        advice=failed.advice,
-        mistakes=failed.mistakes,
-        where=failed.where,
-        consequence_of=cause,
+        rationale=diagnosis.rationale,
+        expected=diagnosis.expected,
+        actual=diagnosis.actual,
+        fix=diagnosis.fix,
+        advice=diagnosis.advice,
+        mistakes=diagnosis.mistakes,
+        where=diagnosis.where,
+        consequence_of=diagnosis.consequence_of,
     )
 
 

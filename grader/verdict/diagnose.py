@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message
@@ -25,7 +27,7 @@ from grader.verdict.checks.parsed import node_path
 from grader.verdict.node_files import file_at
 from grader.verdict.node_files import file_with_main
 from grader.verdict.node_files import file_with_node
-from grader.verdict.registry import Failed
+from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -35,26 +37,57 @@ OF_MAIN = ("run.exits_at_once", "run.no_node")
 SHORTEST = 3  # characters of a line that is worth being shown
 
 
-def diagnose(failed: Failed, evidence: Evidence) -> tuple[Failed, str]:
-    """Look for the mistake behind a failed check, and put it first.
+@dataclass(kw_only=True)
+class Diagnosis:
+    """Why a check failed: the mistakes, the root cause first, with the texts of its entry.
 
-    Return the failure, and the check decided before that failed for the same mistake.
+    `consequence_of` is the check decided before that failed for the same mistake ("" if none did).
     """
-    symptom = failed.mistakes[0].id
+
+    mistakes: list[Mistake]
+    rationale: str
+    fix: str
+    expected: str
+    actual: str
+    where: Where | None
+    advice: Sequence[str]
+    consequence_of: str = ""
+
+    @classmethod
+    def of(cls, failed: Failed) -> Diagnosis:
+        """Return what the check itself found. KeyError for a mistake that the catalogue lacks."""
+        kind = CATALOGUE[failed.mistake.id]
+        values = {**failed.mistake.params, **failed.words}
+        return cls(
+            mistakes=[failed.mistake],
+            rationale=kind.rationale(values, failed.variant),
+            fix=failed.fix or kind.mend(values, failed.variant),
+            expected=failed.expected,
+            actual=failed.actual,
+            where=failed.where,
+            advice=failed.advice,
+        )
+
+
+def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
+    """Look for the mistake behind a failed check, and put it first."""
+    diagnosis = Diagnosis.of(failed)
+    symptom = failed.mistake.id
     if not symptom.startswith("run."):
-        return failed, ""
+        return diagnosis
     try:
-        found = _root(symptom, failed, evidence)
+        found = _root(symptom, diagnosis, evidence)
     except RecursionError:  # nobody's first node; what the check saw still holds
         found = None
     if found is not None:
-        _explain(failed, found)
-    _show_line(failed, evidence)
-    failed.mistakes.sort(key=lambda mistake: RANK[mistake.id])
-    return failed, _same_root(failed, evidence)
+        _explain(diagnosis, found)
+    _show_line(diagnosis, evidence)
+    diagnosis.mistakes.sort(key=lambda mistake: RANK[mistake.id])
+    diagnosis.consequence_of = _same_root(diagnosis, evidence)
+    return diagnosis
 
 
-def _root(symptom: str, failed: Failed, evidence: Evidence) -> Finding | None:
+def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> Finding | None:
     if symptom in RAISES:
         error, where = traceback_of(evidence, evidence.run)
         if error:
@@ -64,11 +97,11 @@ def _root(symptom: str, failed: Failed, evidence: Evidence) -> Finding | None:
         return None
     suspect = Suspect(within.source, within.path, evidence.assignment)
     if symptom == "run.wrong_text":
-        return _text(failed, suspect)
+        return _text(diagnosis, suspect)
     if symptom == "run.wrong_node_name" and within.source.super_init is not None:
-        failed.where = Where(file=within.path, line=within.source.super_init.lineno)
+        diagnosis.where = Where(file=within.path, line=within.source.super_init.lineno)
     if symptom == "run.wrong_period" and within.source.timers:
-        failed.where = Where(file=within.path, line=within.source.timers[0].line)
+        diagnosis.where = Where(file=within.path, line=within.source.timers[0].line)
     look = LOOKS.get(symptom)
     return look(suspect) if look is not None else None
 
@@ -92,10 +125,10 @@ def _not_installed(error: str, evidence: Evidence) -> Finding | None:
     return Finding(kind="setup.not_packaged", where=Where(file="setup.py"))
 
 
-def _text(failed: Failed, suspect: Suspect) -> Finding | None:
+def _text(diagnosis: Diagnosis, suspect: Suspect) -> Finding | None:
     """Tell a text with the wrong number in it from another text."""
-    text = str(failed.mistakes[0].params.get("text", ""))
-    line = failed.where.line if failed.where else None
+    text = str(diagnosis.mistakes[0].params.get("text", ""))
+    line = diagnosis.where.line if diagnosis.where else None
     head, tail = suspect.output.text.split("{n}")
     if re.search(r"\{[\w.]{1,80}\}", text):
         return suspect.finding("f_prefix", line)
@@ -105,38 +138,38 @@ def _text(failed: Failed, suspect: Suspect) -> Finding | None:
     return suspect.finding("number_format", line) if re.fullmatch(number, text) else None
 
 
-def _explain(failed: Failed, found: Finding) -> None:
-    """Let a failed check say what the root cause's entry says."""
+def _explain(diagnosis: Diagnosis, found: Finding) -> None:
+    """Take over what the root cause's entry says."""
     kind = CATALOGUE[found.kind]
     values = {**found.params, **found.words}
-    failed.rationale = kind.rationale(values, found.variant)
-    failed.fix = kind.mend(values, found.variant)
-    failed.mistakes.insert(0, Mistake(id=found.kind, params=dict(found.params)))
-    if found.where is not None and (found.where.line or failed.where is None):
-        failed.where = found.where
+    diagnosis.rationale = kind.rationale(values, found.variant)
+    diagnosis.fix = kind.mend(values, found.variant)
+    diagnosis.mistakes.insert(0, Mistake(id=found.kind, params=dict(found.params)))
+    if found.where is not None and (found.where.line or diagnosis.where is None):
+        diagnosis.where = found.where
     title = Message(kind.title)
     name, close = str(found.params.get("name", "")), str(found.params.get("close", ""))
     difference = compared(name, close) if close else ""
-    failed.actual = joined(failed.actual, title + meant(close), difference, by="\n")
+    diagnosis.actual = joined(diagnosis.actual, title + meant(close), difference, by="\n")
 
 
-def _show_line(failed: Failed, evidence: Evidence) -> None:
+def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
     """Add the line of the source itself to what was found."""
-    where = failed.where
+    where = diagnosis.where
     within = file_at(evidence, where.file) if where is not None and where.line else None
     if where is None or within is None:
         return
     code = within.source.line(where.line)
     if len(code) >= SHORTEST:
         line = say("line {line}: {code}", line=where.line or 0, code=shown(code))
-        failed.actual = joined(failed.actual, line, by="\n")
+        diagnosis.actual = joined(diagnosis.actual, line, by="\n")
 
 
-def _same_root(failed: Failed, evidence: Evidence) -> str:
+def _same_root(diagnosis: Diagnosis, evidence: Evidence) -> str:
     """Return the check decided before that failed for the same mistake at the same place."""
-    root = failed.mistakes[0]
+    root = diagnosis.mistakes[0]
     for check_id, result in evidence.results.items():
-        same = result.mistakes[:1] == [root] and result.where == failed.where
+        same = result.mistakes[:1] == [root] and result.where == diagnosis.where
         if result.status == "failed" and same and result.visibility == "visible":
             return check_id
     return ""

@@ -13,7 +13,7 @@ from grader.report.model import CheckResult
 from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import Build
-from grader.verdict.registry import Inconclusive
+from grader.verdict.outcome import Inconclusive
 
 
 class Evidence:

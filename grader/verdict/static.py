@@ -17,7 +17,7 @@ from grader.report.model import CheckResult
 from grader.verdict.ask import ask_in_order
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.evidence import Evidence
-from grader.verdict.registry import Inconclusive
+from grader.verdict.outcome import Inconclusive
 
 
 def ask_files(

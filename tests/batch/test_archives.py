@@ -17,7 +17,7 @@ import pytest
 from grader.package.intake.model import Submission
 from grader.package.submission import take_in
 from grader.verdict.checks.source import exec_bit
-from grader.verdict.registry import Failed
+from grader.verdict.outcome import Failed
 
 from ..installed import installed
 from ..static_bench import ASSIGNMENT
@@ -174,7 +174,7 @@ def test_the_assignments_policy_says_what_unknown_exec_bits_cost(tmp_path: Path)
     strict = ASSIGNMENT.model_copy(update={"modes": "require"})
     with pytest.raises(Failed) as caught:
         exec_bit.function(cast("Evidence", StandIn(strict, submission)))
-    assert caught.value.mistakes[0].id == "source.exec_bit_unknown"
+    assert caught.value.mistake.id == "source.exec_bit_unknown"
     assert "tar" in caught.value.fix
 
 

@@ -21,8 +21,9 @@ from grader.report.model import CheckResult
 from grader.report.model import Where
 from grader.run.run import Run
 from grader.verdict.checks import source
+from grader.verdict.diagnose import Diagnosis
 from grader.verdict.diagnose import diagnose
-from grader.verdict.registry import Failed
+from grader.verdict.outcome import Failed
 from tests.corpus.build import SOLUTION
 from tests.static_bench import ASSIGNMENT
 from tests.static_bench import NODE
@@ -80,7 +81,7 @@ def test_the_root_is_first_the_symptom_second_and_the_line_is_shown(bench: Bench
     line = next(n for n, text in enumerate(source.splitlines(), 1) if "timer_calback" in text)
     error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"
     seen = evidence(bench, source, TRACEBACK.format(line=line, error=error))
-    told, cause = diagnose(failed("run.died_at_start"), seen)
+    told = diagnose(failed("run.died_at_start"), seen)
     assert [m.id for m in told.mistakes] == ["node.callback_misspelt", "run.died_at_start"]
     assert told.where == Where(file=NODE, line=line)
     assert "self.create_timer(1.0, self.timer_calback)" in told.actual
@@ -89,13 +90,13 @@ def test_the_root_is_first_the_symptom_second_and_the_line_is_shown(bench: Bench
     at = lines.index("timer_calback")
     assert set(lines[at + 1]) <= {" ", "^"}
     assert lines[at + 2] == "timer_callback"
-    assert cause == ""
+    assert told.consequence_of == ""
 
 
 def test_the_same_root_at_another_check_is_a_consequence(bench: Bench) -> None:
     source = RIGHT.replace("self.timer_callback)", "self.timer_callback())")
     seen = evidence(bench, source)
-    first, _ = diagnose(failed("run.by_hand"), seen)
+    first = diagnose(failed("run.by_hand"), seen)
     seen.results["run.output"] = CheckResult(
         id="run.output",
         title="",
@@ -104,15 +105,13 @@ def test_the_same_root_at_another_check_is_a_consequence(bench: Bench) -> None:
         mistakes=first.mistakes,
         where=first.where,
     )
-    _, cause = diagnose(failed("run.by_hand"), seen)
-    assert cause == "run.output"
-    _, cause = diagnose(failed("run.no_lines"), evidence(bench, RIGHT))
-    assert cause == ""
+    assert diagnose(failed("run.by_hand"), seen).consequence_of == "run.output"
+    assert diagnose(failed("run.no_lines"), evidence(bench, RIGHT)).consequence_of == ""
 
 
 def test_a_hidden_check_is_never_named_as_the_cause(bench: Bench) -> None:
     seen = evidence(bench, RIGHT.replace("self.timer_callback)", "self.timer_callback())"))
-    first, _ = diagnose(failed("run.by_hand"), seen)
+    first = diagnose(failed("run.by_hand"), seen)
     seen.results["run.output"] = CheckResult(
         id="run.output",
         title="",
@@ -122,30 +121,30 @@ def test_a_hidden_check_is_never_named_as_the_cause(bench: Bench) -> None:
         mistakes=first.mistakes,
         where=first.where,
     )
-    assert diagnose(failed("run.by_hand"), seen)[1] == ""
+    assert diagnose(failed("run.by_hand"), seen).consequence_of == ""
 
 
 def test_a_module_that_was_not_installed_is_told_from_one_that_is_not_there(bench: Bench) -> None:
     error = "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node'"
     printed = TRACEBACK.format(line=5, error=error)
-    told, _ = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    told = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
     assert told.mistakes[0].id == "setup.not_packaged"
     (bench.root / "my_robot_controller/__init__.py").unlink()
-    told, _ = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    told = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
     assert told.mistakes[0].id == "source.no_init_file"
     assert "touch my_robot_controller/__init__.py" in told.fix
 
 
 def test_the_text_without_the_f_is_told_from_another_text(bench: Bench) -> None:
-    told, _ = diagnose(failed("run.wrong_text"), evidence(bench, RIGHT))
+    told = diagnose(failed("run.wrong_text"), evidence(bench, RIGHT))
     assert told.mistakes[0].id == "node.f_prefix"
 
 
 @pytest.mark.parametrize("source", ["def broken(:\n", "\0\0", "x = (\n" * 1000])
 def test_a_source_that_cannot_be_read_leaves_the_symptom(bench: Bench, source: str) -> None:
-    told, cause = diagnose(failed("run.no_lines"), evidence(bench, source))
+    told = diagnose(failed("run.no_lines"), evidence(bench, source))
     assert [m.id for m in told.mistakes] == ["run.no_lines"]
-    assert cause == ""
+    assert told.consequence_of == ""
 
 
 def test_a_node_in_a_module_of_its_own_is_looked_at_there(bench: Bench) -> None:
@@ -154,20 +153,19 @@ def test_a_node_in_a_module_of_its_own_is_looked_at_there(bench: Bench) -> None:
     left = (
         "from my_robot_controller.talker import main\n\n\nif __name__ == '__main__':\n    main()\n"
     )
-    told, _ = diagnose(failed("run.constant_counter"), evidence(bench, left))
+    told = diagnose(failed("run.constant_counter"), evidence(bench, left))
     assert told.mistakes[0].id == "node.counter_not_increased"
     assert told.where is not None
     assert told.where.file == "my_robot_controller/talker.py"
     for symptom in ("run.exits_at_once", "run.no_node"):
-        told, _ = diagnose(failed(symptom), evidence(bench, left))
+        told = diagnose(failed(symptom), evidence(bench, left))
         assert [m.id for m in told.mistakes] == [symptom], "not looked at: nobody is accused"
 
 
 def test_a_check_of_another_stage_is_left_as_it_is(bench: Bench) -> None:
     seen = Failed("package.setup_cfg_syntax", expected=say("pass"), actual="x")
-    told, cause = diagnose(seen, evidence(bench, RIGHT))
-    assert told is seen
-    assert cause == ""
+    told = diagnose(seen, evidence(bench, RIGHT))
+    assert told == Diagnosis.of(seen)
 
 
 @pytest.mark.parametrize("mistake", [*LOOKS, "run.wrong_text", "run.died_at_start"])

@@ -16,7 +16,7 @@ from grader.package.source.entry_points import Entry
 from grader.package.source.entry_points import EntryPoints
 from grader.report.model import Where
 from grader.verdict.checks.parsed import names_in
-from grader.verdict.registry import Failed
+from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
     from grader.package.source.setup_py import SetupPy

@@ -28,8 +28,8 @@ from grader.verdict.checks.parsed import file_of
 from grader.verdict.checks.parsed import node_path
 from grader.verdict.checks.parsed import reader_said
 from grader.verdict.checks.parsed import setup_py_of
-from grader.verdict.registry import Failed
-from grader.verdict.registry import Passed
+from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Passed
 
 if TYPE_CHECKING:
     from grader.package.source.setup_py import SetupPy

@@ -12,7 +12,7 @@ from grader.report.model import Where
 from grader.verdict.checks.build import limit_name
 from grader.verdict.checks.build import python_error
 from grader.verdict.node_files import file_with_node
-from grader.verdict.registry import Failed
+from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
     from grader.run.probe_link import LogRecord

@@ -20,9 +20,9 @@ from grader.verdict.checks.parsed import file_of
 from grader.verdict.checks.parsed import names_in
 from grader.verdict.checks.parsed import node_path
 from grader.verdict.checks.parsed import reader_said
-from grader.verdict.registry import Blocked
-from grader.verdict.registry import Failed
-from grader.verdict.registry import Passed
+from grader.verdict.outcome import Blocked
+from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

@@ -14,11 +14,11 @@ from grader.verdict.checks.faults import node_file
 from grader.verdict.checks.faults import resource
 from grader.verdict.checks.faults import traceback_of
 from grader.verdict.checks.faults import words
-from grader.verdict.registry import Blocked
-from grader.verdict.registry import Failed
-from grader.verdict.registry import Inconclusive
-from grader.verdict.registry import Outcome
-from grader.verdict.registry import Passed
+from grader.verdict.outcome import Blocked
+from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Inconclusive
+from grader.verdict.outcome import Outcome
+from grader.verdict.outcome import Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

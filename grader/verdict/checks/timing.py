@@ -12,10 +12,10 @@ from grader.mistakes.from_source import longest_sleep
 from grader.verdict.checks.faults import line_of
 from grader.verdict.checks.faults import words
 from grader.verdict.node_files import file_with_node
-from grader.verdict.registry import Blocked
-from grader.verdict.registry import Failed
-from grader.verdict.registry import Inconclusive
-from grader.verdict.registry import Passed
+from grader.verdict.outcome import Blocked
+from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Inconclusive
+from grader.verdict.outcome import Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:
