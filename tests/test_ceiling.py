@@ -25,10 +25,10 @@ from grader.run.probe_link import ProbeLink
 from grader.run.run import Run
 from grader.run.run import observe
 from grader.run.session import Session
+from grader.run.session import Unobserved
 from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.registry import Inconclusive
 from tests.batch.works import ASSIGNMENT
 from tests.batch.works import tasks
 from tests.corpus.build import write
@@ -107,7 +107,7 @@ def test_runs_that_take_all_they_may_are_repeated_within_the_ceiling(
 ) -> None:
     clock = Clock(monkeypatch, ProbeError("no answer"))
     opened, begin = begun(), clock.now
-    with pytest.raises(Inconclusive, match="no answer"):
+    with pytest.raises(Unobserved, match="no answer"):
         opened.run(unheard)
     assert clock.runs == 2
     assert clock.proofs == [opened.sandbox], "what failed may be ros2 itself"
@@ -129,7 +129,7 @@ def test_after_a_build_at_its_limit_there_is_still_a_second_opinion(
 def test_quick_faults_of_ours_are_still_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(monkeypatch, ProbeError("it has ended"))
     clock.seconds = 1.0
-    with pytest.raises(Inconclusive, match="it has ended"):
+    with pytest.raises(Unobserved, match="it has ended"):
         begun().run(unheard)
     assert clock.runs == 3
 
@@ -138,7 +138,7 @@ def test_without_time_for_a_run_none_is_begun(monkeypatch: pytest.MonkeyPatch) -
     clock = Clock(monkeypatch, doubtful())
     opened = begun()
     clock.now += LIMITS.verdict_seconds - 1
-    with pytest.raises(Inconclusive, match="used up"):
+    with pytest.raises(Unobserved, match="used up"):
         opened.run(unheard)
     assert clock.runs == 0
 

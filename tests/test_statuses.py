@@ -13,12 +13,12 @@ from grader.base.errors import SurroundingsError
 from grader.package.submission import Submission
 from grader.package.submission import take_in
 from grader.run.run import Run
+from grader.run.session import Unobserved
 from grader.run.workspace import BUILD
 from grader.run.workspace import build
 from grader.sandbox.base import Outcome
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.registry import Inconclusive
 from tests.batch.works import ASSIGNMENT
 from tests.corpus.build import SOLUTION
 from tests.corpus.build import write
@@ -112,6 +112,6 @@ def test_a_node_that_ends_at_once_is_judged_if_the_sandbox_still_starts_commands
         assert opened.run(unheard) is run
         assert clock.runs == 1
     else:
-        with pytest.raises(Inconclusive, match="starts no command"):
+        with pytest.raises(Unobserved, match="starts no command"):
             opened.run(unheard)
         assert clock.runs == 3

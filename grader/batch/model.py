@@ -181,3 +181,7 @@ class ClassResult:
             if entry.student.key == key:
                 return entry
         raise KeyError(key)
+
+
+Comment = Callable[[Entry], str]
+"""Makes the short feedback that goes into one cell of a system's sheet."""

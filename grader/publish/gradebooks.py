@@ -19,6 +19,7 @@ from grader.batch.systems.canvas.write import new_gradebook
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.moodle.worksheet import Worksheet
 from grader.publish.feedback import html_page
+from grader.publish.feedback import short_html
 from grader.publish.gradebook_csv import gradebook_csv
 from grader.publish.junit import class_xml
 from grader.publish.markdown import markdown
@@ -52,14 +53,15 @@ def write_outputs(
     reach the disk a while later.
     """
     written = Written()
+    comment = partial(short_html, show_hidden=show_hidden)
     made: dict[str, Callable[[], Filled]] = {
         GRADEBOOK: lambda: Filled(gradebook_csv(result, bom=True)),
         JUNIT: lambda: Filled(class_xml(result)),
     }
     if worksheet is not None:
-        made[WORKSHEET] = lambda: worksheet.filled(result, show_hidden=show_hidden)
+        made[WORKSHEET] = lambda: worksheet.filled(result, comment)
     if result.system == "moodle":
-        made[MOODLE] = lambda: moodle_import(result, show_hidden=show_hidden)
+        made[MOODLE] = lambda: moodle_import(result, comment)
     if canvas is not None:
         made[CANVAS] = lambda: canvas.filled(result)
     elif result.system == "canvas":

@@ -17,9 +17,9 @@ from typing import Any
 from typing import Literal
 
 from grader.base.errors import UsageError
+from grader.base.project import PACKAGE
 from grader.batch.accept import refuse_lower
 from grader.batch.beforehand import Beforehand
-from grader.base.project import PACKAGE
 from grader.batch.keys import source_digest
 from grader.batch.ledger import Ledger
 from grader.batch.model import ClassResult

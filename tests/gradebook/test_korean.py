@@ -41,6 +41,7 @@ from grader.report.model import Evidence
 from grader.report.model import Report
 from grader.verdict.mark import Order
 from tests import stage
+from tests.gradebook.filled import comment
 from tests.report import samples
 from tests.site import classes
 
@@ -205,7 +206,7 @@ def test_what_is_no_report_yet_is_told_in_the_language_that_was_asked_for() -> N
 
 def test_moodle_s_feedback_is_korean_and_its_header_is_moodle_s() -> None:
     result: ClassResult = classes.result([ENTRIES[0]], title=TITLE)
-    header, row = moodle_import(result, by="email").content.decode().splitlines()
+    header, row = moodle_import(result, comment, by="email").content.decode().splitlines()
     assert header.startswith("Email address,Full name,")
     assert header.endswith(",Feedback")
     assert "늦음" in row

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.batch.systems.moodle.gradebook_import import moodle_import
+from tests.gradebook.filled import comment
 from tests.gradebook.texts import hostile_class
 from tests.gradebook.texts import texts
 from tests.report import samples
@@ -23,7 +24,7 @@ def rows(content: bytes) -> list[dict[str, str]]:
 
 
 def test_each_student_has_one_row_by_id_number(mixed: ClassResult) -> None:
-    found = {row["ID number"]: row for row in rows(moodle_import(mixed).content)}
+    found = {row["ID number"]: row for row in rows(moodle_import(mixed, comment).content)}
     final = {entry.student.id_number: entry.final for entry in mixed.entries}
     assert found.keys() == {number for number, points in final.items() if points is not None}
     assert {number: float(row[mixed.title]) for number, row in found.items()} == {
@@ -35,7 +36,9 @@ def test_each_student_has_one_row_by_id_number(mixed: ClassResult) -> None:
 def test_a_row_without_a_grade_would_take_one_away_so_there_is_none(mixed: ClassResult) -> None:
     """grade/import/csv takes `-` and an empty cell for null, and writes it over what is there."""
     assert any(entry.final is None for entry in mixed.entries)
-    assert {row[mixed.title] for row in rows(moodle_import(mixed).content)}.isdisjoint({"-", ""})
+    assert {row[mixed.title] for row in rows(moodle_import(mixed, comment).content)}.isdisjoint(
+        {"-", ""}
+    )
 
 
 def test_who_cannot_be_told_is_left_out_and_named() -> None:
@@ -49,7 +52,7 @@ def test_who_cannot_be_told_is_left_out_and_named() -> None:
     with_email(1, "=1+1@example.org")
     with_email(2, "twice@example.org")
     with_email(3, "twice@example.org")
-    made = moodle_import(classes.result(entries), by="email")
+    made = moodle_import(classes.result(entries), comment, by="email")
     assert [row["Email address"] for row in rows(made.content)] == ["student4@example.org"]
     assert len(made.warnings) == 4
     for entry, warning in zip(entries, made.warnings, strict=False):
@@ -62,14 +65,14 @@ def test_what_most_students_have_identifies_them() -> None:
         dataclasses.replace(e, student=dataclasses.replace(e.student, id_number="", email=""))
         for e in entries
     ]
-    assert "Username" in rows(moodle_import(classes.result(bare)).content)[0]
-    assert "ID number" in rows(moodle_import(classes.result(entries)).content)[0]
+    assert "Username" in rows(moodle_import(classes.result(bare), comment).content)[0]
+    assert "ID number" in rows(moodle_import(classes.result(entries), comment).content)[0]
 
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(texts, min_size=1, max_size=3))
 def test_hostile_names_stay_in_their_cells(found: list[str]) -> None:
-    made = moodle_import(hostile_class(*found))
+    made = moodle_import(hostile_class(*found), comment)
     read = rows(made.content)
     assert len(read) + len(made.warnings) == len(found)
     assert all(None not in row and None not in row.values() for row in read)

@@ -14,10 +14,10 @@ from typing import Literal
 
 from grader.batch import cells
 from grader.batch.model import ClassResult
+from grader.batch.model import Comment
 from grader.batch.model import Entry
 from grader.batch.model import Student
 from grader.batch.sheet import Filled
-from grader.publish.feedback import short_html
 
 By = Literal["id_number", "email", "username"]
 HEADS: dict[By, str] = {
@@ -27,9 +27,7 @@ HEADS: dict[By, str] = {
 }
 
 
-def moodle_import(
-    result: ClassResult, *, by: By | None = None, show_hidden: bool = False
-) -> Filled:
+def moodle_import(result: ClassResult, comment: Comment, *, by: By | None = None) -> Filled:
     """Return the file; `by` says what identifies a student (default: what most students have)."""
     column = best_identity(result) if by is None else by
     counts = Counter(_identity(entry.student, column) for entry in result.entries)
@@ -45,7 +43,7 @@ def moodle_import(
         if not value or counts[value] > 1 or not cells.is_plain(value):
             warnings.append(_left_out(entry, column, value))
             continue
-        told = short_html(entry, show_hidden=show_hidden)
+        told = comment(entry)
         table.writerow([value, cells.text(entry.student.name), cells.number(entry.final), told])
     return Filled(out.getvalue().encode(), tuple(warnings))
 

@@ -22,6 +22,7 @@ from grader.batch.match import Match
 from grader.batch.match import match_more
 from grader.batch.match import ways_of_people
 from grader.batch.model import ClassResult
+from grader.batch.model import Comment
 from grader.batch.model import Elsewhere
 from grader.batch.model import Entry
 from grader.batch.model import Student
@@ -35,7 +36,6 @@ from grader.batch.systems.moodle.words import FEEDBACK
 from grader.batch.systems.moodle.words import GRADE
 from grader.batch.systems.moodle.words import IDENTIFIER
 from grader.batch.systems.moodle.words import MAXIMUM
-from grader.publish.feedback import short_html
 
 PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word (in any script), then the number
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
@@ -87,7 +87,7 @@ class Worksheet:
         )
         return [one for one in found if one is not None]
 
-    def filled(self, result: ClassResult, *, show_hidden: bool = False) -> Filled:
+    def filled(self, result: ClassResult, comment: Comment) -> Filled:
         """Return the worksheet with Grade and Feedback filled in for who has a final result.
 
         A cell is never filled in for a missing submission if Moodle knows one, or a grade.
@@ -103,7 +103,7 @@ class Worksheet:
                 too_many.append(f"{_who(entry)}: {cells.number(entry.final)}")
             changes[row, columns.grade] = cells.number(entry.final, comma=comma)
             if columns.feedback is not None:
-                changes[row, columns.feedback] = short_html(entry, show_hidden=show_hidden)
+                changes[row, columns.feedback] = comment(entry)
         if too_many:
             raise _too_many(", ".join(too_many), result.max_score)
         return Filled(sheet.filled(changes), tuple(_warnings(result, match)))
