@@ -17,6 +17,10 @@ from grader.ros.distro import find_distro
 from grader.ros.prefix import BrokenRosError
 from grader.ros.prefix import Ros
 from grader.ros.prefix import base_interpreter
+from grader.sandbox import proof
+from grader.sandbox.bubblewrap import Bubblewrap
+from grader.sandbox.limits import Limits
+from grader.sandbox.proof import prove_again
 from grader.sandbox.proof import prove_ros
 from tests import stage
 from tests.test_cli import solution
@@ -175,6 +179,31 @@ def test_a_prefix_with_a_program_that_fails_does_not(
     with pytest.raises(BrokenRosError, match=said) as caught:
         prove_ros(Ros(JAZZY, "wheels", folder, base_interpreter(), {}))
     assert "GRADER_CACHE" in caught.value.remedy
+
+
+def test_a_ros_of_the_system_is_never_removed(tmp_path: Path) -> None:
+    """ros-jazzy-ros-base has no colcon."""
+    folder = small_prefix(tmp_path / "jazzy")
+    (folder / "bin" / "colcon").unlink()
+    system = Ros(JAZZY, "system", folder, base_interpreter(), {})
+    missing = pytest.raises(BrokenRosError, match="colcon: command not found")
+    with Bubblewrap(system, Limits()) as sandbox, missing as caught:
+        prove_again(sandbox)
+    assert "apt-get install python3-colcon-common-extensions" in caught.value.remedy
+    assert folder.is_dir()
+
+
+def test_a_proof_that_is_not_finished_removes_nothing(
+    maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = maker(0).find()
+    monkeypatch.setattr(proof, "SECONDS", 0.0)
+    made = Ros(JAZZY, "wheels", folder, base_interpreter(), {})
+    untested = pytest.raises(SurroundingsError, match="could not be tested")
+    with Bubblewrap(made, Limits()) as sandbox, untested as caught:
+        prove_again(sandbox)
+    assert not isinstance(caught.value, BrokenRosError)
+    assert folder.is_dir()
 
 
 @pytest.fixture

@@ -61,8 +61,8 @@ def prove_ros(ros: Ros) -> None:
 def prove_again(sandbox: Sandbox) -> None:
     """Do nothing if the programs of ROS run in a sandbox; student's code may have been in it.
 
-    They are run as the probe is: as another user, in a folder of its own. Raises BrokenRosError if one
-    does not run; a prefix of the grader's is removed from the cache then.
+    They are run as the probe is: as another user, in a folder of its own. Raises BrokenRosError if
+    one does not run; a prefix that the grader has made is removed from the cache then.
     """
     ros = sandbox.ros
     if not is_in_cache(ros):
