@@ -70,7 +70,7 @@ check:  ## Check your own package before handing it in: make check [PACKAGE=path
 	@$(BOOTSTRAP)
 	@$(GRADER) check $(OPTIONS) $${PACKAGE:+-- "$$PACKAGE"}
 
-fix:  ## Show how your own package can be mended, or mend it: make fix [PACKAGE=path] [APPLY=1]
+fix:  ## Show how your own package can be fixed, or fix it: make fix [PACKAGE=path] [APPLY=1]
 	@$(BOOTSTRAP)
 	@$(GRADER) fix $(OPTIONS) $${APPLY:+--apply} $${PACKAGE:+-- "$$PACKAGE"}
 

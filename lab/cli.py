@@ -12,7 +12,7 @@ import click
 
 import grader
 from grader.base.i18n.message import msg
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import chosen_language
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
@@ -67,12 +67,12 @@ def command(
     from lab.visit import Visit  # noqa: PLC0415
     from lab.workspace import prepare  # noqa: PLC0415
 
-    speak = Speaker(lang or chosen_language(os.environ))
-    with errors_in(speak.lang):
+    translate = Translator(lang or chosen_language(os.environ))
+    with errors_in(translate.lang):
         found = find_distro(distro)
         lesson = lesson_meant(assignment)
-        enter = choose(sandbox, found, tell=lambda text: _tell(speak(text)))
-        visit = Visit(found, prepare(workspace), lesson, command=words, lang=speak.lang)
+        enter = choose(sandbox, found, tell=lambda text: _tell(translate(text)))
+        visit = Visit(found, prepare(workspace), lesson, command=words, lang=translate.lang)
         status = enter(visit)
     interactive = not words and sys.stdin.isatty()
     return 0 if interactive else status  # what a shell's last command said is no fault of the lab

@@ -100,7 +100,7 @@ def test_another_courses_lesson_is_taken_through_make(tmp_path: Path) -> None:
     assert weather.ENTRY in shown
 
 
-def test_a_package_is_mended_through_make(tmp_path: Path) -> None:
+def test_a_package_is_fixed_through_make(tmp_path: Path) -> None:
     package = solution(tmp_path)
     (package / "setup.cfg").unlink()
     status, shown, _ = make("fix", f"PACKAGE={package}")

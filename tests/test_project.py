@@ -131,7 +131,7 @@ def test_nothing_is_printed_past_the_gate() -> None:
         "grader/base/gated_console.py",
         "grader/run/probe.py",
         "lab/keeper.py",
-    }  # two speak to a program
+    }  # two translate to a program
     found = {
         path.relative_to(stage.ROOT).as_posix()
         for folder in ("grader", "lab")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.i18n.message import Message
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
@@ -92,7 +92,7 @@ def test_an_entry_of_the_catalogue_is_filled_by_the_lesson(kind: Kind, tmp_path:
     templates = [kind.title, kind.why, kind.fix, *kind.whys.values(), *kind.fixes.values()]
     for lang in LANGUAGES:
         for template in templates:
-            text = Speaker(lang)(Message(template, filled(template, words)))
+            text = Translator(lang)(Message(template, filled(template, words)))
             assert not OURS.search(text), text
     for name in ("humble", "kilted", "rolling"):
         link = address(kind.link, find_distro(name))
@@ -227,11 +227,11 @@ MISTAKES = {
 
 
 def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) -> CheckResult:
-    """Return what the check says of a broken package, with the change that mends it."""
+    """Return what the check says of a broken package, with the change that fixes it."""
     submission = weather.taken(folder, *mistake.edits)
     run = mistake.run or counted("Reading {n}")
     evidence = Evidence(assignment, submission, build=lambda: BUILT, run=lambda: run)
-    (result,) = ask_in_order(evidence, Speaker(lang), only=[mistake.check])
+    (result,) = ask_in_order(evidence, Translator(lang), only=[mistake.check])
     assert result.status == "failed", result
     return result.model_copy(update={"patch": patch_for(result, submission, assignment)})
 
@@ -267,7 +267,7 @@ def test_the_right_package_passes_every_check_of_a_run(tmp_path: Path) -> None:
     evidence = Evidence(wanted, weather.taken(tmp_path), build=lambda: BUILT, run=lambda: run)
     only = ("package.manifest", "entry_point.mapping", "run.starts", "run.output")
     found = {
-        result.id: result.status for result in ask_in_order(evidence, Speaker("en"), only=only)
+        result.id: result.status for result in ask_in_order(evidence, Translator("en"), only=only)
     }
     assert found == dict.fromkeys(only, "passed")
 
@@ -297,7 +297,7 @@ def test_a_real_verdict_names_nothing_of_our_lesson(
 
 
 @pytest.mark.prefix
-def test_fix_mends_by_the_lesson(course: Path, tmp_path: Path) -> None:
+def test_fix_fixes_by_the_lesson(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
     done = stage.run(stage.grader("fix", "--no-run", package), env=env(course))
     assert done.returncode == 0, done.stderr

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import one_line
 from grader.batch.points import Mark
@@ -21,24 +21,24 @@ LINES = 12  # of one text
 
 def check_text(mark: Mark, report: Report, *, lines: int = LINES) -> str:
     """Return all that is known of a check, without control characters, ended by a newline."""
-    check, speak = mark.check, Speaker(report.lang)
+    check, translate = mark.check, Translator(report.lang)
     if check.status == "passed":
         told = [line for advice in check.advice for line in first_lines(advice, lines=lines)]
     elif check.status == "skipped":
-        told = [speak(_skipped(mark, report))]
+        told = [translate(_skipped(mark, report))]
     else:
-        page = Page(width=WIDTH, styled=False, speak=speak)
+        page = Page(width=WIDTH, styled=False, translate=translate)
         block(page, check, lines=lines)
         told = str(page).rstrip("\n").split("\n")
-    told += [speak(mark.correction)] if mark.correction else []
-    return "".join(f"{line}\n" for line in told or [speak(say("Passed."))])
+    told += [translate(mark.correction)] if mark.correction else []
+    return "".join(f"{line}\n" for line in told or [translate(say("Passed."))])
 
 
 def headline(mark: Mark, report: Report) -> str:
     """Return what was found in one line: a failed check's `actual`, else its state."""
     check = mark.check
     found = one_line(check.actual) if check.status == "failed" else ""
-    return found or Speaker(report.lang)(WORDS[check.status])
+    return found or Translator(report.lang)(WORDS[check.status])
 
 
 def _skipped(mark: Mark, report: Report) -> str:

@@ -18,7 +18,7 @@ from typing import Protocol
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import joined
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.batch.submission_text import from_text
 from grader.batch.submission_text import to_text
 from grader.course.assignment import Assignment
@@ -172,7 +172,7 @@ def answer(job: Job, task: Task) -> Answer:
     try:
         report = mark(submission, order, _unheard)
     except GraderError as error:
-        fault = Speaker(job.lang)(joined(error.message, error.remedy, by="\n"))
+        fault = Translator(job.lang)(joined(error.message, error.remedy, by="\n"))
     except Exception:  # a fault of ours must cost nobody but this one submission
         fault = traceback.format_exc(limit=-6)
     return Answer(report, fault, time.monotonic() - begin)

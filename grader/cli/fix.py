@@ -1,4 +1,4 @@
-"""The command that mends a package."""
+"""The command that fixes a package."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from grader.cli import options
 
 @click.command(
     help=msg(
-        "Mend your own package where only one mend is possible, as a diff that is shown first.\n\n"
+        "Fix your own package where only one fix is possible, as a diff that is shown first.\n\n"
         "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
         "folder). Exit status: 0 nothing is wrong any more, 1 something is left that cannot be "
-        "mended by itself (it is named)."
+        "fixed by itself (it is named)."
     )
 )
 @click.argument("path", type=click.Path(path_type=Path), required=False)
@@ -31,7 +31,7 @@ from grader.cli import options
 @options.assignment
 @options.one_distro
 @options.sandbox
-@click.option("--check", "only", default="", metavar="ID", help=msg("Mend this check only."))
+@click.option("--check", "only", default="", metavar="ID", help=msg("Fix this check only."))
 @click.option(
     "--no-run", is_flag=True, help=msg("Look at the files only: build nothing and run nothing.")
 )
@@ -48,9 +48,9 @@ def fix(
     limits: tuple[str, ...],
     lang: str | None,
 ) -> int:
-    """Mend a student's own package."""
+    """Fix a student's own package."""
     from grader.cli.fix_package import Wish  # noqa: PLC0415
-    from grader.cli.fix_package import fix as mend  # noqa: PLC0415
+    from grader.cli.fix_package import fix_package  # noqa: PLC0415
     from grader.verdict.order import make_orders  # noqa: PLC0415
     from grader.verdict.order import own_place  # noqa: PLC0415
 
@@ -65,7 +65,7 @@ def fix(
         if len(orders) > 1:
             raise UsageError(say("fix runs the node on one distro: name one"))
         wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
-        return mend(wish, tell=lambda text: click.echo(text, err=True))
+        return fix_package(wish, tell=lambda text: click.echo(text, err=True))
 
 
 COMMANDS = (fix,)

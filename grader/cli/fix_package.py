@@ -12,7 +12,7 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.cli.fix_show import show_diff
@@ -27,8 +27,8 @@ from grader.package.submission import take_in
 from grader.report.events import Event
 from grader.report.model import CheckResult
 from grader.verdict.fix import Plan
-from grader.verdict.fix import mend
-from grader.verdict.fix import mend_files
+from grader.verdict.fix import fix_all
+from grader.verdict.fix import fix_files
 from grader.verdict.mark import Order
 from grader.verdict.mark import grade
 from grader.verdict.static import decided
@@ -48,16 +48,16 @@ class Wish:
     runs: bool = True
 
 
-def fix(wish: Wish, tell: Tell) -> int:
-    """Mend a package and return the exit status: 0 nothing is left, 1 something is.
+def fix_package(wish: Wish, tell: Tell) -> int:
+    """Fix a package and return the exit status: 0 nothing is left, 1 something is.
 
     The diff goes to stdout; what is said goes to `tell`, in the order's language. Raises
     UsageError for a path that cannot be written to, with nothing written.
     """
-    speak = Speaker(wish.order.lang)
+    translate = Translator(wish.order.lang)
 
     def told(text: str) -> None:
-        tell(speak(text))
+        tell(translate(text))
 
     assignment = wish.order.assignment
     _check_id(wish.only, assignment)
@@ -69,9 +69,9 @@ def fix(wish: Wish, tell: Tell) -> int:
         return 1
     plan = make_plan(wish, submission, told)
     show_diff(plan.patch, sys.stdout)
-    for finding in plan.mended:
+    for finding in plan.fixed:
         line = _line(finding)
-        done, would = say("mended  {finding}", finding=line), say("mends  {finding}", finding=line)
+        done, would = say("fixed  {finding}", finding=line), say("fixes  {finding}", finding=line)
         told(done if wish.writes else would)
     for finding in plan.left:
         told(say("left    {finding}", finding=_line(finding)))
@@ -109,7 +109,7 @@ def _own_copy(order: Order) -> Submission:
     path, where = order.path, shown(str(order.path))
     if path.is_file():
         raise UsageError(
-            say("{path} is a file: only the files of a folder can be mended", path=where),
+            say("{path} is a file: only the files of a folder can be fixed", path=where),
             remedy=say("Unpack the archive, and give the folder that holds the package."),
         )
     assignment = order.assignment
@@ -123,12 +123,12 @@ def _own_copy(order: Order) -> Submission:
 
 
 def make_plan(wish: Wish, submission: Submission, tell: Tell) -> Plan:
-    """Mend what the files show; then, if nothing of that is left, what a build and a run show."""
+    """Fix what the files show; then, if nothing of that is left, what a build and a run show."""
     assignment = wish.order.assignment
     old = Files.of(submission)
     plan = Plan(old, old)
     if not wish.only or wish.only in STATIC:
-        plan = mend_files(submission, assignment, wish.only, lang=wish.order.lang)
+        plan = fix_files(submission, assignment, wish.only, lang=wish.order.lang)
         plan = replace(plan, left=(*plan.left, *_unasked(wish, plan, submission)))
     if plan.left:
         if wish.runs and not wish.only:
@@ -137,8 +137,8 @@ def make_plan(wish: Wish, submission: Submission, tell: Tell) -> Plan:
     if not wish.runs or wish.only in STATIC:
         return plan
     runner = _Runner(wish, tell)
-    ran = mend(plan.new, assignment, runner.judge)
-    return Plan(old, ran.new, (*plan.mended, *ran.mended), ran.left)
+    ran = fix_all(plan.new, assignment, runner.judge)
+    return Plan(old, ran.new, (*plan.fixed, *ran.fixed), ran.left)
 
 
 def _unasked(wish: Wish, plan: Plan, submission: Submission) -> list[Finding]:
@@ -148,7 +148,7 @@ def _unasked(wish: Wish, plan: Plan, submission: Submission) -> list[Finding]:
     results = decided(plan.new.put_into(submission), wish.order.assignment, wish.only)
     wanted = [wish.only] if wish.only else [u.id for u in wish.order.assignment.checks]
     undecided = [check for check in wanted if check in STATIC and check not in results]
-    unknown = Speaker(wish.order.lang)(say("the files alone do not tell"))
+    unknown = Translator(wish.order.lang)(say("the files alone do not tell"))
     return [Finding(check, "", actual=unknown) for check in undecided]
 
 
@@ -205,7 +205,7 @@ def _unheard(event: Event) -> None:
 
 def _finish(wish: Wish, submission: Submission, plan: Plan, tell: Tell) -> None:
     if not plan.patch and plan.left:
-        tell(say("Nothing can be mended by itself."))
+        tell(say("Nothing can be fixed by itself."))
     elif not plan.patch:
         tell(say("Nothing is wrong."))
     elif wish.writes:

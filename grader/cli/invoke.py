@@ -13,7 +13,7 @@ import click
 from grader.base.errors import GraderError
 from grader.base.gate import gated_output
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import chosen_language
 from grader.base.plain_text import first_lines
 from grader.cli.localized import language_of
@@ -74,4 +74,4 @@ def _run(command: click.Command, name: str, argv: list[str]) -> int:
 
 
 def _tell(text: str) -> None:
-    click.echo(Speaker(chosen_language(os.environ))(text), err=True)
+    click.echo(Translator(chosen_language(os.environ))(text), err=True)

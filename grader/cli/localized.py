@@ -58,7 +58,7 @@ CLICK_COUNTED = (  # those of it that have a plural
 
 @contextmanager
 def said_in(lang: str, command: click.Command) -> Iterator[None]:
-    """Let a command, and those below it, speak a language as long as this lasts."""
+    """Let a command, and those below it, translate a language as long as this lasts."""
     if lang == SOURCE:
         yield
         return

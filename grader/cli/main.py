@@ -14,7 +14,7 @@ import click
 import grader
 from grader.base.i18n.message import msg
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
 from grader.cli.convert import COMMANDS as GRADEBOOK_COMMANDS
@@ -125,7 +125,9 @@ def check(
         place = path or own_place()
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if path is None:
-            click.echo(Speaker(orders[0].lang)(say("checking {path}", path=str(place))), err=True)
+            click.echo(
+                Translator(orders[0].lang)(say("checking {path}", path=str(place))), err=True
+            )
         return _mark(orders, None, verbose=verbose, show_hidden=False)
 
 
@@ -221,7 +223,7 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
     from grader.report import terminal  # noqa: PLC0415
     from grader.verdict.mark import grade as mark  # noqa: PLC0415
 
-    speak = Speaker(orders[0].lang)
+    translate = Translator(orders[0].lang)
     reports: list[Report] = []
     for order in orders:
         with terminal.LiveProgress(sys.stderr, lang=order.lang) as progress:
@@ -239,9 +241,9 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
             )
         if report.environment.sandbox == "none":
             bare = say("No sandbox was used: the package ran as you, with your files.")
-            click.echo(speak(bare), err=True)
+            click.echo(translate(bare), err=True)
     if not show_hidden:
-        click.echo(speak(_hidden(orders[0].assignment.hidden_checks)))
+        click.echo(translate(_hidden(orders[0].assignment.hidden_checks)))
     if len(orders) > 1:
         if out is not None:
             matrix = files.write_matrix(reports, out, reports[0].submission.name)

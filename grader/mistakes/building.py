@@ -53,11 +53,11 @@ KINDS = (
         stage="build",
         title=msg("setup.py stops with an error"),
         why=WHY,
-        fix=msg("Mend what the error names, then build again."),
+        fix=msg("Fix what the error names, then build again."),
         whys={"unreadable": msg("colcon runs your setup.py to install the package into the "
                                 "workspace's install folder; ros2 run only ever looks there. A "
                                 "file that Python cannot read cannot be run.")},
-        fixes={"unreadable": msg("Mend that line of setup.py (often the line above lacks a comma, "
+        fixes={"unreadable": msg("Fix that line of setup.py (often the line above lacks a comma, "
                                  "a quote or a bracket), then build again.")},
         link=links.COLCON,
     ),

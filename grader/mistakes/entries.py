@@ -31,7 +31,7 @@ NOT_FOUND = msg(
     "ros2 run answers: No executable found."
 )
 WRITE = msg("Write '{wanted}',")
-OTHERS = {"other": msg("Mend this entry, or delete it: '{entry}'")}
+OTHERS = {"other": msg("Fix this entry, or delete it: '{entry}'")}
 
 
 def _stops(slug: str, title: str, seen: str = "") -> Kind:

@@ -11,7 +11,7 @@ from grader.base.gate import show
 from grader.base.i18n.message import Message
 from grader.base.i18n.message import Value
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import errors_in
 from grader.base.nearest import meant
 from grader.base.nearest import nearest
@@ -97,9 +97,9 @@ def _entry(page: Page, kind: Kind, params: Mapping[str, str], reader: Reader) ->
     known = {**reader.words, **params}
     page.line((kind.id, "bold"), ": ", Message(kind.title))
     page.field(say("why"), kind.rationale(filled(kind.why, known)))
-    page.field(say("fix"), kind.mend(filled(kind.fix, known)), "bold")
+    page.field(say("fix"), kind.fix_text(filled(kind.fix, known)), "bold")
     page.code(say("docs"), [address(kind.link, reader.distro)])
 
 
 def _page(file: TextIO, reader: Reader) -> Page:
-    return Page(width=width_of(file), styled=takes_styles(file), speak=Speaker(reader.lang))
+    return Page(width=width_of(file), styled=takes_styles(file), translate=Translator(reader.lang))

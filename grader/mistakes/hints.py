@@ -38,4 +38,4 @@ def _guard(node: ast.Compare) -> list[str]:
 def _advice(mistake: str, line: int) -> Message:
     kind = CATALOGUE[mistake]
     title = say("line {line}: {code}", line=line, code=Message(kind.title))
-    return joined(joined(title, kind.rationale({}), by=". "), kind.mend({}))
+    return joined(joined(title, kind.rationale({}), by=". "), kind.fix_text({}))

@@ -42,7 +42,7 @@ Stage = Literal[
 class Kind:
     """One kind of mistake. Its texts are templates of `grader.base.i18n.message`.
 
-    `why` says why ROS behaves so, `fix` the change that mends it; `whys` and `fixes` hold others,
+    `why` says why ROS behaves so, `fix` the change that fixes it; `whys` and `fixes` hold others,
     by the name of a variant. `link` leads to the documentation. `seen` is a pattern by which the
     mistake is known in what a terminal shows (its named groups become parameters).
     """
@@ -66,7 +66,7 @@ class Kind:
         """Return why it matters. KeyError if a placeholder has no value."""
         return Message(self.whys.get(variant, self.why), values)
 
-    def mend(self, values: Mapping[str, Value], variant: str = "") -> Message:
+    def fix_text(self, values: Mapping[str, Value], variant: str = "") -> Message:
         """Return what to do. KeyError if a placeholder has no value."""
         return Message(self.fixes.get(variant, self.fix), values)
 

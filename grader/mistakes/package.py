@@ -149,7 +149,7 @@ PLACES = (
         stage="setup.cfg",
         title=msg("setup.cfg cannot be understood"),
         why=msg("setuptools reads this file on every build and stops where it cannot."),
-        fix=msg("Mend that line: a line is either [section] or key=value."),
+        fix=msg("Fix that line: a line is either [section] or key=value."),
         link=links.SETUP_CFG,
         seen=r"configparser\.\w{1,60}Error|File contains no section headers",
     ),

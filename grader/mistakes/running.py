@@ -23,7 +23,7 @@ KINDS = (
     _run("died_at_start", "start", msg("the node stops at its start with an exception"),
          msg("An exception that nobody catches ends the program; the last line of the traceback "
              "names it, the line above shows where it came from."),
-         msg("Mend the line shown; then colcon build is not needed again (--symlink-install), just "
+         msg("Fix the line shown; then colcon build is not needed again (--symlink-install), just "
              "run it again."), links.PYTHON_ERRORS),
     _run("exits_at_once", "spin", msg("the node ends by itself at once"), SPIN,
          msg("Call rclpy.spin(node) in {function}, after making the node (not spin_once)."),
@@ -69,7 +69,7 @@ KINDS = (
         why=SPIN,
         whys={"callback": msg("A callback that raises an exception ends the node.")},
         fix=msg("Let the timer run on: no limit on the count, no exit in the callback."),
-        fixes={"callback": msg("Mend the line that the traceback shows, and run the node again.")},
+        fixes={"callback": msg("Fix the line that the traceback shows, and run the node again.")},
         link=links.EXECUTORS,
     ),
     _run("stops", "timer", msg("the lines stop coming"), SPIN,
@@ -91,7 +91,7 @@ KINDS = (
          links.EXECUTORS),
     _run("error_at_stop", "shutdown", msg("the node ends with an error of its own after Ctrl+C"),
          msg("What runs after rclpy.spin is your clean-up; an error there hides the end."),
-         msg("Mend the line shown, or leave it away."), links.RCLPY),
+         msg("Fix the line shown, or leave it away."), links.RCLPY),
     _run("shutdown_twice", "shutdown", msg("rclpy.shutdown() is called after ROS has shut down"),
          msg("Ctrl+C has already shut ROS down when your rclpy.shutdown() is called; on humble and "
              "jazzy that ends with a traceback. The node itself is right."),
@@ -99,7 +99,7 @@ KINDS = (
          seen=r"rcl_shutdown already called"),
     _run("interrupt_traceback", "shutdown", msg("Ctrl+C ends the node with a traceback"),
          msg("This is normal: Ctrl+C becomes KeyboardInterrupt, and nobody catches it."),
-         msg("Nothing has to be mended. try: … except KeyboardInterrupt: around rclpy.spin spares "
+         msg("Nothing has to be fixed. try: … except KeyboardInterrupt: around rclpy.spin spares "
              "the traceback."), links.PYTHON_ERRORS,
          seen=r"^KeyboardInterrupt$"),
 )  # fmt: skip

@@ -102,7 +102,7 @@ KINDS = (
          seen=r"option --editable not recognized"),
     _lab("setuptools_warning", msg("A warning of setuptools"),
          msg("The build has not failed: setuptools tells its own developers of what will change."),
-         msg("Nothing has to be mended: look at the last line, Summary."),
+         msg("Nothing has to be fixed: look at the last line, Summary."),
          seen=r"SetuptoolsDeprecationWarning|EasyInstallDeprecationWarning"),
     _lab("two_nodes", msg("Two nodes run at once"),
          msg("A node that still runs in another terminal goes on counting: two counters come one "

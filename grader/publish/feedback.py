@@ -12,7 +12,7 @@ from dataclasses import replace
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import LANGUAGES
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import one_line
 from grader.batch.cells import number
 from grader.batch.model import Entry
@@ -37,7 +37,7 @@ MOST_CHECKS = 40
 def feedback_view(entry: Entry, *, show_hidden: bool) -> StudentView:
     """Return what a student's page shows, without what is for the instructor alone."""
     view = student_view(entry, show_hidden=show_hidden, lang=entry.lang)
-    kept_back = [Speaker(entry.lang)(name) for name in KEPT_BACK]
+    kept_back = [Translator(entry.lang)(name) for name in KEPT_BACK]
     facts = tuple((name, value) for name, value in view.facts if name not in kept_back)
     return replace(view, facts=facts, details=())
 
@@ -50,12 +50,12 @@ def headline(entry: Entry) -> str:
         told = say("{points} of {most} points", points=number(entry.final), most=most)
     elif entry.status != "graded":
         told = say("No points yet: {state}", state=STATES[entry.status])
-    return Speaker(entry.lang)(told)
+    return Translator(entry.lang)(told)
 
 
 def hidden_words(view: StudentView) -> str:
     """Return how many checks the student does not see, "" for none."""
-    return Speaker(view.entry.lang)(hidden_checks(view.hidden)) if view.hidden else ""
+    return Translator(view.entry.lang)(hidden_checks(view.hidden)) if view.hidden else ""
 
 
 def mark_of(one: CheckView, lang: str) -> str:
@@ -74,7 +74,7 @@ def mark_of(one: CheckView, lang: str) -> str:
         given = say("{most} points neither given nor taken", most=most)
     if one.because:
         state = say("{state} because of {checks}", state=state, checks=all_of(one.because))
-    return Speaker(lang)(joined(state, given, by=", "))
+    return Translator(lang)(joined(state, given, by=", "))
 
 
 def short_html(entry: Entry, *, show_hidden: bool) -> str:
@@ -86,12 +86,12 @@ def short_html(entry: Entry, *, show_hidden: bool) -> str:
     view = feedback_view(entry, show_hidden=show_hidden)
     open_ = [one for one in view.checks if one.check.status not in ("passed", "skipped")]
     skipped = sum(one.check.status == "skipped" for one in view.checks)
-    speak = Speaker(entry.lang)
-    told = [line for line in (speak(entry.problem), *view.reckoning) if line]
+    translate = Translator(entry.lang)
+    told = [line for line in (translate(entry.problem), *view.reckoning) if line]
     lines = [_safe(line) for line in told]
-    lines += [_check(one, speak) for one in open_[:MOST_CHECKS]]
+    lines += [_check(one, translate) for one in open_[:MOST_CHECKS]]
     rest = [_more(len(open_) - MOST_CHECKS), _skipped(skipped), hidden_words(view)]
-    lines += [_safe(speak(line)) for line in rest if line]
+    lines += [_safe(translate(line)) for line in rest if line]
     items = "".join(f"<li>{line}</li>" for line in lines)
     return f"<p><strong>{_safe(headline(entry))}</strong></p><ul>{items}</ul>"
 
@@ -113,9 +113,9 @@ def _skipped(count: int) -> str:
 def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
     """Return the feedback as a page of its own, which opens offline and asks for nothing."""
     view = feedback_view(entry, show_hidden=show_hidden)
-    speak = Speaker(entry.lang)
-    logs = [("transcript", speak(say("What ros2 run printed")), view.transcript)]
-    logs.append(("build-log", speak(say("What colcon build printed")), view.build_log))
+    translate = Translator(entry.lang)
+    logs = [("transcript", translate(say("What ros2 run printed")), view.transcript)]
+    logs.append(("build-log", translate(say("What colcon build printed")), view.build_log))
     return _renderer(one_line(title), entry.lang).page(
         "feedback.html.j2",
         script=False,
@@ -132,9 +132,9 @@ def _renderer(heading: str, lang: str) -> Renderer:
     return Renderer(heading=heading, pages={}, lang=lang)
 
 
-def _check(one: CheckView, speak: Speaker) -> str:
-    check, labels = one.check, [speak(label) for label in TOLD]
-    mark = mark_of(one, speak.lang)
+def _check(one: CheckView, translate: Translator) -> str:
+    check, labels = one.check, [translate(label) for label in TOLD]
+    mark = mark_of(one, translate.lang)
     text = f"<code>{_safe(check.id)}</code> {_safe(mark)}: {_safe(check.title)}"
     for field in one.fields:
         if field.label in labels:

@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import one_line
 from grader.base.plain_text import points
@@ -87,7 +87,7 @@ def _suite(entry: Entry) -> ET.Element:
 
 
 def _properties(suite: ET.Element, entry: Entry) -> None:
-    student, speak = entry.student, Speaker(entry.lang)
+    student, translate = entry.student, Translator(entry.lang)
     found = [
         ("student", student.name),
         ("email", student.email),
@@ -98,9 +98,9 @@ def _properties(suite: ET.Element, entry: Entry) -> None:
         ("max_score", points(entry.max_score)),
         ("late_seconds", points(entry.late_seconds) if entry.late_seconds > 0 else ""),
         ("attempt", f"{entry.attempt} of {entry.attempts}"),
-        *(("adjusted", f"{speak(step.why)}: {points(step.points)}") for step in steps(entry)),
+        *(("adjusted", f"{translate(step.why)}: {points(step.points)}") for step in steps(entry)),
         *(
-            ("corrected", f"{mark.check.id}: {speak(mark.correction)}")
+            ("corrected", f"{mark.check.id}: {translate(mark.correction)}")
             for mark in marks(entry)
             if mark.correction
         ),
@@ -142,13 +142,13 @@ def _check_case(suite: ET.Element, mark: Mark, report: Report) -> None:
 
 def _submission_case(suite: ET.Element, entry: Entry) -> None:
     """Write what stands for a submission without checks: its own fault, ours, or nothing there."""
-    speak = Speaker(entry.lang)
+    translate = Translator(entry.lang)
     case = ET.SubElement(suite, "testcase", classname=SUBMISSION, name=SUBMISSION, time="0.000")
     if entry.status in NOTHING and entry.report is None:
-        ET.SubElement(case, "skipped", type=entry.status, message=speak(NOTHING[entry.status]))
+        ET.SubElement(case, "skipped", type=entry.status, message=translate(NOTHING[entry.status]))
         return
     said = entry.problem or (entry.report.message if entry.report else "")
-    told = speak(said or say("not gradable"))
+    told = translate(said or say("not gradable"))
     tag = "failure" if entry.status == "ungradable" else "error"
     part = ET.SubElement(case, tag, type=entry.status, message=one_line(told))
     part.text = "\n".join(first_lines(told, lines=20))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import last_lines
 from grader.base.plain_text import one_line
@@ -26,14 +26,14 @@ LOG_LINES, FIELD_LINES = 60, 30
 def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
     """Return the feedback; hidden checks are counted only, unless `show_hidden`."""
     view = feedback_view(entry, show_hidden=show_hidden)
-    student, speak = entry.student, Speaker(entry.lang)
+    student, translate = entry.student, Translator(entry.lang)
     lines = [f"# {_plain(student.name or student.key)}: {_plain(title)}", ""]
     lines += [f"**{_plain(headline(entry))}**", ""]
     if entry.problem:
-        lines += [_plain(speak(entry.problem)), ""]
+        lines += [_plain(translate(entry.problem)), ""]
     lines += [f"- {_plain(line)}" for line in view.reckoning]
     if view.checks:
-        head = speak(say("Checks"))
+        head = translate(say("Checks"))
         lines += ["", f"## {_plain(head)}", ""]
         for one in view.checks:
             lines.append(f"- {_code(one.check.id)} {_plain(mark_of(one, entry.lang))}")
@@ -41,18 +41,18 @@ def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
         lines.append(f"- {_plain(hidden)}")
     for one in view.checks:
         if one.needs_block or one.override is not None or one.check.advice:
-            lines += ["", *_block(one, speak)]
+            lines += ["", *_block(one, translate)]
     for head, text in (
         (say("What ros2 run printed"), view.transcript),
         (say("What colcon build printed"), view.build_log),
     ):
         if text.strip():
-            lines += ["", f"## {_plain(speak(head))}", ""]
+            lines += ["", f"## {_plain(translate(head))}", ""]
             lines += _fenced(last_lines(text, lines=LOG_LINES)[0])
     return "\n".join(lines) + "\n"
 
 
-def _block(one: CheckView, speak: Speaker) -> list[str]:
+def _block(one: CheckView, translate: Translator) -> list[str]:
     lines = [f"## {_code(one.check.id)}: {_plain(one.check.title)}"]
     for field in one.fields:
         text = first_lines(field.text, lines=FIELD_LINES, most=1_000)
@@ -67,7 +67,7 @@ def _block(one: CheckView, speak: Speaker) -> list[str]:
         told = say("Corrected, because: {why}", why=why)
         if by:
             told = say("Corrected by {name}, because: {why}", name=by, why=why)
-        lines += ["", _plain(speak(told))]
+        lines += ["", _plain(translate(told))]
     return lines
 
 

@@ -14,7 +14,7 @@ from typing import cast
 from grader.base.gate import behind
 from grader.base.gate import gate
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import encodable
 from grader.base.plain_text import one_line
 from grader.base.stream import is_terminal
@@ -50,7 +50,7 @@ class LiveProgress:
         self._file = gate(file or sys.stderr)
         self._show_hidden = show_hidden
         self._live: Live | None = None
-        self._speak = Speaker(lang)
+        self._speak = Translator(lang)
         self._stage = self._speak(say("Starting"))
         self._hidden = self._speak(say("a hidden check"))
         self._check = ""

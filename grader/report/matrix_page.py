@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import one_line
 from grader.base.plain_text import points
@@ -41,7 +41,7 @@ def matrix_page(
 ) -> str:
     """Return the page as a string; it depends on the arguments alone. ValueError as `matrix_of`."""
     matrix = matrix_of(reports)
-    page = Page(width=width, styled=styled, speak=Speaker(reports[0].lang))
+    page = Page(width=width, styled=styled, translate=Translator(reports[0].lang))
     shown = [c for c in matrix.checks if show_hidden or c.visibility == "visible"]
     _head(page, matrix)
     _grid(page, matrix, shown)

@@ -40,7 +40,7 @@ class Where(_Part):
 
 
 class CheckResult(_Part):
-    """What one check found. `rationale` says why it matters, `fix` the one change that mends it."""
+    """What one check found. `rationale` says why it matters, `fix` the one change that fixes it."""
 
     id: str
     title: str

@@ -43,9 +43,9 @@ class Page:
     never interpreted. What is a `Message` is said by `speak`, in the reader's language.
     """
 
-    def __init__(self, *, width: int, styled: bool, speak: Callable[[str], str] = str) -> None:
+    def __init__(self, *, width: int, styled: bool, translate: Callable[[str], str] = str) -> None:
         self._out = io.StringIO()
-        self._speak = speak
+        self._speak = translate
         self._styled = styled
         self._width = max(20, min(width, WIDEST))
         self._console = GatedConsole(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import one_line
 from grader.base.plain_text import points
@@ -40,7 +40,7 @@ def report_page(
     path: Path | None,
 ) -> str:
     """Return the page as a string; it depends on the arguments alone."""
-    page = Page(width=width, styled=styled, speak=Speaker(report.lang))
+    page = Page(width=width, styled=styled, translate=Translator(report.lang))
     checks = [c for c in report.checks if show_hidden or c.visibility == "visible"]
     lines = LINES_VERBOSE if verbose else LINES
     _head(page, report)

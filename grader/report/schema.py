@@ -40,7 +40,7 @@ DESCRIPTIONS = {
         "rationale": "Why it matters.",
         "expected": "What was expected.",
         "actual": "What was found.",
-        "fix": "The one change that mends it.",
+        "fix": "The one change that fixes it.",
         "patch": "The same change as a diff, where there is one.",
         "advice": "What could be better and costs no points.",
         "mistakes": "The entries of the catalogue that were recognised.",

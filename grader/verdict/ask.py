@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.report.model import CheckResult
 from grader.report.model import CheckStatus
@@ -58,7 +58,7 @@ def questions(assignment: Assignment) -> list[Question]:
 
 def ask_in_order(
     evidence: Evidence,
-    speak: Speaker,
+    translate: Translator,
     *,
     only: Collection[str] | None = None,
     announce: Announce | None = None,
@@ -74,7 +74,7 @@ def ask_in_order(
             continue
         if announce is not None:
             announce(question)
-        result = _ask(question, evidence, speak)
+        result = _ask(question, evidence, translate)
         evidence.results[result.id] = result
         yield result
 
@@ -96,7 +96,7 @@ class _Found:
     blocked_by: str = ""
 
 
-def _ask(question: Question, evidence: Evidence, speak: Speaker) -> CheckResult:
+def _ask(question: Question, evidence: Evidence, translate: Translator) -> CheckResult:
     begin = time.monotonic()
     try:
         found = _found(question, evidence)
@@ -106,16 +106,16 @@ def _ask(question: Question, evidence: Evidence, speak: Speaker) -> CheckResult:
         found = _Found(status="error", actual=traceback.format_exc(limit=-4))
     return CheckResult(
         id=question.check.id,
-        title=speak(question.check.title),
+        title=translate(question.check.title),
         status=found.status,
         score=found.score,
         max_score=question.points,
         visibility=question.visibility,
-        rationale=speak(found.rationale),
-        expected=speak(found.expected),
-        actual=speak(found.actual),
-        fix=speak(found.fix),
-        advice=[speak(text) for text in found.advice],
+        rationale=translate(found.rationale),
+        expected=translate(found.expected),
+        actual=translate(found.actual),
+        fix=translate(found.fix),
+        advice=[translate(text) for text in found.advice],
         mistakes=list(found.mistakes),
         where=found.where,
         depends=list(question.depends),

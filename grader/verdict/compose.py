@@ -10,7 +10,7 @@ from pathlib import Path
 
 import grader
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.package.submission import Submission
 from grader.report import model
 from grader.ros.prefix import Ros
@@ -30,7 +30,7 @@ def compose(
     limits: Mapping[str, model.LimitInfo],
     timing: model.Timing,
     started: datetime,
-    speak: Speaker,
+    translate: Translator,
 ) -> model.Report:
     """Return the report of one submission; its texts are in the language of `speak`."""
     assignment, submission = evidence.assignment, evidence.submission
@@ -50,7 +50,7 @@ def compose(
             package=_package_name(submission),
             origin=submission.origin,
             modes=submission.modes,
-            notes=[speak(note) for note in submission.notes],
+            notes=[translate(note) for note in submission.notes],
         ),
         environment=model.Environment.model_validate(
             {
@@ -63,15 +63,15 @@ def compose(
             }
         ),
         status="graded",
-        message=speak(unknown) if open_ else "",
-        lang=speak.lang,
+        message=translate(unknown) if open_ else "",
+        lang=translate.lang,
         score=sum(r.score for r in results),
         max_score=assignment.max_score,
         checks=list(results),
         observed=_observed(run, assignment.output.period),
         evidence=model.Evidence(
-            build_log=_cut(build.log, speak) if build else "",
-            transcript=_cut(run.transcript, speak) if run else "",
+            build_log=_cut(build.log, translate) if build else "",
+            transcript=_cut(run.transcript, translate) if run else "",
         ),
         timing=timing,
         started=started.isoformat(),
@@ -118,10 +118,10 @@ def _observed(run: Run | None, period: float) -> model.Observed:
     )
 
 
-def _cut(text: str, speak: Speaker) -> str:
+def _cut(text: str, translate: Translator) -> str:
     """Return a text cut in its middle: how it began and how it ended tell the most."""
     if len(text) <= MOST_EVIDENCE:
         return text
     half = MOST_EVIDENCE // 2
     left_out = say("… {count} characters left out …", count=len(text) - 2 * half)
-    return f"{text[:half]}\n{speak(left_out)}\n{text[-half:]}"
+    return f"{text[:half]}\n{translate(left_out)}\n{text[-half:]}"

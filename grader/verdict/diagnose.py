@@ -61,7 +61,7 @@ class Diagnosis:
         return cls(
             mistakes=[failed.mistake],
             rationale=kind.rationale(values, failed.variant),
-            fix=failed.fix or kind.mend(values, failed.variant),
+            fix=failed.fix or kind.fix_text(values, failed.variant),
             expected=failed.expected,
             actual=failed.actual,
             where=failed.where,
@@ -143,7 +143,7 @@ def _explain(diagnosis: Diagnosis, found: Finding) -> None:
     kind = CATALOGUE[found.kind]
     values = {**found.params, **found.words}
     diagnosis.rationale = kind.rationale(values, found.variant)
-    diagnosis.fix = kind.mend(values, found.variant)
+    diagnosis.fix = kind.fix_text(values, found.variant)
     diagnosis.mistakes.insert(0, Mistake(id=found.kind, params=dict(found.params)))
     if found.where is not None and (found.where.line or diagnosis.where is None):
         diagnosis.where = found.where

@@ -1,4 +1,4 @@
-"""Mends one mistake after the other until none is left that can be mended, all in memory."""
+"""Fixes one mistake after the other until none is left that can be fixed, all in memory."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from grader.course.assignment import Assignment
 from grader.mistakes.fixes import syntax
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.case import Mend
+from grader.mistakes.fixes.case import Fix
 from grader.mistakes.fixes.case import finding_of
 from grader.mistakes.fixes.table import ADVISED
 from grader.mistakes.fixes.table import STATIC
-from grader.mistakes.fixes.table import mends_for
+from grader.mistakes.fixes.table import fixes_for
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.submission import Submission
@@ -24,7 +24,7 @@ from grader.report.model import CheckResult
 from grader.verdict.static import findings
 
 MOST_STEPS = 30
-"""How many mends one package gets at most: each mistake needs one, and a package has 16 checks."""
+"""How many fixes one package gets at most: each mistake needs one, and a package has 16 checks."""
 MOST_PATCH = 50_000
 """Bytes of a diff in a report: twice that of every line of an exercise."""
 Judge = Callable[[Files], list[Finding]]
@@ -32,11 +32,11 @@ Judge = Callable[[Files], list[Finding]]
 
 @dataclass(frozen=True)
 class Plan:
-    """The files as they are and as they would be, what was mended, and what is left."""
+    """The files as they are and as they would be, what was fixed, and what is left."""
 
     old: Files
     new: Files
-    mended: tuple[Finding, ...] = ()
+    fixed: tuple[Finding, ...] = ()
     left: tuple[Finding, ...] = ()
 
     @property
@@ -46,19 +46,19 @@ class Plan:
 
 
 def patch_for(result: CheckResult, submission: Submission, assignment: Assignment) -> str:
-    """Return the diff after which a check that failed passes; empty where no mend is certain.
+    """Return the diff after which a check that failed passes; empty where no fix is certain.
 
-    What only a run tells cannot be asked here again: there the mend knows the mistake by its form.
+    What only a run tells cannot be asked here again: there the fix knows the mistake by its form.
     """
     finding = finding_of(result)
     if finding is None or submission.root is None:
         return ""
     old = Files.of(submission)
     if finding.check in STATIC:
-        plan = mend_files(submission, assignment, only=finding.check)
+        plan = fix_files(submission, assignment, only=finding.check)
         new = old if any(f.check == finding.check for f in plan.left) else plan.new
     else:
-        new = first_mend(Case(old, finding, assignment), mends_for(finding)) or old
+        new = first_fix(Case(old, finding, assignment), fixes_for(finding)) or old
     patch = diff(old, new)
     if len(patch) > MOST_PATCH:
         return ""
@@ -68,37 +68,37 @@ def patch_for(result: CheckResult, submission: Submission, assignment: Assignmen
         return ""
 
 
-def mend_files(
+def fix_files(
     submission: Submission, assignment: Assignment, only: str = "", *, lang: str = SOURCE
 ) -> Plan:
-    """Mend what the files alone show to be wrong (in one check, if `only` names it)."""
+    """Fix what the files alone show to be wrong (in one check, if `only` names it)."""
 
     def judge(files: Files) -> list[Finding]:
         return findings(files, submission, assignment, only, lang=lang)
 
     old = Files.of(submission)
     if only:
-        return mend(old, assignment, judge)
+        return fix_all(old, assignment, judge)
     # (a setup.py that Python cannot read answers nothing: no check of the files fails by it)
     readable = syntax.setup_py(Case(old, Finding("", ""), assignment)) or old
-    plan = mend(readable, assignment, judge)
+    plan = fix_all(readable, assignment, judge)
     return _advised(replace(plan, old=old), assignment, judge)
 
 
-def mend(files: Files, assignment: Assignment, judge: Judge) -> Plan:
-    """Mend until the judge finds nothing more that can be mended.
+def fix_all(files: Files, assignment: Assignment, judge: Judge) -> Plan:
+    """Fix until the judge finds nothing more that can be fixed.
 
-    A mend after which the same is found again has not helped: it is taken back.
+    A fix after which the same is found again has not helped: it is taken back.
     """
-    start, mended = files, []
+    start, fixed = files, []
     found = judge(files)
     for _ in range(MOST_STEPS):
         step = _step(files, assignment, found, judge)
         if step is None:
             break
         done, files, found = step
-        mended.append(done)
-    return Plan(start, files, tuple(mended), tuple(found))
+        fixed.append(done)
+    return Plan(start, files, tuple(fixed), tuple(found))
 
 
 def _step(
@@ -109,7 +109,7 @@ def _step(
 ) -> tuple[Finding, Files, list[Finding]] | None:
     for finding in found:
         case = Case(files, finding, assignment)
-        for new in _tries(case, mends_for(finding)):
+        for new in _tries(case, fixes_for(finding)):
             after = judge(new)
             gone = finding.known_by not in [f.known_by for f in after]
             if gone and _no_worse(found, after, case):
@@ -125,15 +125,15 @@ def _no_worse(before: list[Finding], after: list[Finding], case: Case) -> bool:
     return all(order.index(check) > at for check in new)
 
 
-def _tries(case: Case, mends: Iterable[Mend]) -> Iterable[Files]:
-    for attempt in mends:
+def _tries(case: Case, fixes: Iterable[Fix]) -> Iterable[Files]:
+    for attempt in fixes:
         new = attempt(case)
         if new is not None and not _breaks_python(case.files, new):
             yield new
 
 
 def _breaks_python(old: Files, new: Files) -> bool:
-    """Whether a file that Python could read is one that it cannot read after a mend."""
+    """Whether a file that Python could read is one that it cannot read after a fix."""
     for path, file in new.by_path.items():
         before = old.by_path.get(path)
         changed = before is not None and before.data != file.data
@@ -144,9 +144,9 @@ def _breaks_python(old: Files, new: Files) -> bool:
     return False
 
 
-def first_mend(case: Case, mends: Iterable[Mend]) -> Files | None:
-    """Return what the first mend makes that is certain; None if none is."""
-    return next(iter(_tries(case, mends)), None)
+def first_fix(case: Case, fixes: Iterable[Fix]) -> Files | None:
+    """Return what the first fix makes that is certain; None if none is."""
+    return next(iter(_tries(case, fixes)), None)
 
 
 def _advised(plan: Plan, assignment: Assignment, judge: Judge) -> Plan:

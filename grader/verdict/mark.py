@@ -13,7 +13,7 @@ from datetime import timezone
 from pathlib import Path
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.package.submission import take_in
@@ -80,9 +80,9 @@ def mark(
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
     assignment = order.assignment
-    speak = Speaker(order.lang)
+    translate = Translator(order.lang)
     opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
-    listener(events.StageStarted("setup", speak(opening)))
+    listener(events.StageStarted("setup", translate(opening)))
     sandbox = open_sandbox(
         order.sandbox,
         order.distro,
@@ -94,7 +94,7 @@ def mark(
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
-        results = _decide(evidence, listener, speak)
+        results = _decide(evidence, listener, translate)
         limits = sandbox.limit_report()
     timing = model.Timing(
         setup=round(setup, 3),
@@ -112,7 +112,7 @@ def mark(
         limits=limits,
         timing=timing,
         started=started,
-        speak=speak,
+        translate=translate,
     )
 
 
@@ -129,10 +129,10 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
 
 
 def _decide(
-    evidence: Evidence, listener: events.Listener, speak: Speaker
+    evidence: Evidence, listener: events.Listener, translate: Translator
 ) -> list[model.CheckResult]:
-    stages = _Stages(listener, speak)
-    for result in ask_in_order(evidence, speak, announce=stages.announce):
+    stages = _Stages(listener, translate)
+    for result in ask_in_order(evidence, translate, announce=stages.announce):
         if result.status == "failed":
             patch = _patch(result, evidence, listener)
             evidence.results[result.id] = result.model_copy(update={"patch": patch})
@@ -144,9 +144,9 @@ def _decide(
 class _Stages:
     """Tells a listener of each check that is asked, and of the stage that it belongs to."""
 
-    def __init__(self, listener: events.Listener, speak: Speaker) -> None:
+    def __init__(self, listener: events.Listener, translate: Translator) -> None:
         self._listener = listener
-        self._speak = speak
+        self._speak = translate
         self._stage = ""
         self._begin = 0.0
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import NoReturn
 
 from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding
 from grader.mistakes.fixes.case import finding_of
@@ -29,7 +29,7 @@ def ask_files(
 ) -> Iterator[CheckResult]:
     """Ask in order; a check (of those in `only`) that needs a build or a run is inconclusive."""
     evidence = Evidence(assignment, submission, build=_not_here, run=_not_here)
-    return ask_in_order(evidence, Speaker(lang), only=only)
+    return ask_in_order(evidence, Translator(lang), only=only)
 
 
 def decided(

@@ -17,7 +17,7 @@ from grader.base.errors import UsageError
 from grader.base.gated_console import GatedConsole
 from grader.base.i18n.message import msg
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import chosen_language
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
@@ -62,14 +62,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 @click.argument("what", required=False, metavar="[N|list|all]")
 def command(workspace: Path, assignment: str | None, lang: str | None, what: str | None) -> None:
     """Print a step of the lesson."""
-    speak = Speaker(lang or chosen_language(os.environ))
+    translate = Translator(lang or chosen_language(os.environ))
     distro = os.environ.get("ROS_DISTRO") or DEFAULT
-    with errors_in(speak.lang):
+    with errors_in(translate.lang):
         file = assignment_file(assignment)
         wanted = load_assignment(file)
-        lesson = read_lesson(lesson_file(file.parent, speak.lang), distro=distro)
+        lesson = read_lesson(lesson_file(file.parent, translate.lang), distro=distro)
         found = progress(Place(workspace.expanduser(), wanted, os.environ), lesson.steps)
-        _show(what, _console(), lesson, [speak(action) for action in found], speak)
+        _show(what, _console(), lesson, [translate(action) for action in found], translate)
 
 
 def _console() -> GatedConsole:
@@ -80,19 +80,23 @@ def _console() -> GatedConsole:
 
 
 def _show(
-    what: str | None, console: GatedConsole, lesson: Lesson, found: Sequence[str], speak: Speaker
+    what: str | None,
+    console: GatedConsole,
+    lesson: Lesson,
+    found: Sequence[str],
+    translate: Translator,
 ) -> None:
     if what == "list":
-        _show_list(console, lesson, found, speak)
+        _show_list(console, lesson, found, translate)
     elif what == "all":
         _show_markdown(console, lesson.introduction)
         for step in lesson.steps:
-            _show_step(console, step, lesson, speak)
+            _show_step(console, step, lesson, translate)
     else:
         place = _place(what, lesson) if what else current(found)
-        _show_step(console, lesson.steps[place - 1], lesson, speak)
+        _show_step(console, lesson.steps[place - 1], lesson, translate)
         if what is None:
-            _show_next(console, found[place - 1], speak)
+            _show_next(console, found[place - 1], translate)
 
 
 def _place(word: str, lesson: Lesson) -> int:
@@ -111,18 +115,20 @@ def _place(word: str, lesson: Lesson) -> int:
     )
 
 
-def _show_list(console: GatedConsole, lesson: Lesson, found: Sequence[str], speak: Speaker) -> None:
+def _show_list(
+    console: GatedConsole, lesson: Lesson, found: Sequence[str], translate: Translator
+) -> None:
     here = current(found)
     for place, step in enumerate(lesson.steps, start=1):
         done = not found[place - 1] and (bool(step.done) or place < here)
         mark = "x" if done else ">" if place == here else " "
         style = "green" if done else "bold" if place == here else ""
         console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
-    _show_next(console, found[here - 1], speak)
+    _show_next(console, found[here - 1], translate)
 
 
-def _show_step(console: GatedConsole, step: Step, lesson: Lesson, speak: Speaker) -> None:
-    heading = speak(
+def _show_step(console: GatedConsole, step: Step, lesson: Lesson, translate: Translator) -> None:
+    heading = translate(
         say(
             "Step {number} of {count}: {title}",
             number=step.number,
@@ -150,6 +156,6 @@ def _show_markdown(console: GatedConsole, text: str) -> None:
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 
-def _show_next(console: GatedConsole, action: str, speak: Speaker) -> None:
-    label = speak(say("Next: "))
+def _show_next(console: GatedConsole, action: str, translate: Translator) -> None:
+    label = translate(say("Next: "))
     console.print(Text.assemble((label, "bold green"), action or "check"), soft_wrap=True)

@@ -1,4 +1,4 @@
-"""What the tests of mends stand on: packages of the corpus, mended in memory and by real tools."""
+"""What the tests of fixes stand on: packages of the corpus, fixed in memory and by real tools."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from grader.package.submission import Submission
 from grader.package.submission import take_in
 from grader.validate.tree import Edit
 from grader.verdict.fix import Plan
-from grader.verdict.fix import mend_files
+from grader.verdict.fix import fix_files
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.static_bench import ASSIGNMENT
@@ -30,8 +30,8 @@ def edited(folder: Path, *edits: Edit, name: str = "edited") -> Path:
 
 
 def plan_of(path: Path) -> Plan:
-    """Return what the files alone have mended."""
-    return mend_files(taken(path), ASSIGNMENT)
+    """Return what the files alone have fixed."""
+    return fix_files(taken(path), ASSIGNMENT)
 
 
 def contents(files: Files) -> dict[str, bytes]:

@@ -39,7 +39,7 @@ def test_a_dry_run_is_the_default_and_prints_what_apply_writes(tmp_path: Path) -
     assert stage.run(stage.grader("fix", "--dry-run", "--no-run", root)).stdout == done.stdout
     copy = with_tool(TOOLS[0], done.stdout.encode(), root)
     assert plan_of(copy).patch == b""
-    assert "mends  package.manifest" in done.stderr
+    assert "fixes  package.manifest" in done.stderr
     assert "--apply" in done.stderr
 
 
@@ -54,7 +54,7 @@ def test_apply_writes_and_says_where_the_old_files_are(tmp_path: Path) -> None:
     assert "Nothing is wrong" in again.stderr
 
 
-def test_what_cannot_be_mended_is_named_and_the_status_is_1(tmp_path: Path) -> None:
+def test_what_cannot_be_fixed_is_named_and_the_status_is_1(tmp_path: Path) -> None:
     root = edited(tmp_path, EMPTY, NAME)
     done = stage.run(stage.grader("fix", "--apply", root))
     assert done.returncode == 1
@@ -63,12 +63,12 @@ def test_what_cannot_be_mended_is_named_and_the_status_is_1(tmp_path: Path) -> N
     assert plan_of(root).new.data(MANIFEST) == (root / MANIFEST).read_bytes()
 
 
-def test_one_check_alone_can_be_mended(tmp_path: Path) -> None:
+def test_one_check_alone_can_be_fixed(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, Delete(MARKER), Chmod(NODE, 0o644))
     done = stage.run(stage.grader("fix", "--apply", "--check", "package.marker", root))
     assert done.returncode == 0, done.stderr
     assert (root / MARKER).is_file()
-    assert {finding.check for finding in plan_of(root).mended} == {
+    assert {finding.check for finding in plan_of(root).fixed} == {
         *("package.manifest", "source.exec_bit"),
     }
 
@@ -89,7 +89,7 @@ def test_a_comma_that_setup_py_lacks_is_put_in_without_a_run(tmp_path: Path) -> 
     assert "version='0.0.0'," in (root / SETUP).read_text()
 
 
-def test_a_workspace_is_mended_where_its_package_lies(tmp_path: Path) -> None:
+def test_a_workspace_is_fixed_where_its_package_lies(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     workspace = tmp_path / "ros2_ws"
     shutil.copytree(root, workspace / "src" / INNER)
@@ -181,7 +181,7 @@ def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path)
 
 
 @pytest.mark.prefix
-def test_what_only_a_run_shows_is_mended_and_run_again(tmp_path: Path) -> None:
+def test_what_only_a_run_shows_is_fixed_and_run_again(tmp_path: Path) -> None:
     root = edited(
         tmp_path,
         Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"),

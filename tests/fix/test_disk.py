@@ -174,7 +174,7 @@ def test_other_names_of_a_file_keep_its_old_bytes(tmp_path: Path) -> None:
     assert (tmp_path / "another name").read_bytes() == old != (root / MANIFEST).read_bytes()
 
 
-def test_a_link_in_the_package_is_never_mended(tmp_path: Path) -> None:
+def test_a_link_in_the_package_is_never_fixed(tmp_path: Path) -> None:
     root = edited(tmp_path, ENTRY)
     (root / SETUP).rename(root / "real_setup.txt")
     (root / SETUP).symlink_to("real_setup.txt")

@@ -1,4 +1,4 @@
-"""Mistakes in the forms in which packages are really written: each is mended, and only it."""
+"""Mistakes in the forms in which packages are really written: each is fixed, and only it."""
 
 from __future__ import annotations
 
@@ -195,7 +195,7 @@ MORE: dict[str, tuple[Edit, ...]] = {
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_it_is_mended(form: str, tmp_path: Path) -> None:
+def test_it_is_fixed(form: str, tmp_path: Path) -> None:
     edit, (path, wanted) = FORMS[form]
     plan = plan_of(edited(tmp_path, edit, *MORE.get(form, ())))
     assert not plan.left, plan.left
@@ -208,7 +208,7 @@ def test_it_is_mended(form: str, tmp_path: Path) -> None:
     assert changed == [path]
 
 
-# What is computed, or where two mends are possible, is the student's own to change.
+# What is computed, or where two fixes are possible, is the student's own to change.
 UNCERTAIN: dict[str, tuple[Edit, ...]] = {
     "entries by a function": (points("    entry_points={'console_scripts': entries()},\n"),
                               Replace(SETUP, "\nsetup(", "\ndef entries():\n    return []\n\n\nsetup(")),

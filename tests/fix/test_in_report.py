@@ -1,4 +1,4 @@
-"""The change in a report is the one that mends: applied by git, the check that failed passes."""
+"""The change in a report is the one that fixes: applied by git, the check that failed passes."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ BY_NAME = {package.name: package for package in BROKEN}
         pytest.param("printed", marks=pytest.mark.full),
     ],
 )
-def test_the_change_in_a_report_mends_the_check_that_failed(name: str, tmp_path: Path) -> None:
+def test_the_change_in_a_report_fixes_the_check_that_failed(name: str, tmp_path: Path) -> None:
     handed_in = write(BY_NAME[name], tmp_path)
     report = mark(handed_in)
     first = next(check for check in report.checks if check.status == "failed")
-    mended = mark(with_tool(TOOLS[0], first.patch.encode(), handed_in))
-    now = {check.id: check.status for check in mended.checks}
+    fixed = mark(with_tool(TOOLS[0], first.patch.encode(), handed_in))
+    now = {check.id: check.status for check in fixed.checks}
     assert now[first.id] == "passed"
-    assert first.patch not in [check.patch for check in mended.checks]
+    assert first.patch not in [check.patch for check in fixed.checks]
 
 
 def test_what_passes_has_no_change(tmp_path: Path) -> None:

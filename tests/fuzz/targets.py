@@ -38,8 +38,8 @@ from grader.package.source.setup_py import read_setup_py
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
 from grader.verdict.checks.build import python_error
-from grader.verdict.fix import first_mend
-from grader.verdict.fix import mend_files
+from grader.verdict.fix import first_fix
+from grader.verdict.fix import fix_files
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import CFG
 from tests.corpus.model import MANIFEST
@@ -148,13 +148,13 @@ def _with(path: str, found: bytes) -> Submission:
     )
 
 
-def _mended(path: str, check: str) -> Target:
+def _fixed(path: str, check: str) -> Target:
     def target(found: bytes) -> None:
         submission = _with(path, found)
-        plan = mend_files(submission, ASSIGNMENT, check)
+        plan = fix_files(submission, ASSIGNMENT, check)
         diff(plan.old, plan.new)
-        again = mend_files(plan.new.put_into(submission), ASSIGNMENT, check)
-        assert not again.mended, (again.mended, plan.mended)
+        again = fix_files(plan.new.put_into(submission), ASSIGNMENT, check)
+        assert not again.fixed, (again.fixed, plan.fixed)
         new = plan.new.data(path)
         if path.endswith(".py") and fault_of(found) is None:
             assert new is not None
@@ -163,10 +163,10 @@ def _mended(path: str, check: str) -> Target:
     return target
 
 
-def node_mends(found: bytes) -> None:
+def node_fixes(found: bytes) -> None:
     files = Files.of(_with(NODE, found))
-    for mistake, mends in BY_MISTAKE.items():
-        new = first_mend(Case(files, Finding("run.output", mistake), ASSIGNMENT), mends)
+    for mistake, fixes in BY_MISTAKE.items():
+        new = first_fix(Case(files, Finding("run.output", mistake), ASSIGNMENT), fixes)
         if new is not None:
             diff(files, new)
 
@@ -179,13 +179,13 @@ TARGETS: dict[str, Target] = {
     "build_log": build_log,
     "terminal": terminal,
     "diagnosis": diagnosis,
-    "mend_manifest": _mended(MANIFEST, "package.manifest"),
-    "mend_setup_py": _mended(SETUP, "entry_point.mapping"),
-    "mend_setup_cfg": _mended(CFG, "package.setup_cfg"),
-    "mend_node": _mended(NODE, "source.node_file"),
-    "mend_first_line": _mended(NODE, "source.shebang"),
-    "mend_data_files": _mended(SETUP, "package.marker"),
-    "node_mends": node_mends,
+    "fix_manifest": _fixed(MANIFEST, "package.manifest"),
+    "fix_setup_py": _fixed(SETUP, "entry_point.mapping"),
+    "fix_setup_cfg": _fixed(CFG, "package.setup_cfg"),
+    "fix_node": _fixed(NODE, "source.node_file"),
+    "fix_first_line": _fixed(NODE, "source.shebang"),
+    "fix_data_files": _fixed(SETUP, "package.marker"),
+    "node_fixes": node_fixes,
 }
 SEEDS: dict[str, bytes] = {
     "python": RIGHT[NODE],
@@ -197,12 +197,12 @@ SEEDS: dict[str, bytes] = {
     "terminal": b"[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0\r\n\x1b[31mTraceback"
     b' (most recent call last):\r\n  File "a/b.py", line 1\r\nTypeError: f() missing\r\n',
     "diagnosis": RIGHT[NODE],
-    "mend_manifest": RIGHT[MANIFEST],
-    "mend_setup_py": RIGHT[SETUP],
-    "mend_setup_cfg": RIGHT[CFG],
-    "mend_node": RIGHT[NODE],
-    "mend_first_line": RIGHT[NODE],
-    "mend_data_files": RIGHT[SETUP],
-    "node_mends": RIGHT[NODE],
+    "fix_manifest": RIGHT[MANIFEST],
+    "fix_setup_py": RIGHT[SETUP],
+    "fix_setup_cfg": RIGHT[CFG],
+    "fix_node": RIGHT[NODE],
+    "fix_first_line": RIGHT[NODE],
+    "fix_data_files": RIGHT[SETUP],
+    "node_fixes": RIGHT[NODE],
 }
 """A right example for each target, to begin from."""

@@ -30,7 +30,7 @@ def test_real_reports_are_results_that_gradescope_reads(mixed: ClassResult) -> N
         ]
 
 
-def test_a_failed_check_tells_what_was_found_and_how_to_mend_it(broken: Report) -> None:
+def test_a_failed_check_tells_what_was_found_and_how_to_fix_it(broken: Report) -> None:
     tests = {t["extra_data"]["check"]: t for t in gradescope.results(broken)["tests"]}
     output = tests["run.output"]["output"]
     assert tests["run.output"]["status"] == "failed"

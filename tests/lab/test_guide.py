@@ -51,7 +51,7 @@ def test_after_a_step_the_next_one_is_current(step: int, tmp_path: Path) -> None
     assert now[:step] == ("",) * step
 
 
-def test_a_terminal_without_ros_is_the_first_thing_to_mend(tmp_path: Path) -> None:
+def test_a_terminal_without_ros_is_the_first_thing_to_fix(tmp_path: Path) -> None:
     after_step(tmp_path / "ws", 9, NODE)
     assert found(tmp_path / "ws", {})[0] == "source /opt/ros/jazzy/setup.bash"
     assert found(tmp_path / "ws", {"ROS_DISTRO": "kilted"})[0].endswith("kilted/setup.bash")

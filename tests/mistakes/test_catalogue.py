@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.catalogue import RANK
 from grader.mistakes.from_source import LOOKS
@@ -81,13 +81,13 @@ def test_there_are_many_kinds_over_all_stages() -> None:
 @pytest.mark.parametrize("kind", entries())
 def test_an_entry_can_be_read_in_every_language(kind: Kind) -> None:
     for lang in ("en", "ko"):
-        speak = Speaker(lang)
-        assert speak(kind.rationale(filled(kind.why, {}))).strip()
-        assert speak(kind.mend(filled(kind.fix, {}))).strip()
+        translate = Translator(lang)
+        assert translate(kind.rationale(filled(kind.why, {}))).strip()
+        assert translate(kind.fix_text(filled(kind.fix, {}))).strip()
         for variant, fix in kind.fixes.items():
-            assert speak(kind.mend(filled(fix, {}), variant)).strip()
+            assert translate(kind.fix_text(filled(fix, {}), variant)).strip()
         for variant, why in kind.whys.items():
-            assert speak(kind.rationale(filled(why, {}), variant)).strip()
+            assert translate(kind.rationale(filled(why, {}), variant)).strip()
     assert kind.title.strip()
     assert not [field for _, field, _, _ in string.Formatter().parse(kind.title) if field]
 

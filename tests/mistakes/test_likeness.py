@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.nearest import compared
 from grader.base.nearest import marks
 from grader.base.nearest import meant
@@ -72,5 +72,5 @@ def test_capitals_do_not_keep_a_name_from_being_near() -> None:
     assert nearest("xyz", ["timer_callback"]) == ""
     assert meant("") == ""
     assert "'main'" in meant("main")
-    assert "main" in Speaker("ko")(meant("main"))
-    assert "mean" not in Speaker("ko")(meant("main"))
+    assert "main" in Translator("ko")(meant("main"))
+    assert "mean" not in Translator("ko")(meant("main"))

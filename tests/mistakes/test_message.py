@@ -14,7 +14,7 @@ from grader.base.i18n.message import Message
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import msg
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import chosen_language
 
 DICTIONARY = {"a cat {what}": "eine Katze {what}", "in {place}": "in {place} drin", "red": "rot"}
@@ -34,29 +34,29 @@ def test_a_text_reads_as_english_wherever_a_string_goes() -> None:
 def test_what_fills_a_text_is_translated_with_it() -> None:
     text = say("a cat {what}", what=say("in {place}", place=say("red")))
     assert text == "a cat in red"
-    assert text.told(german) == "eine Katze in rot drin"
+    assert text.translated(german) == "eine Katze in rot drin"
 
 
 def test_joined_texts_are_translated_each_by_itself_and_empty_ones_left_out() -> None:
     text = joined(say("red"), "", "42", say("in {place}", place="X"), by=", ")
     assert text == "red, 42, in X"
-    assert text.told(german) == "rot, 42, in X drin"
+    assert text.translated(german) == "rot, 42, in X drin"
 
 
 def test_a_sum_of_texts_can_still_be_translated() -> None:
     for text in (say("red") + " 1", "1 " + say("red")):
         assert isinstance(text, Message)
-        assert "rot" in text.told(german)
+        assert "rot" in text.translated(german)
 
 
 @given(st.text())
 def test_what_a_student_wrote_is_never_taken_for_a_template(name: str) -> None:
-    assert say("a cat {what}", what=name).told(german) == f"eine Katze {name}"
+    assert say("a cat {what}", what=name).translated(german) == f"eine Katze {name}"
 
 
 @given(st.text(alphabet=string.ascii_letters + "{} ", max_size=20))
 def test_a_value_with_braces_stays_as_it_is(value: str) -> None:
-    assert joined(say("red"), value or "x").told(german) == f"rot {value or 'x'}"
+    assert joined(say("red"), value or "x").translated(german) == f"rot {value or 'x'}"
 
 
 def test_a_missing_value_is_an_error_at_once_and_not_at_the_reader() -> None:
@@ -68,7 +68,7 @@ def test_a_missing_value_is_an_error_at_once_and_not_at_the_reader() -> None:
 def test_a_text_survives_being_copied_and_sent(text: Message) -> None:
     for again in (copy.deepcopy(text), pickle.loads(pickle.dumps(text))):
         assert again == text
-        assert again.told(german) == text.told(german)
+        assert again.translated(german) == text.translated(german)
 
 
 @pytest.mark.parametrize(
@@ -106,10 +106,12 @@ def test_an_own_language_comes_before_the_locale_s() -> None:
 
 
 def test_a_language_that_nobody_speaks_is_english() -> None:
-    assert Speaker("tlh").lang == "en"
-    assert Speaker("tlh")(say("there is no setup.cfg")) == "there is no setup.cfg"
+    assert Translator("tlh").lang == "en"
+    assert Translator("tlh")(say("there is no setup.cfg")) == "there is no setup.cfg"
 
 
 def test_korean_is_spoken() -> None:
-    assert Speaker("ko")(say("there is no setup.cfg")) == "setup.cfg가 없습니다"
-    assert Speaker("ko")("there is no setup.cfg") == "there is no setup.cfg", "not ours: as it is"
+    assert Translator("ko")(say("there is no setup.cfg")) == "setup.cfg가 없습니다"
+    assert Translator("ko")("there is no setup.cfg") == "there is no setup.cfg", (
+        "not ours: as it is"
+    )

@@ -1,6 +1,6 @@
 """A text that is English and can still be said in another language.
 
-Who makes a text does not know who will read it. `say` keeps what it was made of; a `Speaker`
+Who makes a text does not know who will read it. `say` keeps what it was made of; a `Translator`
 (grader.base.i18n.translator) says it again in the reader's language. Read as a plain string it is
 English, so it may go wherever a string goes.
 """
@@ -38,7 +38,7 @@ class Message(str):
     def __radd__(self, other: str) -> str:
         return joined(other, self, by="")
 
-    def told(self, translate: Translate) -> str:
+    def translated(self, translate: Translate) -> str:
         """Return the text in another language; what fills it is translated as well."""
         values = {name: _told(value, translate) for name, value in self.params.items()}
         return translate(self.template).format(**values)
@@ -62,13 +62,13 @@ class Joined(Message):
     def __reduce__(self) -> tuple[object, ...]:
         return Joined, (self.parts, self.by)
 
-    def told(self, translate: Translate) -> str:
+    def translated(self, translate: Translate) -> str:
         """Return the parts in another language, joined in the same way."""
         return self.by.join(str(_told(part, translate)) for part in self.parts)
 
 
 def _told(value: Value, translate: Translate) -> Value:
-    return value.told(translate) if isinstance(value, Message) else value
+    return value.translated(translate) if isinstance(value, Message) else value
 
 
 def say(template: str, **params: Value) -> Message:

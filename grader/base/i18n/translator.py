@@ -20,7 +20,7 @@ SOURCE = "en"  # the language of the templates
 OWN = "GRADER_LANG"  # names the language where the locale cannot: a container has only C.UTF-8
 
 
-class Speaker:
+class Translator:
     """Says texts in one language; what has no translation is said in English."""
 
     def __init__(self, lang: str) -> None:
@@ -30,7 +30,7 @@ class Speaker:
         """Return a text in the language; what is no `Message` (a name, code) stays as it is."""
         if not isinstance(text, Message):
             return text
-        return text.told(self._translate) if self.lang != SOURCE else str(text)
+        return text.translated(self._translate) if self.lang != SOURCE else str(text)
 
     def _translate(self, template: str) -> str:
         return translated(template, self.lang)
@@ -56,8 +56,8 @@ def errors_in(lang: str | None) -> Iterator[None]:
     try:
         yield
     except GraderError as error:
-        speak = Speaker(lang or chosen_language(os.environ))
-        error.message, error.remedy = speak(error.message), speak(error.remedy)
+        translate = Translator(lang or chosen_language(os.environ))
+        error.message, error.remedy = translate(error.message), translate(error.remedy)
         raise
 
 

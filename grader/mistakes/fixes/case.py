@@ -1,4 +1,4 @@
-"""What a mend is given: the files, what was found wrong with them, and what is asked for."""
+"""What a fix is given: the files, what was found wrong with them, and what is asked for."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Finding:
 
     @property
     def known_by(self) -> tuple[object, ...]:
-        """What tells this finding from others: if a mend leaves it as it was, it did not help."""
+        """What tells this finding from others: if a fix leaves it as it was, it did not help."""
         return self.check, self.mistake, self.actual
 
 
@@ -59,8 +59,8 @@ class Case:
         return None if same or data is None else self.files.with_data(path, data)
 
 
-Mend = Callable[[Case], "Files | None"]
-"""Returns the files as they would be, or None where no mend is certain."""
+Fix = Callable[[Case], "Files | None"]
+"""Returns the files as they would be, or None where no fix is certain."""
 
 
 def finding_of(result: CheckResult) -> Finding | None:

@@ -1,4 +1,4 @@
-"""Mends of the entry points, in setup.py or in setup.cfg."""
+"""Fixes of the entry points, in setup.py or in setup.cfg."""
 
 from __future__ import annotations
 

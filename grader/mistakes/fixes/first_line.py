@@ -1,4 +1,4 @@
-"""Mends of the node's first line, and of the line ends that spoil it."""
+"""Fixes of the node's first line, and of the line ends that spoil it."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ def _is_python(found: bytes) -> bool:
 
 
 def shebang(case: Case) -> Files | None:
-    """Put the shebang on line 1: moved up, mended, or written anew."""
+    """Put the shebang on line 1: moved up, fixed, or written anew."""
     found = case.files.data(case.node_path)
     text = read_source(found)
     if found is None or text is None or text.mark or not found.strip():
         return None
     first = text.line(1)
     if text.newline != "\n":
-        # a line that ends as on Windows does not do: the whole file is mended with it
+        # a line that ends as on Windows does not do: the whole file is fixed with it
         found = found.replace(b"\r\n", b"\n")
         text = read_source(found)
         if text is None or "\r" in text.text:

@@ -1,4 +1,4 @@
-"""Mends of what lies where: the marker, the node's file, the inner folder, the exec bit."""
+"""Fixes of what lies where: the marker, the node's file, the inner folder, the exec bit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mends of package.xml. They work on its bytes: expat tells where in them a tag begins."""
+"""Fixes of package.xml. They work on its bytes: expat tells where in them a tag begins."""
 
 from __future__ import annotations
 
@@ -190,7 +190,7 @@ def version(case: Case) -> Files | None:
 
 
 def well_formed(case: Case) -> Files | None:
-    """Mend an end tag that has not the name of its start tag, or a bare `&`."""
+    """Fix an end tag that has not the name of its start tag, or a bare `&`."""
     found = case.files.data(FILE)
     if found is None or len(found) > MOST_BYTES or case.finding.mistake != "package.broken_xml":
         return None

@@ -1,4 +1,4 @@
-"""The node's file as syntax: its class, its methods, its calls, for the mends of what a run shows."""
+"""The node's file as syntax: its class, its methods, its calls, for the fixes of what a run shows."""
 
 from __future__ import annotations
 

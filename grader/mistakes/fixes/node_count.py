@@ -1,4 +1,4 @@
-"""Mends of how the node counts."""
+"""Fixes of how the node counts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mends of what keeps a node from starting, or gives it another name."""
+"""Fixes of what keeps a node from starting, or gives it another name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mends of what the node says."""
+"""Fixes of what the node says."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def text(case: Case) -> Files | None:
 
 
 def _formatted(code: NodeCode, said: ast.expr, before: str) -> Files | None:
-    """Mend the text in front of the one place of an f-string."""
+    """Fix the text in front of the one place of an f-string."""
     written = code.source.code(said)
     match = re.fullmatch(r"([fF])(['\"])([^{}'\"\\]+)(\{[^{}'\"\\]+\})\2", written)
     if not isinstance(said, ast.JoinedStr) or match is None or not _near(match[3], before):

@@ -1,4 +1,4 @@
-"""Mends of names that are nearly right: of the module, of main, of the counter."""
+"""Fixes of names that are nearly right: of the module, of main, of the counter."""
 
 from __future__ import annotations
 

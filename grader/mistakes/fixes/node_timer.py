@@ -1,4 +1,4 @@
-"""Mends of the timer and its callback."""
+"""Fixes of the timer and its callback."""
 
 from __future__ import annotations
 

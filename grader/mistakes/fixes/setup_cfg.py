@@ -1,4 +1,4 @@
-"""Mends of setup.cfg."""
+"""Fixes of setup.cfg."""
 
 from __future__ import annotations
 

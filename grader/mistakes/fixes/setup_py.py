@@ -1,4 +1,4 @@
-"""Mends of setup.py but for its entry points: the package's name, the marker, what stops it."""
+"""Fixes of setup.py but for its entry points: the package's name, the marker, what stops it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def name(case: Case) -> Files | None:
 
 
 def marker(case: Case) -> Files | None:
-    """Let data_files install the marker: mend the name that it names, or add the lost line."""
+    """Let data_files install the marker: fix the name that it names, or add the lost line."""
     setup = read_setup_call(case)
     if setup is None:
         return None

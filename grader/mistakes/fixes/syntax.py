@@ -1,4 +1,4 @@
-"""Mends of Python that Python cannot read, where only one small change makes it readable."""
+"""Fixes of Python that Python cannot read, where only one small change makes it readable."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ TRIES = 3
 
 
 def node(case: Case) -> Files | None:
-    """Mend the node's file."""
-    return _mended(case, case.node_path)
+    """Fix the node's file."""
+    return _fixed(case, case.node_path)
 
 
 def setup_py(case: Case) -> Files | None:
-    """Mend setup.py."""
-    return _mended(case, "setup.py")
+    """Fix setup.py."""
+    return _fixed(case, "setup.py")
 
 
 def fault_of(found: bytes) -> PythonFault | None:
@@ -36,7 +36,7 @@ def fault_of(found: bytes) -> PythonFault | None:
     return None
 
 
-def _mended(case: Case, path: str) -> Files | None:
+def _fixed(case: Case, path: str) -> Files | None:
     found = case.files.data(path)
     for _ in range(TRIES):
         fault = fault_of(found) if found is not None else None

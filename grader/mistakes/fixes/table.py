@@ -1,4 +1,4 @@
-"""Which mends there are for which check, in the order in which they are tried."""
+"""Which fixes there are for which check, in the order in which they are tried."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from grader.mistakes.fixes import setup_cfg
 from grader.mistakes.fixes import setup_py
 from grader.mistakes.fixes import syntax
 from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.case import Mend
+from grader.mistakes.fixes.case import Fix
 
-STATIC: dict[str, tuple[Mend, ...]] = {
+STATIC: dict[str, tuple[Fix, ...]] = {
     "package.manifest": (
         manifest.rename,
         manifest.well_formed,
@@ -45,9 +45,9 @@ STATIC: dict[str, tuple[Mend, ...]] = {
         entries.added,
     ),
 }
-"""Mends of what the files alone show: whether one has helped is seen by asking again."""
+"""Fixes of what the files alone show: whether one has helped is seen by asking again."""
 
-BY_MISTAKE: dict[str, tuple[Mend, ...]] = {
+BY_MISTAKE: dict[str, tuple[Fix, ...]] = {
     "build.setup_error": (syntax.setup_py, setup_py.setuptools),
     "build.setup_prints": (setup_py.prints,),
     "source.no_init_file": (layout.init_file,),
@@ -117,14 +117,14 @@ BY_MISTAKE: dict[str, tuple[Mend, ...]] = {
     "node.print_used": (node_log.logger, node_log.only_logged),
     "run.print_not_logger": (node_log.logger,),
 }
-"""Mends of what a build or a run has shown, by the mistake that was recognised in it: they look at
+"""Fixes of what a build or a run has shown, by the mistake that was recognised in it: they look at
 the form of the code, and return None where it is not the one that they know.
 """
 
-ADVISED: tuple[Mend, ...] = (manifest.depend, layout.init_file, setup_cfg.dashes)
-"""Mends of what costs no points by itself, or only once the node is run."""
+ADVISED: tuple[Fix, ...] = (manifest.depend, layout.init_file, setup_cfg.dashes)
+"""Fixes of what costs no points by itself, or only once the node is run."""
 
 
-def mends_for(finding: Finding) -> tuple[Mend, ...]:
-    """Return the mends that may help with what a check has found."""
+def fixes_for(finding: Finding) -> tuple[Fix, ...]:
+    """Return the fixes that may help with what a check has found."""
     return (*STATIC.get(finding.check, ()), *BY_MISTAKE.get(finding.mistake, ()))

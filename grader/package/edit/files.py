@@ -1,4 +1,4 @@
-"""A package's files as they are, and as they would be after a mend."""
+"""A package's files as they are, and as they would be after a fix."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Files:
         return found.data if found is not None else None
 
     def through_link(self, path: str) -> bool:
-        """Whether the way to a path goes through a link: such a file is never mended."""
+        """Whether the way to a path goes through a link: such a file is never fixed."""
         links = {name: f.target for name, f in self.by_path.items() if f.kind == "link"}
         return follow(path, links).place != path
 

@@ -16,7 +16,7 @@ from grader.package.source.python import ENCODINGS
 LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+\Z")
 BOM = codecs.BOM_UTF8
 MOST_BYTES = 20_000
-"""A longer file is not mended: each mend reads it anew, and an exercise's has a tenth of that."""
+"""A longer file is not fixed: each fix reads it anew, and an exercise's has a tenth of that."""
 
 
 @dataclass(frozen=True)

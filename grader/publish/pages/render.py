@@ -21,7 +21,7 @@ from markupsafe import escape
 from grader.base.i18n.message import Message
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import one_line
 from grader.base.plain_text import points
 from grader.base.plain_text import shorten
@@ -50,7 +50,7 @@ class Renderer:
     def __init__(self, *, lang: str = SOURCE, **values: object) -> None:
         self._css = (TEMPLATES / "site.css").read_text(encoding="utf-8")
         self._js = (TEMPLATES / "site.js").read_text(encoding="utf-8")
-        self._environment = _environment(Speaker(lang))
+        self._environment = _environment(Translator(lang))
         self._environment.globals.update(values)
 
     def page(self, template: str, *, script: bool, **values: object) -> bytes:
@@ -62,18 +62,18 @@ class Renderer:
         return text.encode()
 
 
-def _environment(speak: Speaker) -> Environment:
+def _environment(translate: Translator) -> Environment:
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
         undefined=StrictUndefined,
-        finalize=lambda value: _tamed(speak(value) if isinstance(value, Message) else value),
+        finalize=lambda value: _tamed(translate(value) if isinstance(value, Message) else value),
         trim_blocks=True,
         lstrip_blocks=True,
     )
     environment.filters.update(seconds="{:.3f} s".format, whole=_whole)
     environment.globals.update(
-        lang=speak.lang,
+        lang=translate.lang,
         say=say,
         all_of=all_of,
         hidden_checks=hidden_checks,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.batch.model import Entry
 from grader.batch.model import Override
@@ -79,17 +79,17 @@ def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> Stud
 
     Without `show_hidden` there is no word of hidden checks.
     """
-    speak = Speaker(lang)
+    translate = Translator(lang)
     report = entry.report
     checks = shown(entry, show_hidden=show_hidden)
     visible = {check.id for check in checks}
     evidence = report.evidence if report else None
     return StudentView(
         entry=entry,
-        checks=tuple(_check(check, entry, visible, speak) for check in checks),
+        checks=tuple(_check(check, entry, visible, translate) for check in checks),
         hidden=len(report.checks) - len(checks) if report else 0,
-        reckoning=tuple(speak(line) for line in reckoning(entry, visible)),
-        facts=tuple((speak(name), speak(value)) for name, value in _facts(entry) if value),
+        reckoning=tuple(translate(line) for line in reckoning(entry, visible)),
+        facts=tuple((translate(name), translate(value)) for name, value in _facts(entry) if value),
         details=tuple((n, v) for n, v in _details(report) if v) if report else (),
         timeline=timeline(report.observed) if report else None,
         transcript=_log(evidence.transcript) if evidence else "",
@@ -97,18 +97,20 @@ def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> Stud
     )
 
 
-def _check(check: CheckResult, entry: Entry, visible: set[str], speak: Speaker) -> CheckView:
+def _check(check: CheckResult, entry: Entry, visible: set[str], translate: Translator) -> CheckView:
     assert entry.report is not None
     because: list[str] = []
     if check.status == "skipped":
         names = [o.id if o.id in visible else UNSEEN for o in roots(check, entry.report.checks)]
-        because = [speak(name) for name in dict.fromkeys(names)]
+        because = [translate(name) for name in dict.fromkeys(names)]
     _, title = evidence_of(check, entry.report.evidence)
     log = next((place for start, place in LOGS.items() if title.startswith(start)), "")
     return CheckView(
         check=check,
         fields=tuple(
-            Field(speak(f.label), speak(f.text), f.code) for f in _fields(check) if f.text.strip()
+            Field(translate(f.label), translate(f.text), f.code)
+            for f in _fields(check)
+            if f.text.strip()
         ),
         because=tuple(because),
         override=next((o for o in entry.overrides if o.check == check.id), None),

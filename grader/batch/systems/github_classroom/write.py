@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import one_line
 from grader.base.plain_text import points
 from grader.batch.check_text import check_text
@@ -35,11 +35,11 @@ COMMAND = re.compile(r"^(\s*:)(?=:)|(##)(?=\[)", re.MULTILINE)
 
 def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
     """Return the runner's result; hidden checks are one test (the log is the student's to read)."""
-    report, speak = entry.report, Speaker(entry.lang)
+    report, translate = entry.report, Translator(entry.lang)
     if report is None or entry.final is None:
         nothing = say("There are no points yet.")
         message = entry.problem or (report.message if report else "") or nothing
-        tests = [_line(speak(SUBMISSION), 0, "error", one_line(speak(message)))]
+        tests = [_line(translate(SUBMISSION), 0, "error", one_line(translate(message)))]
         return _result("error", entry, tests)
     shown = [m for m in marks(entry) if show_hidden or m.check.visibility == "visible"]
     hidden = [m for m in marks(entry) if m not in shown]
@@ -48,11 +48,11 @@ def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
         for mark in shown
     ]
     if hidden:
-        tests.append(_hidden(hidden, speak))
+        tests.append(_hidden(hidden, translate))
     for step in steps(entry):
-        tests.append(_line(speak(step.why), step.points, "pass" if step.points > 0 else "fail"))
+        tests.append(_line(translate(step.why), step.points, "pass" if step.points > 0 else "fail"))
     if not tests:
-        tests = [_line(speak(SUBMISSION), entry.final, "pass")]
+        tests = [_line(translate(SUBMISSION), entry.final, "pass")]
     states = {test["status"] for test in tests}
     worst = next((state for state in ("error", "fail") if state in states), "pass")
     return _result(worst, entry, tests)
@@ -107,8 +107,8 @@ def _status(mark: Mark) -> str:
     return "pass" if mark.passed else "fail"
 
 
-def _hidden(hidden: Sequence[Mark], speak: Speaker) -> dict[str, Any]:
+def _hidden(hidden: Sequence[Mark], translate: Translator) -> dict[str, Any]:
     given = sum(mark.points or 0 for mark in hidden)
     most = sum(mark.check.max_score for mark in hidden)
     status = "pass" if all(mark.passed for mark in hidden) else "fail"
-    return _line(f"{speak(UNSEEN)} ({points(given)}/{points(most)})", given, status)
+    return _line(f"{translate(UNSEEN)} ({points(given)}/{points(most)})", given, status)

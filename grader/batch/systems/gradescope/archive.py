@@ -17,7 +17,7 @@ from grader.base.errors import SurroundingsError
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.project import CHECKOUT
 from grader.course.find import assignment_file
 from grader.verdict.order import HIDDEN
@@ -115,7 +115,7 @@ def gradescope_zip(
 def _problem(lang: str) -> str:
     """Return the results for where the grader could not even begin."""
     ours = say("The grader failed, not your package. Please tell your instructor.")
-    return json.dumps({"score": 0, "output": Speaker(lang)(ours)})
+    return json.dumps({"score": 0, "output": Translator(lang)(ours)})
 
 
 def _packed(files: dict[str, tuple[bytes, int]]) -> bytes:

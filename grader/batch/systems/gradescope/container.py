@@ -25,7 +25,7 @@ from grader.base.errors import GraderError
 from grader.base.folder import Folder
 from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.i18n.translator import chosen_language
 from grader.base.plain_text import one_line
 from grader.batch.policy import penalty
@@ -77,7 +77,7 @@ class ResultsFile:
 
     def failed(self) -> None:
         """Say that the fault is ours, below what was found out before."""
-        found, ours = self._so_far(), Speaker(self.order.lang)(OUR_FAULT)
+        found, ours = self._so_far(), Translator(self.order.lang)(OUR_FAULT)
         self.write({**found, "output": f"{ours}\n{found['output']}"})
 
     def _so_far(self) -> dict[str, Any]:
@@ -99,7 +99,7 @@ class ResultsFile:
             "Marking was cut off here. These checks were not asked yet: {checks}",
             checks=joined(*dict.fromkeys(names), by=", "),
         )
-        output = f"{found['output']}{Speaker(lang)(cut_off)}\n"
+        output = f"{found['output']}{Translator(lang)(cut_off)}\n"
         return {**found, "output": output, "tests": tests}
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import one_line
 from grader.base.plain_text import points
@@ -56,10 +56,10 @@ def results_json(found: dict[str, Any]) -> str:
 
 def problem(text: str, *, total: float = 0, lang: str = SOURCE) -> dict[str, Any]:
     """Return results that say why there are none; the student's text is `text`."""
-    speak = Speaker(lang)
-    output = "\n".join(first_lines(speak(text), lines=20))
+    translate = Translator(lang)
+    output = "\n".join(first_lines(translate(text), lines=20))
     found: dict[str, Any] = {"score": 0.0, "output": output, "output_format": "text"}
-    name = speak(say("The grader"))
+    name = translate(say("The grader"))
     tests = [{"name": name, "score": 0.0, "output": output, "status": "failed"}]
     tests[0] |= {"max_score": total} if total else {}
     return {**found, "visibility": "visible", "stdout_visibility": "hidden", "tests": tests}
@@ -95,8 +95,8 @@ def _output(entry: Entry, report: Report) -> str:
     if report.observed.command:
         command = one_line(report.observed.command, most=1_000)
         lines.append(say("Run with: {command}", command=command))
-    speak = Speaker(report.lang)
-    return "".join(f"{speak(line)}\n" for line in lines)
+    translate = Translator(report.lang)
+    return "".join(f"{translate(line)}\n" for line in lines)
 
 
 def _extra(report: Report) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Speaker
+from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines
 from grader.base.plain_text import last_lines
 from grader.base.plain_text import one_line
@@ -65,7 +65,7 @@ def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
         "gradable": True,
         "score": rounded(score),
         "message": _message(entry),
-        "output": _output(report, room.log_lines, Speaker(entry.lang)),
+        "output": _output(report, room.log_lines, Translator(entry.lang)),
         "images": [],
         "tests": [
             _test(mark, report, room, show=show_hidden or mark.check.visibility == "visible")
@@ -77,7 +77,7 @@ def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
 def _ungradable(entry: Entry) -> dict[str, Any]:
     message = entry.report.message if entry.report is not None else ""
     why = entry.problem or message or say("The submission could not be graded.")
-    told = "\n".join(first_lines(Speaker(entry.lang)(why), lines=10))
+    told = "\n".join(first_lines(Translator(entry.lang)(why), lines=10))
     return {"gradable": False, "format_errors": [told], "message": told, "tests": []}
 
 
@@ -85,10 +85,10 @@ def _message(entry: Entry) -> str:
     final, most = points(entry.final or 0), points(entry.max_score)
     lines = [say("{points} of {most} points", points=final, most=most)]
     lines += [step.told for step in steps(entry)]
-    return "\n".join(Speaker(entry.lang)(line) for line in lines)
+    return "\n".join(Translator(entry.lang)(line) for line in lines)
 
 
-def _output(report: Report, lines: int, speak: Speaker) -> str:
+def _output(report: Report, lines: int, translate: Translator) -> str:
     if not lines:
         return ""
     found = []
@@ -98,22 +98,22 @@ def _output(report: Report, lines: int, speak: Speaker) -> str:
     ):
         if text.strip():
             shown, _ = last_lines(text, lines=lines)
-            found += [f"{speak(title)}:", *shown, ""]
+            found += [f"{translate(title)}:", *shown, ""]
     return "\n".join(found)
 
 
 def _test(mark: Mark, report: Report, room: Room, *, show: bool) -> dict[str, Any]:
-    check, speak = mark.check, Speaker(report.lang)
+    check, translate = mark.check, Translator(report.lang)
     test: dict[str, Any] = {
-        "name": one_line(check.id, most=60) if show else speak(UNSEEN),
+        "name": one_line(check.id, most=60) if show else translate(UNSEEN),
         "description": one_line(check.title, most=MOST_NAME) if show else "",
         "points": mark.points or 0.0,
         "max_points": rounded(check.max_score),
     }
     if mark.points is None:
-        test["message"] = speak(say("These points could be neither given nor taken."))
+        test["message"] = translate(say("These points could be neither given nor taken."))
     elif mark.correction and show:
-        test["message"] = speak(mark.correction)
+        test["message"] = translate(mark.correction)
     if show:
         text = check_text(mark, report, lines=room.check_lines)
         test["output"] = shorten(text, most=room.check_characters) if room.check_characters else ""

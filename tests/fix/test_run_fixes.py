@@ -1,4 +1,4 @@
-"""Mends of what only a build or a run shows, by the mistake that the real verdict names."""
+"""Fixes of what only a build or a run shows, by the mistake that the real verdict names."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.case import Finding
 from grader.mistakes.fixes.table import BY_MISTAKE
-from grader.mistakes.fixes.table import mends_for
+from grader.mistakes.fixes.table import fixes_for
 from grader.package.edit.files import Files
 from grader.report.model import CheckResult
 from grader.report.model import Mistake
 from grader.validate.tree import Replace
-from grader.verdict.fix import first_mend
+from grader.verdict.fix import first_fix
 from grader.verdict.fix import patch_for
 from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
@@ -32,7 +32,7 @@ from tests.fix.bench import taken
 from tests.fix.bench import with_tool
 from tests.static_bench import ASSIGNMENT
 
-# The one mend of these is the solution, letter by letter.
+# The one fix of these is the solution, letter by letter.
 BACK_TO_SOLUTION = (
     *("setup_syntax_error", "setup_prints", "import_misspelt", "import_of_node"),
     *("import_node_missing", "super_missing", "super_after_timer", "super_without_name"),
@@ -89,7 +89,7 @@ def patches(name: str, folder: Path) -> list[str]:
     return found
 
 
-def test_each_mistake_with_a_mend_is_one_of_the_catalogue() -> None:
+def test_each_mistake_with_a_fix_is_one_of_the_catalogue() -> None:
     assert set(BY_MISTAKE) <= set(CATALOGUE)
 
 
@@ -100,13 +100,13 @@ def test_the_patch_leads_back_to_the_solution(
 ) -> None:
     patch = patches(name, tmp_path)[0]
     assert patch
-    mended = with_tool(tool, patch.encode(), tmp_path / name)
+    fixed = with_tool(tool, patch.encode(), tmp_path / name)
     for path in (NODE, SETUP):
-        assert (mended / path).read_bytes() == (SOLUTION / path).read_bytes()
+        assert (fixed / path).read_bytes() == (SOLUTION / path).read_bytes()
 
 
 @pytest.mark.parametrize("name", OTHERWISE)
-def test_the_patch_holds_the_mend(name: str, tmp_path: Path) -> None:
+def test_the_patch_holds_the_fix(name: str, tmp_path: Path) -> None:
     assert OTHERWISE[name] in patches(name, tmp_path)[0]
 
 
@@ -119,7 +119,7 @@ def test_where_nothing_is_certain_there_is_no_patch(name: str, tmp_path: Path) -
 def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
     files = Files.of(taken(edited(tmp_path)))
     case = Case(files, Finding("run.output", mistake), ASSIGNMENT)
-    assert first_mend(case, mends_for(case.finding)) is None
+    assert first_fix(case, fixes_for(case.finding)) is None
 
 
 @pytest.mark.prefix
@@ -130,7 +130,7 @@ def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
         for name in (*BACK_TO_SOLUTION, *OTHERWISE)
     ],
 )
-def test_the_real_verdict_is_full_after_the_mend(name: str, tmp_path: Path) -> None:
+def test_the_real_verdict_is_full_after_the_fix(name: str, tmp_path: Path) -> None:
     root = write(package(name), tmp_path)
     limits = ("build_seconds=30", "start_seconds=15")
     (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
@@ -154,4 +154,4 @@ def test_code_of_another_form_is_left_alone(line: str, tmp_path: Path) -> None:
     files = Files.of(taken(root))
     for mistake in ("node.callback_called", "run.wrong_period", "node.callback_misspelt"):
         case = Case(files, Finding("run.period", mistake), ASSIGNMENT)
-        assert first_mend(case, mends_for(case.finding)) is None
+        assert first_fix(case, fixes_for(case.finding)) is None

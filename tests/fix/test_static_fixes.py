@@ -1,4 +1,4 @@
-"""Mends of what the files alone show: the check passes then, and the diff is one that tools take."""
+"""Fixes of what the files alone show: the check passes then, and the diff is one that tools take."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ def named(package: Package) -> str:
     return package.name
 
 
-def test_most_of_what_files_show_is_mended() -> None:
+def test_most_of_what_files_show_is_fixed() -> None:
     assert {package.name for package in SHOWN_BY_FILES} >= NOT_MENDED
     assert len(MENDED) >= 50
 
 
 @pytest.mark.parametrize("package", MENDED, ids=named)
-def test_every_check_of_the_files_passes_after_the_mend(package: Package, tmp_path: Path) -> None:
+def test_every_check_of_the_files_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert not plan.left
     results = decided(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
@@ -74,12 +74,12 @@ def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path:
 
 
 @pytest.mark.parametrize("package", MENDED, ids=named)
-def test_what_is_mended_stays_as_it_is(package: Package, tmp_path: Path) -> None:
+def test_what_is_fixed_stays_as_it_is(package: Package, tmp_path: Path) -> None:
     root = write(package, tmp_path)
-    mended = with_tool(TOOLS[0], plan_of(root).patch, root)
-    again = plan_of(mended)
+    fixed = with_tool(TOOLS[0], plan_of(root).patch, root)
+    again = plan_of(fixed)
     assert again.patch == b""
-    assert again.mended == ()
+    assert again.fixed == ()
 
 
 @pytest.mark.parametrize("package", MENDED, ids=named)
@@ -108,7 +108,7 @@ def test_without_a_package_there_is_no_patch(package: Package, tmp_path: Path) -
     assert patch_for(result, submission, ASSIGNMENT) == ""
 
 
-def test_many_mistakes_at_once_are_all_mended(tmp_path: Path) -> None:
+def test_many_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
     wanted = (
         *("build_type_missing", "marker_missing", "setup_cfg_without_install"),
         *("exec_bit_missing", "shebang_crlf", "comma_missing", "manifest_other_name"),
@@ -117,7 +117,7 @@ def test_many_mistakes_at_once_are_all_mended(tmp_path: Path) -> None:
     root = write(Package(name="many", edits=tuple(edits)), tmp_path)
     plan = plan_of(root)
     assert not plan.left
-    assert {finding.check for finding in plan.mended} == {
+    assert {finding.check for finding in plan.fixed} == {
         *("package.manifest", "package.marker", "package.setup_cfg", "source.exec_bit"),
         *("source.shebang", "entry_point.mapping"),
     }
