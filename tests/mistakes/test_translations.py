@@ -125,10 +125,10 @@ def test_there_are_no_texts_left_over() -> None:
 
 def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -> None:
     known = Catalog(locale="ko")
-    known.add("Fix the line.", "그 줄을 고치십시오.")
+    known.add("Delete the line.", "그 줄을 고치십시오.")
     monkeypatch.setattr(update, "read", lambda lang: known)
     monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
-    kept = update.gathered("ko", {"Fix the line.": "Fix the line."}).get("Fix the line.")
+    kept = update.gathered("ko", {"Delete the line.": "Fix the line."}).get("Fix the line.")
     assert kept is not None
     assert kept.string == "그 줄을 고치십시오."
 
@@ -136,7 +136,7 @@ def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.parametrize(
     ("renamed", "reason"),
     [
-        ({"Fix the line.": "Fix that line."}, "'Fix that line.' is not marked"),
+        ({"Delete the line.": "Fix that line."}, "'Fix that line.' is not marked"),
         ({"Fix the line.": "Fix the line."}, "'Fix the line.' is still marked"),
     ],
 )
