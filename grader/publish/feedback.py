@@ -1,6 +1,6 @@
-"""What one student is told: their points, how they came about, and each check that they may see.
+"""One student's feedback: the points, how they were calculated, and each check they may see.
 
-All of it is said in the entry's language.
+All of it is in the entry's language.
 """
 
 from __future__ import annotations
@@ -27,34 +27,34 @@ from grader.report.blocks import WORDS
 from grader.report.blocks import all_of
 from grader.report.report_page import hidden_checks
 
-# where the instructor keeps the submission, and by what key, is not the student's business
-KEPT_BACK = (FOLDER, KEY)
-TOLD = (say("Found"), say("Fix"))  # of a check, where there is little room
+# the instructor's folder and key of a submission are not shown to the student
+INSTRUCTOR_FACTS = (FOLDER, KEY)
+SHORT_FIELDS = (say("Found"), say("Fix"))  # the fields of a check in the short form
 MOST = 300  # characters of one text in the short form
 MOST_CHECKS = 40
 
 
 def feedback_view(entry: Entry, *, show_hidden: bool) -> StudentView:
-    """Return what a student's page shows, without what is for the instructor alone."""
+    """Return the view for a student's page, without the facts meant for the instructor only."""
     view = student_view(entry, show_hidden=show_hidden, lang=entry.lang)
-    kept_back = [Translator(entry.lang)(name) for name in KEPT_BACK]
-    facts = tuple((name, value) for name, value in view.facts if name not in kept_back)
+    excluded = [Translator(entry.lang)(name) for name in INSTRUCTOR_FACTS]
+    facts = tuple((name, value) for name, value in view.facts if name not in excluded)
     return replace(view, facts=facts, details=())
 
 
 def headline(entry: Entry) -> str:
     """Return the result in a few words: `85 of 100 points`, or why there are none."""
-    told = say("No points yet")
+    text = say("No points yet")
     if entry.final is not None:
         most = number(entry.max_score)
-        told = say("{points} of {most} points", points=number(entry.final), most=most)
+        text = say("{points} of {most} points", points=number(entry.final), most=most)
     elif entry.status != "graded":
-        told = say("No points yet: {state}", state=STATES[entry.status])
-    return Translator(entry.lang)(told)
+        text = say("No points yet: {state}", state=STATES[entry.status])
+    return Translator(entry.lang)(text)
 
 
 def hidden_words(view: StudentView) -> str:
-    """Return how many checks the student does not see, "" for none."""
+    """Return a text with the number of checks hidden from the student, "" for none."""
     return Translator(view.entry.lang)(hidden_checks(view.hidden)) if view.hidden else ""
 
 
@@ -78,17 +78,17 @@ def mark_of(one: CheckView, lang: str) -> str:
 
 
 def short_html(entry: Entry, *, show_hidden: bool) -> str:
-    """Return the feedback as a few lines of HTML without any line end or quotation mark.
+    """Return the feedback as short HTML without line breaks or quotation marks.
 
-    Moodle keeps comments as HTML, and PHP's reader of CSV takes a backslash before a quotation
-    mark for an escape (PHP manual, `fgetcsv`): a cell without them is read the same everywhere.
+    Moodle keeps comments as HTML, and PHP's CSV reader treats a backslash before a quotation
+    mark as an escape (PHP manual, `fgetcsv`). A cell without either is read the same everywhere.
     """
     view = feedback_view(entry, show_hidden=show_hidden)
     open_ = [one for one in view.checks if one.check.status not in ("passed", "skipped")]
     skipped = sum(one.check.status == "skipped" for one in view.checks)
     translate = Translator(entry.lang)
-    told = [line for line in (translate(entry.problem), *view.reckoning) if line]
-    lines = [_safe(line) for line in told]
+    summary = [line for line in (translate(entry.problem), *view.reckoning) if line]
+    lines = [_safe(line) for line in summary]
     lines += [_check(one, translate) for one in open_[:MOST_CHECKS]]
     rest = [_more(len(open_) - MOST_CHECKS), _skipped(skipped), hidden_words(view)]
     lines += [_safe(translate(line)) for line in rest if line]
@@ -97,21 +97,21 @@ def short_html(entry: Entry, *, show_hidden: bool) -> str:
 
 
 def _more(count: int) -> str:
-    """Return how many checks there was no room for, "" if none."""
+    """Return a text with the number of checks beyond MOST_CHECKS, "" if none."""
     if count == 1:
         return say("1 more check did not pass")
     return say("{count} more checks did not pass", count=count) if count > 0 else ""
 
 
 def _skipped(count: int) -> str:
-    """Return how many checks were not asked, "" if none."""
+    """Return a text with the number of skipped checks, "" if none."""
     if count == 1:
         return say("1 check skipped because of these")
     return say("{count} checks skipped because of these", count=count) if count else ""
 
 
 def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
-    """Return the feedback as a page of its own, which opens offline and asks for nothing."""
+    """Return the feedback as a self-contained HTML page that makes no requests."""
     view = feedback_view(entry, show_hidden=show_hidden)
     translate = Translator(entry.lang)
     logs = [("transcript", translate(say("What ros2 run printed")), view.transcript)]
@@ -128,12 +128,12 @@ def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
 
 @functools.lru_cache(maxsize=len(LANGUAGES))
 def _renderer(heading: str, lang: str) -> Renderer:
-    """Return the renderer of a class: templates are compiled once for all students."""
+    """Return the renderer of a class, so that templates are compiled once for all students."""
     return Renderer(heading=heading, pages={}, lang=lang)
 
 
 def _check(one: CheckView, translate: Translator) -> str:
-    check, labels = one.check, [translate(label) for label in TOLD]
+    check, labels = one.check, [translate(label) for label in SHORT_FIELDS]
     mark = mark_of(one, translate.lang)
     text = f"<code>{_safe(check.id)}</code> {_safe(mark)}: {_safe(check.title)}"
     for field in one.fields:
@@ -143,5 +143,5 @@ def _check(one: CheckView, translate: Translator) -> str:
 
 
 def _safe(text: str) -> str:
-    """Return a text for HTML on one line; a backslash is written as its character reference."""
+    """Return a text escaped for HTML on one line, backslashes as character references."""
     return html.escape(one_line(text, most=MOST)).replace("\\", "&#92;")

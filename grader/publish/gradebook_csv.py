@@ -1,4 +1,4 @@
-"""`gradebook.csv`: every student of a class in one table, for people and their spreadsheets."""
+"""`gradebook.csv`: all students of a class in one table, for spreadsheets."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ MOST_NOTES = 4_000  # characters
 
 
 def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
-    """Return the table in UTF-8, one row a student in the class's order, hidden checks too.
+    """Return the table in UTF-8: one row per student in class order, hidden checks included.
 
-    `bom` puts the byte order mark before it, by which Excel knows UTF-8. `submitted` is ISO 8601 in
-    UTC, `late` seconds. A check's cell is empty where its points could be neither given nor taken.
+    `bom` adds the byte order mark by which Excel recognises UTF-8. `submitted` is ISO 8601 in UTC,
+    `late` is in seconds. A check's cell is empty if its points are undecided.
     """
     checks = check_ids(result)
     out = io.StringIO()
-    # all quoted: a spreadsheet that splits at other characters than commas must not find one open
+    # all quoted: a spreadsheet may split at other characters than commas
     table = csv.writer(out, quoting=csv.QUOTE_ALL)
     table.writerow([*BEFORE, *(cells.text(check) for check in checks), *AFTER])
     for entry in result.entries:
@@ -51,7 +51,7 @@ def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
 
 
 def check_ids(result: ClassResult) -> list[str]:
-    """Return the ids of all checks that anybody was asked, in the order of the reports."""
+    """Return the ids of all checks in any report, in the order of the reports."""
     reports = (entry.report for entry in result.entries)
     return list(dict.fromkeys(c.id for report in reports if report for c in report.checks))
 

@@ -1,8 +1,8 @@
-"""JUnit XML of a report or a class, in the elements that pytest writes and Jenkins reads.
+"""JUnit XML of a report or a class, with the elements that pytest writes and Jenkins reads.
 
-A failed check is a `failure`, what the grader or the machine's load kept from being known an
-`error`, a check that was not asked `skipped`. XML has no place for control characters: they are
-spelled out.
+A failed check is a `failure`, a check that the grader or the machine's load left undecided is an
+`error`, and a check that was not run is `skipped`. XML cannot hold control characters, so they are
+written as visible text.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from grader.batch.points import single
 from grader.batch.points import steps
 from grader.report.model import Report
 
-SUBMISSION = "submission"  # the test case of what could not be marked
+SUBMISSION = "submission"  # the test case of a submission that could not be marked
 MOST = 200  # characters of a name
 NOTHING = {
-    "missing": say("nothing was handed in"),
-    "elsewhere": say("handed in elsewhere"),
+    "missing": say("no submission"),
+    "elsewhere": say("submitted elsewhere"),
     "pending": say("not marked yet"),
 }
 COUNTS = ("tests", "failures", "errors", "skipped")
@@ -37,17 +37,17 @@ CLOSED = b"</testsuites>"
 
 
 def report_xml(report: Report) -> bytes:
-    """Return the XML of one report, every check in it."""
+    """Return the XML of one report with all its checks."""
     return _document(report.assignment.title, [single(report)])
 
 
 def class_xml(result: ClassResult) -> bytes:
-    """Return the XML of a class, one test suite a student."""
+    """Return the XML of a class, one test suite per student."""
     return _document(result.title or result.assignment, result.entries)
 
 
 def _document(title: str, entries: Sequence[Entry]) -> bytes:
-    """Return the document; each suite becomes text at once, a class of them is too much of a tree."""
+    """Return the document; suites are serialised one by one, to keep the tree small."""
     totals = dict.fromkeys(COUNTS, 0)
     suites = []
     for entry in entries:
@@ -141,14 +141,14 @@ def _check_case(suite: ET.Element, mark: Mark, report: Report) -> None:
 
 
 def _submission_case(suite: ET.Element, entry: Entry) -> None:
-    """Write what stands for a submission without checks: its own fault, ours, or nothing there."""
+    """Add the test case of an entry without checks: ungradable, a grader error, or missing."""
     translate = Translator(entry.lang)
     case = ET.SubElement(suite, "testcase", classname=SUBMISSION, name=SUBMISSION, time="0.000")
     if entry.status in NOTHING and entry.report is None:
         ET.SubElement(case, "skipped", type=entry.status, message=translate(NOTHING[entry.status]))
         return
-    said = entry.problem or (entry.report.message if entry.report else "")
-    told = translate(said or say("not gradable"))
+    problem = entry.problem or (entry.report.message if entry.report else "")
+    text = translate(problem or say("not gradable"))
     tag = "failure" if entry.status == "ungradable" else "error"
-    part = ET.SubElement(case, tag, type=entry.status, message=one_line(told))
-    part.text = "\n".join(first_lines(told, lines=20))
+    part = ET.SubElement(case, tag, type=entry.status, message=one_line(text))
+    part.text = "\n".join(first_lines(text, lines=20))

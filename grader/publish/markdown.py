@@ -1,4 +1,4 @@
-"""One student's feedback as Markdown (CommonMark); no text of a submission becomes markup."""
+"""One student's feedback as Markdown (CommonMark); text from a submission is always escaped."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from grader.publish.feedback import hidden_words
 from grader.publish.feedback import mark_of
 from grader.publish.pages.student import CheckView
 
-# CommonMark: a backslash before ASCII punctuation makes it a character like any other
+# CommonMark: a backslash before ASCII punctuation makes it a literal character
 ACTIVE = re.compile(r"([\\`*_\[\]<>&#|~!$@]|:(?=//)|(?<=www)\.|^[-+=])", re.I)
 LIST_NUMBER = re.compile(r"^(\d+)([.)])")
 BACKTICKS = re.compile(r"`+")
@@ -24,7 +24,7 @@ LOG_LINES, FIELD_LINES = 60, 30
 
 
 def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
-    """Return the feedback; hidden checks are counted only, unless `show_hidden`."""
+    """Return the feedback; hidden checks are only counted, unless `show_hidden`."""
     view = feedback_view(entry, show_hidden=show_hidden)
     student, translate = entry.student, Translator(entry.lang)
     lines = [f"# {_plain(student.name or student.key)}: {_plain(title)}", ""]
@@ -64,21 +64,21 @@ def _block(one: CheckView, translate: Translator) -> list[str]:
             lines += ["", f"{field.label}: {_code(text[0])}"]
     if one.override is not None:
         by, why = one.override.by, one.override.because
-        told = say("Corrected, because: {why}", why=why)
+        correction = say("Corrected, because: {why}", why=why)
         if by:
-            told = say("Corrected by {name}, because: {why}", name=by, why=why)
-        lines += ["", _plain(translate(told))]
+            correction = say("Corrected by {name}, because: {why}", name=by, why=why)
+        lines += ["", _plain(translate(correction))]
     return lines
 
 
 def _plain(text: str) -> str:
-    """Return a text as one line in which nothing is markup, wherever it stands."""
+    """Return a text as one line without active markup, valid at any position."""
     line = one_line(" ".join(first_lines(text, lines=40, most=1_000)), most=4_000).strip()
     return LIST_NUMBER.sub(r"\1\\\2", ACTIVE.sub(r"\\\1", line))
 
 
 def _code(text: str) -> str:
-    """Return a text as code within a line; its fence is longer than any run of backticks in it."""
+    """Return a text as inline code, with a fence longer than any run of backticks in it."""
     line = one_line(text, most=1_000)
     fence = "`" * (_longest(line) + 1)
     return f"{fence} {line} {fence}" if "`" in line or not line.strip() else f"{fence}{line}{fence}"

@@ -22,7 +22,7 @@ def reckoning(**fields: object) -> str:
 
 
 def test_points_that_nobody_touched_are_said_to_be_the_checks() -> None:
-    assert reckoning() == "As the checks gave them."
+    assert reckoning() == "These are the points that the checks gave."
 
 
 def test_a_late_penalty_is_explained() -> None:
@@ -40,7 +40,7 @@ def test_a_correction_names_its_reason_its_author_and_what_it_was_before() -> No
     said = reckoning(overrides=(override,), score=70.0, final=70.0)
     assert "run.output gives 10 instead of 0, because: shown in the laboratory" in said
     assert "M. C., 2026-11-20 22:30 UTC" in said
-    assert "With that it is 70." in said
+    assert "The score is then 70." in said
 
 
 def test_a_correction_of_the_total_is_called_so() -> None:
@@ -65,7 +65,7 @@ def test_open_points_are_told_with_the_total() -> None:
 def test_a_fault_of_the_grader_is_not_told_as_the_students() -> None:
     fault = report(status="error", checks=[], score=0, message="no sandbox")
     view = student_view(entry(1, fault, status="ungradable", final=None), show_hidden=True)
-    assert "the fault is the grader's" in view.reckoning[0]
+    assert "the fault is in the grader" in view.reckoning[0]
     assert view.reckoning[1:] == ("Nothing goes into the gradebook yet.",)
 
 

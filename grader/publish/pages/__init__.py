@@ -1,4 +1,4 @@
-"""The page of a class: a folder of HTML that opens offline, made of a ClassResult alone."""
+"""The pages of a class: a folder of HTML that opens offline, made from a ClassResult alone."""
 
 from grader.publish.pages.write import write_site
 

@@ -1,8 +1,8 @@
-"""The two plots as geometry, in the units of their own view box; the templates draw them.
+"""The geometry of the two plots, in the units of their view box; the templates draw them.
 
-They are made by hand: matplotlib puts 45 style attributes into one such plot, which the page's
-content security policy forbids, has its colours fixed for light or dark, and takes 18 ms for each
-(measured with 3.11), with 174 MB to install. These have classes for colours and text as text.
+They do not use matplotlib: it puts 45 style attributes into one such plot, which the page's
+content security policy forbids, fixes the colours for light or dark, and takes 18 ms per plot
+(measured with 3.11), with 174 MB to install. These set colours by class and keep text as text.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from grader.report.model import Observed
 from grader.report.model import Tick
 
 WIDTH = 400.0
-EDGE = 24.0  # free at the ends of an axis
-LANES = 44.0  # for the names of the timeline's lanes, left of them
+EDGE = 24.0  # margin at the ends of an axis
+LANES = 44.0  # width of the lane names at the left of the timeline
 ON_TIME = 0.0005  # seconds of ROS time: instants are reported to 1 ms, and 1 ms early is early
 MOST_DUE, MOST_TICKS, MOST_LABELS = 400, 200, 12
-HIGHEST_LABEL, LABEL_ROOM = 999, 14.0
+HIGHEST_LABEL, LABEL_WIDTH = 999, 14.0
 STEPS = (1, 2, 5)
 
 
@@ -38,7 +38,7 @@ class Bar:
 
 @dataclass(frozen=True)
 class Histogram:
-    """Bars of equal width and no gaps on the axis of points."""
+    """Bars of equal width without gaps along the points axis."""
 
     bars: tuple[Bar, ...]
     width: float = WIDTH
@@ -47,7 +47,7 @@ class Histogram:
 
 
 def histogram(bins: Sequence[Bin]) -> Histogram:
-    """Return the bars, the highest of which fills the height."""
+    """Return the bars, scaled so that the highest fills the height."""
     top, bottom = 18.0, Histogram.bottom
     most = max((b.count for b in bins), default=0) or 1
     step = (WIDTH - 2 * EDGE) / max(len(bins), 1)
@@ -61,7 +61,7 @@ def histogram(bins: Sequence[Bin]) -> Histogram:
 
 @dataclass(frozen=True)
 class Dot:
-    """A line that came: `at` in seconds on the axis, `off` from the due instant nearest to it."""
+    """A log line: `at` in seconds on the axis, `off` in seconds from the nearest due instant."""
 
     tick: Tick
     at: float
@@ -70,7 +70,7 @@ class Dot:
 
     @property
     def on_time(self) -> bool:
-        """Whether it came at a due instant, as far as instants are reported."""
+        """Whether it came at a due instant, within the precision of the reported instants."""
         return self.off is not None and abs(self.off) <= ON_TIME
 
 
@@ -89,14 +89,14 @@ class Timeline:
 
     @property
     def labels(self) -> list[tuple[float, str]]:
-        """The numbers above the dots: none where there is no room, one for dots close together."""
+        """The numbers above the dots: none if there are too many, one for dots close together."""
         if len(self.dots) > MOST_LABELS:
             return []
         found: list[tuple[float, str]] = []
         for dot in sorted(self.dots, key=lambda dot: dot.x):
             if dot.tick.n is None or abs(dot.tick.n) > HIGHEST_LABEL:
                 continue
-            if found and dot.x - found[-1][0] < LABEL_ROOM:
+            if found and dot.x - found[-1][0] < LABEL_WIDTH:
                 found[-1] = (found[-1][0], f"{found[-1][1]}, {dot.tick.n}")
             else:
                 found.append((dot.x, str(dot.tick.n)))
@@ -104,10 +104,10 @@ class Timeline:
 
 
 def timeline(observed: Observed) -> Timeline | None:
-    """Return the plot of a run; None if no line came or nobody knows when.
+    """Return the plot of a run; None if no line came or the times are unknown.
 
-    On the virtual clock instants are ROS time; on the wall clock, where no instant is due by
-    itself, they are counted from the first line.
+    Instants are ROS time on the virtual clock. On the wall clock no instant is due by itself, so
+    they count from the first line.
     """
     virtual = observed.clock == "virtual"
     timed = [(tick.virtual if virtual else tick.wall, tick) for tick in observed.ticks]
@@ -135,9 +135,9 @@ def timeline(observed: Observed) -> Timeline | None:
 
 
 def _due(observed: Observed, came: Sequence[float]) -> list[float]:
-    """Return the due instants: those that were waited for, and on by the period to the last tick.
+    """Return the due instants: those that were awaited, then one per period up to the last tick.
 
-    Before the first of them none is added: a node may start its timer when it likes.
+    None is added before the first: a node may start its timer at any time.
     """
     period = observed.period or 0.0
     virtual = observed.clock == "virtual"

@@ -1,4 +1,4 @@
-"""What a class's results say together: pure functions of a ClassResult."""
+"""The statistics of a class: pure functions of a ClassResult."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Bin:
 
 @dataclass(frozen=True)
 class Scores:
-    """The final points of the graded submissions, and their middle."""
+    """The distribution of the final points of the graded submissions."""
 
     count: int
     median: float
@@ -40,7 +40,7 @@ class Scores:
 
 @dataclass
 class CheckTally:
-    """How one check went in the class."""
+    """The results of one check in the class."""
 
     id: str
     title: str
@@ -52,19 +52,19 @@ class CheckTally:
 
     @property
     def rate(self) -> float:
-        """The failed among those of which it is known, 0 to 1."""
+        """The share of failed results among the decided ones, 0 to 1."""
         known = self.passed + self.failed
         return self.failed / known if known else 0.0
 
     @property
     def clean(self) -> bool:
-        """Whether nobody failed it, as far as is known of all."""
+        """Whether all results are decided and none is a failure."""
         return not self.failed and not self.unknown
 
 
 @dataclass
 class MistakeTally:
-    """Who made a mistake, at which checks, and what was found at the first of them."""
+    """A mistake: who made it, at which checks, and what the first of them found."""
 
     id: str
     checks: list[str]
@@ -80,7 +80,7 @@ def shown(entry: Entry, *, show_hidden: bool) -> list[CheckResult]:
 
 
 def scores(result: ClassResult) -> Scores | None:
-    """Return the distribution of the final points of what was graded; None if nothing was."""
+    """Return the distribution of the final points; None if nothing was graded."""
     finals = [e.final for e in result.entries if e.status == "graded" and e.final is not None]
     if not finals:
         return None
@@ -99,14 +99,14 @@ def _bins(finals: Sequence[float], most: float) -> tuple[Bin, ...]:
         return ()
     counts = [0] * BINS
     for final in finals:
-        # points beyond either end (a correction may give a bonus) are counted at that end
+        # points beyond either end (a correction may give a bonus) count in the end bin
         counts[min(max(math.floor(final / most * BINS), 0), BINS - 1)] += 1
     edges = [most * k / BINS for k in range(BINS + 1)]
     return tuple(Bin(a, b, n) for a, b, n in zip(edges, edges[1:], counts))
 
 
 def checks(result: ClassResult, *, show_hidden: bool) -> list[CheckTally]:
-    """Return every check, the one that failed most often first."""
+    """Return every check, the one with the highest failure rate first."""
     found: dict[str, CheckTally] = {}
     for entry in result.entries:
         for check in shown(entry, show_hidden=show_hidden):
@@ -123,7 +123,7 @@ def checks(result: ClassResult, *, show_hidden: bool) -> list[CheckTally]:
 
 
 def mistakes(result: ClassResult, *, show_hidden: bool) -> list[MistakeTally]:
-    """Return every mistake that was made, the most frequent first; each student counts once."""
+    """Return every mistake, the most frequent first; each student counts once."""
     found: dict[str, MistakeTally] = {}
     for entry in result.entries:
         for check in shown(entry, show_hidden=show_hidden):
@@ -138,7 +138,7 @@ def mistakes(result: ClassResult, *, show_hidden: bool) -> list[MistakeTally]:
 
 
 def unsure(result: ClassResult, *, show_hidden: bool) -> list[tuple[Entry, list[CheckResult]]]:
-    """Return the entries with checks that were neither passed nor failed for a fault not theirs."""
+    """Return the entries with undecided checks, for which the student is not to blame."""
     found = []
     for entry in result.entries:
         open_ = [c for c in shown(entry, show_hidden=show_hidden) if c.status in UNKNOWN]
@@ -148,7 +148,7 @@ def unsure(result: ClassResult, *, show_hidden: bool) -> list[tuple[Entry, list[
 
 
 def slowest(result: ClassResult) -> list[Entry]:
-    """Return the entries whose verdicts took longest."""
+    """Return the entries whose verdicts took longest, at most SLOWEST."""
     timed = [entry for entry in result.entries if entry.report is not None]
     return sorted(timed, key=_total, reverse=True)[:SLOWEST]
 

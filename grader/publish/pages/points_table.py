@@ -1,4 +1,4 @@
-"""How a student's final points came about, in sentences."""
+"""How a student's final points were calculated, in sentences."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from grader.report.model import Report
 
 
 def reckoning(entry: Entry, visible: set[str]) -> list[str]:
-    """Return how the final points came about, one step a line."""
+    """Return how the final points were calculated, one step per line."""
     report = entry.report
     lines = _given(report) if report is not None else []
     lines += [_correction(override, entry, visible) for override in entry.overrides]
     if entry.overrides and entry.score is not None:
-        lines.append(say("With that it is {score}.", score=points(entry.score)))
+        lines.append(say("The score is then {score}.", score=points(entry.score)))
     if late := _lateness(entry):
         lines.append(late)
     if entry.attempts > 1:
@@ -32,7 +32,7 @@ def reckoning(entry: Entry, visible: set[str]) -> list[str]:
         lines.append(counts)
     graded = report is not None and report.status == "graded"
     if len(lines) == 1 and graded and entry.final == entry.score:
-        return [say("As the checks gave them.")]
+        return [say("These are the points that the checks gave.")]
     if entry.final is None:
         return [*lines, say("Nothing goes into the gradebook yet.")]
     final, most = points(entry.final), points(entry.max_score)
@@ -40,9 +40,9 @@ def reckoning(entry: Entry, visible: set[str]) -> list[str]:
 
 
 def _given(report: Report) -> list[str]:
-    """Return what the checks gave."""
+    """Return the lines about the points that the checks gave."""
     if report.status == "error":
-        ours = say("Not graded: the fault is the grader's or its machine's, not the submission's.")
+        ours = say("Not graded: the fault is in the grader or its machine, not in the submission.")
         return [ours]
     score, most = points(report.score), points(report.max_score)
     lines: list[str] = [say("The checks gave {score} of {most}.", score=score, most=most)]
@@ -53,7 +53,7 @@ def _given(report: Report) -> list[str]:
 
 
 def _lateness(entry: Entry) -> str:
-    """Return what lateness took, "" if it is none."""
+    """Return the line about the late penalty, "" if there is none."""
     taken = in_points(entry.penalty)
     if entry.late_seconds <= 0:
         return say("Penalty: {points} taken.", points=taken) if entry.penalty else ""
@@ -71,14 +71,14 @@ def _correction(override: Override, entry: Entry, visible: set[str]) -> str:
     given, why = points(override.points), override.because
     before = points(check.score) if check is not None else ""
     if hidden:
-        told = say(
+        text = say(
             "Corrected: {what} gives {points} instead of {before}.",
             what=what,
             points=given,
             before=before,
         )
     elif before:
-        told = say(
+        text = say(
             "Corrected: {what} gives {points} instead of {before}, because: {why}",
             what=what,
             points=given,
@@ -86,8 +86,8 @@ def _correction(override: Override, entry: Entry, visible: set[str]) -> str:
             why=why,
         )
     else:
-        told = say(
+        text = say(
             "Corrected: {what} gives {points}, because: {why}", what=what, points=given, why=why
         )
     signed = ", ".join(part for part in (override.by, instant(override.at)) if part)
-    return joined(told, f"({signed})" if signed else "")
+    return joined(text, f"({signed})" if signed else "")

@@ -1,9 +1,9 @@
-"""HTML from templates. Every text is taken for hostile, whoever wrote it.
+"""HTML from templates. Every text is treated as hostile, whatever its source.
 
-Three walls, each enough by itself: in every expression of every template markup is escaped, what
-cannot be seen is spelled out and what is long is cut; the content security policy of each page allows only the
-style and the script of this room, by their hashes; and there is no place in a template where a text
-becomes an address, a style or a script.
+Three defences, each sufficient by itself: every template expression escapes markup, makes invisible
+characters visible and cuts long texts; the content security policy of each page allows, by their
+hashes, only the style and script of this package; and no template puts a text into an address, a
+style or a script.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ MOST_NAME = 120
 
 
 class Renderer:
-    """Makes pages of the templates in one language; `values` are known in all of them.
+    """Renders the templates in one language; `values` are available in all of them.
 
-    What a template marks with `say` is said in the language where it comes out.
+    Texts that a template marks with `say` are translated on output.
     """
 
     def __init__(self, *, lang: str = SOURCE, **values: object) -> None:
@@ -54,9 +54,9 @@ class Renderer:
         self._environment.globals.update(values)
 
     def page(self, template: str, *, script: bool, **values: object) -> bytes:
-        """Return a page in UTF-8, with our script in it or none at all."""
+        """Return a page in UTF-8, with our script or without any."""
         js = self._js if script else ""
-        style, code = Markup(self._css), Markup(js)  # noqa: S704 - files of this room
+        style, code = Markup(self._css), Markup(js)  # noqa: S704 - files of this package
         known = {"css": style, "js": code, "policy": _policy(self._css, js)}
         text = self._environment.get_template(template).render(known, **values)
         return text.encode()
@@ -91,24 +91,24 @@ def _environment(translate: Translator) -> Environment:
 
 
 def _who(student: Student) -> str:
-    """Return a student's name, fit for a heading or a link."""
+    """Return a student's name for a heading or a link."""
     return one_line(student.name or student.key, most=MOST_NAME)
 
 
 def _tamed(value: object) -> object:
-    """Spell out what cannot be seen in a text and bound its length; markup of ours stays."""
+    """Make invisible characters visible and limit the length; our own markup stays."""
     if not isinstance(value, str) or isinstance(value, Markup):
         return value
     return visible(shorten(value, most=MOST))
 
 
 def _whole(text: str) -> Markup:
-    """Return a text that was cut already as what may stand between two tags."""
+    """Return an already shortened text escaped for use between two tags."""
     return escape(visible(text))
 
 
 def _policy(css: str, js: str) -> str:
-    """Return the content security policy: nothing but these two texts, and no requests."""
+    """Return the content security policy: only these two texts, and no requests."""
     script = f"'{_hash(js)}'" if js else "'none'"
     return (
         f"default-src 'none'; style-src '{_hash(css)}'; script-src {script}; "

@@ -1,4 +1,4 @@
-"""What a student's page says: the reckoning of the points, the checks, the run."""
+"""The content of a student's page: how the points were calculated, the checks, the run."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from grader.report.model import Report
 from grader.report.report_page import ran_on
 
 FIELD_LINES, FIELD_CHARACTERS = 30, 1_000
-LOG_LINES, LOG_CHARACTERS = 2_000, 2_000  # the runner keeps 40,000 characters of each
+LOG_LINES, LOG_CHARACTERS = 2_000, 2_000  # a report has 40,000 characters of each
 KEY, FOLDER = say("Key"), say("Folder")
 LOGS = {"colcon build printed": "build-log", "ros2 run printed": "transcript"}
 
 
 @dataclass(frozen=True)
 class Field:
-    """A labelled text of a check; `code` ones are shown letter by letter."""
+    """A labelled text of a check; `code` is shown verbatim."""
 
     label: str
     text: str
@@ -50,7 +50,7 @@ class CheckView:
 
     @property
     def needs_block(self) -> bool:
-        """Whether there is something to tell beside its line of the table."""
+        """Whether it needs more than its row of the table."""
         return self.check.status not in ("passed", "skipped")
 
 
@@ -70,14 +70,14 @@ class StudentView:
 
     @property
     def advice(self) -> list[CheckView]:
-        """The checks that passed and still have something to say."""
+        """The checks that passed and have advice."""
         return [v for v in self.checks if v.check.status == "passed" and v.check.advice]
 
 
 def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> StudentView:
-    """Return what the page of one student shows, said in a language.
+    """Return the content of one student's page in a language.
 
-    Without `show_hidden` there is no word of hidden checks.
+    Without `show_hidden`, hidden checks are only counted.
     """
     translate = Translator(lang)
     report = entry.report
@@ -153,7 +153,7 @@ def _facts(entry: Entry) -> list[tuple[str, str]]:
         (say("User name"), student.username),
         (say("Email"), student.email),
         (say("Section"), student.section),
-        (say("Handed in"), instant(entry.submitted)),
+        (say("Submitted"), instant(entry.submitted)),
     ]
     if report is not None:
         facts += [

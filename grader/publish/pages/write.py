@@ -1,4 +1,4 @@
-"""The folder of a class: `index.html` and one page a student, opened from the disk as they are."""
+"""The folder of a class: `index.html` and one page per student, readable without a server."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ from grader.report.files import could_not_write
 
 INDEX, STUDENTS = "index.html", "students"
 OURS = b'<!doctype html>\n<html lang="en" data-made-by="ros2-teaching-lab">'
-FEW = 8  # names that are shown without being asked for
+FEW = 8  # more names than this are folded
 LOG_TITLES = {"transcript": "What ros2 run printed", "build-log": "What colcon build printed"}
 
 
 def write_site(result: ClassResult, out: Path, *, show_hidden: bool = True) -> Path:
-    """Write the pages into the folder `out` (made if it is not there); return `index.html`'s path.
+    """Write the pages into the folder `out` (made if missing); return `index.html`'s path.
 
-    They are a pure function of the result and can be read by their owner only. The page of a student
-    who was in the class at an earlier run and is no more is removed. `show_hidden` shows the checks
-    that students do not see. SurroundingsError if the folder cannot be written.
-    They may reach the disk a while later.
+    The pages are a pure function of the result; only their owner can read them. Pages of students
+    who left the class since an earlier run are removed. `show_hidden` includes the checks that
+    students do not see. Files are not synced to disk. Raises SurroundingsError if the folder cannot
+    be written.
     """
     pages = page_names(entry.student.key for entry in result.entries)
     renderer = Renderer(result=result, pages=pages, heading=_heading(result))
@@ -87,19 +87,19 @@ def _heading(result: ClassResult) -> str:
 
 
 def _about_student(result: ClassResult, entry: Entry) -> list[str]:
-    handed_in = f"handed in {instant(entry.submitted)}" if entry.submitted else ""
-    parts = (_heading(result), _number(entry), STATES[entry.status], handed_in)
+    submitted = f"submitted {instant(entry.submitted)}" if entry.submitted else ""
+    parts = (_heading(result), _number(entry), STATES[entry.status], submitted)
     return [part for part in parts if part]
 
 
 def _number(entry: Entry) -> str:
-    """Return the number by which the course knows the student, "" if that is the name."""
+    """Return the student's number in the course, "" if it is the name."""
     number = entry.student.id_number or entry.student.key
     return one_line(number, most=60) if number != entry.student.name else ""
 
 
 def _remove_old(folder: Folder, kept: set[str]) -> None:
-    """Remove the pages of an earlier run that this one did not write; nothing that is not ours."""
+    """Remove pages of an earlier run that this one did not write, and no other files."""
     for name in folder.names():
         if name.endswith(".html") and name not in kept:
             content = folder.read(name)
@@ -109,7 +109,7 @@ def _remove_old(folder: Folder, kept: set[str]) -> None:
 
 @dataclass(frozen=True)
 class Row:
-    """A student's line in the table; `find` has what the search finds beside what is seen."""
+    """A student's row; `find` holds texts that the search matches beside the visible ones."""
 
     entry: Entry
     number: str

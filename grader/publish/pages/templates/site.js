@@ -1,5 +1,5 @@
 "use strict";
-// Search and sort; all that is read is there without them.
+// Search and sort; without this script the whole table is still readable.
 
 const plain = (text) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 
@@ -16,7 +16,7 @@ const sort = (table, column, direction) => {
   const sign = direction === "ascending" ? 1 : -1;
   const rows = [...table.tBodies[0].rows].map((row) => ({ row, key: value(row, column) }));
   rows.sort((a, b) => {
-    // what has no value comes last, whichever the direction
+    // rows without a value come last in either direction
     if (a.key === "" || b.key === "") return Number(a.key === "") - Number(b.key === "");
     return sign * compare(a.key, b.key, isNumber);
   });
