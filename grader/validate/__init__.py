@@ -1,1 +1,1 @@
-"""Assignments test themselves: the solution, the starter and mutants of the solution are marked."""
+"""Tests of an assignment: mark its solution, its starter and mutants of the solution."""

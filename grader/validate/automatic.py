@@ -1,4 +1,4 @@
-"""Mutants that are made from the solution and the assignment alone, always the same ones."""
+"""Automatic mutants: made from the solution and the assignment only, and deterministic."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from grader.validate.tree import text_of
 
 
 def generate(original: Tree, assignment: Assignment) -> Iterator[Mutant]:
-    """Yield the automatic mutants of a solution; names are unique, the order is always the same.
+    """Yield the automatic mutants of a solution; names are unique, the order is fixed.
 
-    A change of the node after which Python cannot read it is a mutant too: it must fail at
-    `source.node_file`. What only checks that the assignment does not use could see is left out.
-    Raises AssignmentError for a solution that nothing can be made of.
+    A change after which Python cannot parse the node is a mutant too: it must fail at
+    `source.node_file`. Mutants that no check of the assignment could detect are left out.
+    Raises AssignmentError if the solution lacks a file or cannot be parsed.
     """
     for path in in_files.needed(assignment):
         if path not in original:
@@ -48,8 +48,8 @@ def _made(
         yield name, (Write(in_files.SETUP, text.encode()),), families
     node = f"{assignment.package}/{assignment.node_file}"
     for name, text, families in in_source.mutants_of(_read(original, node), assignment):
-        where = families if _parses(text) else ("source.node_file",)
-        yield name, (Write(node, text.encode()),), where
+        expected = families if _parses(text) else ("source.node_file",)
+        yield name, (Write(node, text.encode()),), expected
 
 
 def _read(original: Tree, path: str) -> Code:
@@ -57,7 +57,7 @@ def _read(original: Tree, path: str) -> Code:
     try:
         compile(code.tree, path, "exec")
     except (SyntaxError, ValueError) as error:
-        raise AssignmentError(f"the solution's {path} is no Python: {error}") from None
+        raise AssignmentError(f"the solution's {path} is not valid Python: {error}") from None
     return code
 
 

@@ -1,6 +1,6 @@
 """Automatic mutants of the files: layout, manifest, setup.cfg, the script's first line and mode.
 
-Each function yields (name, edits, the checks of which one must fail).
+Each function yields (name, edits, checks), and one of these checks must fail.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ REPEATED = ("maintainer", "license", "author", "url")  # REP 149 allows several
 
 
 def needed(assignment: Assignment) -> tuple[str, ...]:
-    """Return the files that a package of this assignment cannot do without."""
+    """Return the paths of the files that a package of this assignment needs."""
     package = assignment.package
     inner = (f"{package}/__init__.py", f"{package}/{assignment.node_file}")
     return (MANIFEST, SETUP, CFG, f"resource/{package}", *inner)

@@ -1,6 +1,6 @@
 """Automatic mutants of setup.py: its keywords, its data files, its entry point.
 
-Each function yields (name, new source, the checks of which one must fail).
+Each function yields (name, new source, checks), and one of these checks must fail.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from grader.validate.spots import misspelt
 
 ANY = ("package.", "source.", "build.", "entry_point.", "run.")
 ENTRY = ("entry_point.mapping", "build.colcon")
-# what setup() is told of the package beside these is for people, and changes nothing of it
+# the other arguments of setup() are descriptive and do not affect the build
 DECISIVE = ("name", "packages", "data_files", "entry_points")
 
 
@@ -34,11 +34,11 @@ def _setup(code: Code) -> ast.Call:
     for node in code.walk():
         if isinstance(node, ast.Call) and code.of(node.func).endswith("setup"):
             return node
-    raise AssignmentError("the solution's setup.py calls no setup()")
+    raise AssignmentError("the solution's setup.py does not call setup()")
 
 
 def _decisive(code: Code) -> Iterator[ast.AST]:
-    """Yield what the keywords that decide something are made of."""
+    """Yield the nodes of the values of the keywords in DECISIVE."""
     for keyword in _setup(code).keywords:
         if keyword.arg in DECISIVE:
             yield from ast.walk(keyword.value)
@@ -66,7 +66,7 @@ def _elements(code: Code) -> Iterator[Made]:
 
 
 def _commas(code: Code) -> Iterator[Made]:
-    """Leave out the comma after a keyword (of one line, and of several)."""
+    """Leave out the comma after a keyword (one on a single line, one on several)."""
     lines = code.text.split("\n")
     keywords = [k for k in _setup(code).keywords if k.arg in ("name", "data_files")]
     for keyword in keywords:
@@ -77,7 +77,7 @@ def _commas(code: Code) -> Iterator[Made]:
 
 
 def _names(code: Code) -> Iterator[Made]:
-    """Misspell the texts that say where things are."""
+    """Misspell the strings that hold names and paths."""
     names = [node for node in code.tree.body if isinstance(node, ast.Assign)]
     for node in [*(node.value for node in names), *_decisive(code)]:
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and len(node.value) > 3:

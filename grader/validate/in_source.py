@@ -1,6 +1,6 @@
 """Automatic mutants of the node's code: what is dropped, doubled, swapped, renamed or miscounted.
 
-Each function yields (name, new source, the checks of which one must fail).
+Each function yields (name, new source, checks), and one of these checks must fail.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ ANY = ("run.", "source.", "entry_point.")
 TEXTS = ("run.output", "run.node_name", "run.starts")
 COUNTS = ("run.output", "run.period", "run.starts")
 LEVELS = ("debug", "warning", "error")
-TIMES = (0.1, 0.5, 0.99, 1.01, 2.0, 10.0)  # what a number with a point is multiplied with
+TIMES = (0.1, 0.5, 0.99, 1.01, 2.0, 10.0)  # factors for a float
 
 
 def mutants_of(code: Code, assignment: Assignment) -> Iterator[Made]:
-    """Yield every mutant of the node's source; what hangs first: other work goes on beside it."""
+    """Yield every mutant of the node's source; those that hang first, to run beside others."""
     yield from _counting(code, assignment)
     for operator in (
         _dropped,
@@ -74,7 +74,7 @@ def _misspelt(code: Code) -> Iterator[Made]:
 
 
 def _uncalled(code: Code) -> Iterator[Made]:
-    """Forget the brackets of a call; give brackets to what must not be called."""
+    """Remove the parentheses of a call, or add them to an argument that must not be called."""
     for node in code.walk():
         if isinstance(node, ast.Call):
             yield f"no brackets {code.shown(node)}", code.put(node, code.of(node.func)), ANY
@@ -211,7 +211,7 @@ def _handlers(code: Code) -> Iterator[Made]:
 
 
 def _counting(code: Code, assignment: Assignment) -> Iterator[Made]:
-    """Yield what goes wrong in the callback that steps the counter."""
+    """Yield mistakes in the callback that increments the counter."""
     for block in code.blocks():
         steps = [node for node in block if isinstance(node, ast.AugAssign)]
         if not steps:

@@ -1,4 +1,4 @@
-"""Mark packages: by their files where those decide, else on the workers that mark a class."""
+"""Mark packages: by their files if that is sufficient, else on the workers that mark a class."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ from grader.verdict.checks.all import CHECKS
 from grader.verdict.mark import Order
 from grader.verdict.static import ask_files
 
-# what is asked before anything is built
+# the stages of the checks that need no build
 STATIC_STAGES = ("package", "source", "entry_point")
 UNDECIDED = ("inconclusive", "error")
 
 
 @dataclass(frozen=True)
 class Marked:
-    """What marking a package said: each check's status, and the mistakes of those that failed.
+    """The result of marking a package: each check's status, and the mistakes of failed checks.
 
-    `problem` says why it could not be marked at all, `seconds` how long it took (0 for files).
+    `problem` is the reason if it could not be marked, `seconds` the duration (0 for files only).
     """
 
     status: Mapping[str, CheckStatus]
@@ -49,7 +49,7 @@ class Marked:
 
     @property
     def failed(self) -> tuple[str, ...]:
-        """The checks that failed, in the order in which they are asked."""
+        """The checks that failed, in the order in which they run."""
         return tuple(check for check in CHECKS if self.status.get(check) == "failed")
 
     @property
@@ -59,12 +59,12 @@ class Marked:
 
     @property
     def first_mistake(self) -> str:
-        """The mistake that is named first ("" if nothing failed)."""
+        """The first mistake of the report ("" if nothing failed)."""
         return self.mistakes[self.failed[0]] if self.failed else ""
 
 
 def submit(tree: Tree, order: Order) -> Submission:
-    """Take a package in as if it had been handed in."""
+    """Take in a package as if a student had submitted it."""
     with tempfile.TemporaryDirectory(prefix="grader-validate-") as folder:
         path = Path(folder) / "handed_in"
         write_tree(tree, path)
@@ -72,13 +72,13 @@ def submit(tree: Tree, order: Order) -> Submission:
 
 
 def submit_path(path: Path, order: Order) -> Submission:
-    """Take in what lies at a path."""
+    """Take in the package at a path."""
     assignment = order.assignment
     return take_in(path, package=assignment.package, node_file=assignment.node_file)
 
 
 def mark_files(submission: Submission, order: Order) -> Marked:
-    """Mark a package by its files alone, as far as they go: what needs a build is not asked."""
+    """Mark a package by its files only, up to the first check that needs a build."""
     only = [check for check in CHECKS if check.partition(".")[0] in STATIC_STAGES]
     results = ask_files(submission, order.assignment, only=only, lang=order.lang)
     return _marked(itertools.takewhile(lambda result: result.status not in UNDECIDED, results))
@@ -89,8 +89,8 @@ def mark_all(
 ) -> Iterator[tuple[str, Marked]]:
     """Mark packages by building and running them; yield each by name when it is done.
 
-    `workers`: how many at once (0: as a class is marked). Raises SurroundingsError where no
-    sandbox opens.
+    `workers`: how many at once (0: as a class is marked). Raises SurroundingsError if no sandbox
+    can be opened.
     """
     job = prove(order, say=_unheard).job
     cores = cores_here()
@@ -108,7 +108,7 @@ def _of(done: Done) -> Marked:
     report = done.answer.report
     if report is None:
         last = done.answer.fault.strip().splitlines()[-1:]
-        return Marked({}, problem=last[0] if last else "our own side failed")
+        return Marked({}, problem=last[0] if last else "the grader itself failed")
     return _marked(report.checks, score=report.score, ran=True, seconds=report.timing.total)
 
 
@@ -126,5 +126,5 @@ def _marked(
 
 
 def _unheard(what: object) -> None:
-    """Steps of one verdict are not told: there are many at once."""
+    """Drop the steps of a single verdict: many run at once."""
     del what

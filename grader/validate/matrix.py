@@ -1,4 +1,4 @@
-"""What validating an assignment found: mutants against checks, as a table and as JSON."""
+"""The result of validating an assignment: mutants against checks, as a table and as JSON."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ MOST_NAME = 52  # characters of a mutant's name in the table
 
 @dataclass(frozen=True)
 class Row:
-    """A mutant, and what marking it said."""
+    """A mutant and the result of marking it."""
 
     mutant: Mutant
     marked: Marked
 
     @property
     def hit(self) -> bool:
-        """Whether a check failed that had to."""
+        """Whether an expected check failed."""
         return any(self.mutant.is_hit_by(check) for check in self.marked.failed)
 
     @property
@@ -36,30 +36,30 @@ class Row:
 
     @property
     def mistake_first(self) -> bool:
-        """Whether the mistake that had to be named first was."""
+        """Whether the expected mistake comes first."""
         return not self.mutant.mistake or self.marked.first_mistake == self.mutant.mistake
 
     @property
     def fault(self) -> str:
-        """What is not as expected ("" if all is)."""
+        """What differs from the expectation ("" if nothing does)."""
         if self.marked.problem:
             return f"not marked: {self.marked.problem}"
         if self.mutant.equivalent:
-            return "" if self.right else "explained as right, and failed all the same"
+            return "" if self.right else "explained as equivalent, but it did not pass every check"
         if self.marked.unknown:
             return f"undecided: {', '.join(self.marked.unknown)}"
         if self.survived:
             return "survived"
         if not self.hit:
-            return f"failed elsewhere than at {' or '.join(self.mutant.families)}"
+            return f"did not fail at {' or '.join(self.mutant.families)}"
         if not self.mistake_first:
-            return f"named {self.marked.first_mistake}, not {self.mutant.mistake}"
+            return f"the first mistake is {self.marked.first_mistake}, not {self.mutant.mistake}"
         return ""
 
 
 @dataclass(frozen=True)
 class Matrix:
-    """All rows, and how the solution and the starter were marked (None: not marked)."""
+    """All rows, and the results of the solution and the starter (None: not marked)."""
 
     assignment: str
     checks: tuple[str, ...]
@@ -72,7 +72,7 @@ class Matrix:
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """Everything that is not as expected, one line each."""
+        """All deviations from the expectation, one line each."""
         found = []
         if self.solution and self.solution.score < self.max_score:
             found.append(f"the solution does not get full marks: {_wanting(self.solution)}")
@@ -83,14 +83,14 @@ class Matrix:
 
     @property
     def never_failed(self) -> tuple[str, ...]:
-        """The checks that no mutant fails; none where not every mutant was marked."""
+        """The checks that no mutant fails; empty unless every mutant was marked."""
         if self.left_out:
             return ()
         failed = {check for row in self.rows for check in row.marked.failed}
         return tuple(check for check in self.checks if check not in failed)
 
     def figures(self) -> dict[str, int]:
-        """Return the counts of the last lines of the table."""
+        """Return the counts for the summary."""
         wrong = [row for row in self.rows if not row.mutant.equivalent]
         named = [row for row in wrong if row.mutant.mistake]
         return {
@@ -111,7 +111,7 @@ def table(matrix: Matrix) -> str:
     checks = matrix.checks
     lines = [f"{n:>3}  {check}" for n, check in enumerate(checks, 1)]
     lines += [
-        "     x failed, X failed as it must, · passed, - skipped, ? undecided, empty: not asked",
+        "     X failed as expected, x failed too, · passed, - skipped, ? undecided, blank: not run",
         "",
     ]
     heads = " ".join(f"{n:>2}" for n in range(1, len(checks) + 1))
@@ -122,13 +122,13 @@ def table(matrix: Matrix) -> str:
         if row.fault:
             note = f"{note}  <-- {row.fault}".strip()
         elif row.mutant.equivalent:
-            note = f"right: {row.mutant.equivalent}"
+            note = f"equivalent: {row.mutant.equivalent}"
         lines.append(f"{_cut(row.mutant.name, width):<{width}}  {signs}  {note}".rstrip())
     return "\n".join(lines)
 
 
 def summary(matrix: Matrix) -> str:
-    """Return what it comes to, with everything that is not as expected."""
+    """Return the summary, with all deviations from the expectation."""
     figures = matrix.figures()
     lines = []
     for title, marked in (("solution", matrix.solution), ("starter", matrix.starter)):
@@ -137,10 +137,10 @@ def summary(matrix: Matrix) -> str:
     share = f"{figures['failed_where_they_must']} of {figures['that_must_fail']}"
     mistakes = f"{figures['mistake_named_first']} of {figures['named']}"
     lines += [
-        f"{'mutants':<24}{figures['mutants']} ({figures['named']} with a mistake to be named)",
-        f"{'failed where they must':<24}{share}",
-        f"{'mistake named first':<24}{mistakes}",
-        f"{'right all the same':<24}{figures['equivalent']}, each explained",
+        f"{'mutants':<24}{figures['mutants']} ({figures['named']} with an expected mistake)",
+        f"{'failed as expected':<24}{share}",
+        f"{'mistake found first':<24}{mistakes}",
+        f"{'equivalent':<24}{figures['equivalent']}, each explained",
     ]
     if matrix.left_out:
         lines.append(f"{'not marked':<24}{matrix.left_out}")
@@ -170,7 +170,7 @@ def as_json(matrix: Matrix) -> str:
 
 
 def _wanting(marked: Marked) -> str:
-    """Return why points are missing."""
+    """Return the reason for missing points."""
     return marked.problem or ", ".join((*marked.failed, *marked.unknown))
 
 

@@ -1,4 +1,4 @@
-"""A mutant: the solution with one mistake in it, and what marking it must say."""
+"""A mutant: the solution with one mistake in it, and the expected result of marking it."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ STATIC = ("package.", "source.")
 class Mutant:
     """One mutant.
 
-    `families` begin the ids of the checks of which at least one must fail (a whole id: this one).
-    `mistake` is the one that must be named first ("": any). `equivalent` says why the mutant is
-    right all the same: then nothing may fail. `where` is its place in mutants.yaml, if it is there.
+    `families` are ids of checks, or prefixes of ids that end with a dot; at least one of these
+    checks must fail. `mistake` is the one that must come first ("": any). `equivalent` is why the
+    mutant is correct nevertheless: then nothing may fail. `where` is its `file:line` in
+    mutants.yaml ("" for an automatic mutant).
     """
 
     name: str
@@ -31,25 +32,25 @@ class Mutant:
 
     @property
     def named(self) -> bool:
-        """Whether a person wrote it down, with the mistake to be named."""
+        """Whether it comes from mutants.yaml, with its expected mistake."""
         return bool(self.where)
 
     @property
     def may_be_static(self) -> bool:
-        """Whether looking at the files could be enough to decide it."""
+        """Whether its files could be sufficient to decide it."""
         return not self.equivalent and any(
             family.startswith((*STATIC, "entry_point.mapping")) for family in self.families
         )
 
     def is_hit_by(self, check_id: str) -> bool:
-        """Whether the failure of this check is what was expected."""
+        """Whether a failure of this check is expected."""
         return any(
             check_id == family or (family.endswith(".") and check_id.startswith(family))
             for family in self.families
         )
 
     def of(self, solution: Tree) -> Tree:
-        """Return the package that it is. Raises AssignmentError where an edit does not fit."""
+        """Return the mutated package. Raises AssignmentError if an edit does not fit."""
         try:
             return apply_all(self.edits, solution)
         except EditError as error:

@@ -1,4 +1,4 @@
-"""mutants.yaml: the mutants that the author of an assignment wrote down.
+"""mutants.yaml: the mutants that the author of an assignment describes.
 
     schema: 1
     mutants:
@@ -8,7 +8,7 @@
         edits:
           - {chmod: my_package/my_node.py, mode: "0644"}
     equivalent:
-      - {mutant: "name of an automatic mutant", why: "why it is right all the same"}
+      - {mutant: "name of an automatic mutant", why: "why it is correct nevertheless"}
 
 An edit is one of: `replace` (with old, new), `write` (text or base64, mode), `delete`, `rename`
 (to), `copy` (to), `chmod` (mode), `crlf`, `link` (to), `nest`. Paths are relative to the package.
@@ -35,7 +35,7 @@ from grader.validate import tree
 from grader.validate.mutant import Mutant
 
 MUTANTS = "mutants.yaml"
-# each edit: its other keys, those that must be there first
+# each edit: its other required keys, its optional keys
 VERBS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "replace": (("old", "new"), ()),
     "write": ((), ("text", "base64", "mode")),
@@ -53,7 +53,7 @@ EXPLAINED = ("mutant", "why")
 
 @dataclass(frozen=True)
 class Explained:
-    """An automatic mutant that is right all the same, and why; `where` is its place in the file."""
+    """An equivalent automatic mutant and the reason; `where` is its `file:line`."""
 
     mutant: str
     why: str
@@ -62,13 +62,13 @@ class Explained:
 
 @dataclass(frozen=True)
 class Written:
-    """What mutants.yaml holds."""
+    """The content of mutants.yaml."""
 
     mutants: tuple[Mutant, ...] = ()
     equivalent: tuple[Explained, ...] = ()
 
     def explained(self, automatic: Iterable[str]) -> dict[str, str]:
-        """Return why automatic mutants are right; AssignmentError for one that there is not."""
+        """Return the reasons by mutant; AssignmentError for an unknown or duplicate name."""
         names = tuple(automatic)
         for entry in self.equivalent:
             if entry.mutant not in names:
@@ -128,7 +128,7 @@ class _Reader:
 
     def _mutant(self, loc: Loc, item: Any) -> Mutant:
         fields = self._mapping(loc, item, NAMED)
-        check = self._one_of(loc, fields, "check", self._checks, "the assignment asks no check")
+        check = self._one_of(loc, fields, "check", self._checks, "the assignment has no check")
         mistake = self._one_of(loc, fields, "mistake", self._mistakes, "there is no mistake")
         edits = self._list((*loc, "edits"), fields.get("edits", ()))
         if not edits:
@@ -186,7 +186,7 @@ class _Reader:
     def _mapping(self, loc: Loc, item: Any, keys: Iterable[str]) -> dict[str, Any]:
         keys = tuple(keys)
         if not isinstance(item, dict):
-            raise self._document.error(loc, f"a mapping is wanted here, with {', '.join(keys)}")
+            raise self._document.error(loc, f"expected a mapping with the keys {', '.join(keys)}")
         for key in item:
             if key not in keys:
                 hint = _hint(key, keys)
@@ -203,7 +203,8 @@ class _Reader:
             raise self._document.error(loc, f"'{key}' is missing")
         value = fields[key]
         if not isinstance(value, str) or not (value or empty):
-            raise self._document.error((*loc, key), f"'{key}' must be a text (quote numbers)")
+            text = f"'{key}' must be a non-empty string (quote numbers)"
+            raise self._document.error((*loc, key), text)
         return value
 
     def _one_of(

@@ -1,4 +1,4 @@
-"""Places in a Python source: what stands where, and the source with something else there."""
+"""Places in a Python source: the code of a node, and the source with that code replaced."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MOST_SLUG = 60  # characters of code in a mutant's name
 
 
 def misspelt(word: str) -> str:
-    """Return a word with its last letter but one left out (a single letter twice)."""
+    """Return a word without its last letter but one (a single letter doubled)."""
     return word[:-2] + word[-1] if len(word) > 1 else word * 2
 
 
@@ -27,13 +27,13 @@ class Code:
         return ast.parse(self.text)
 
     def walk(self) -> Iterator[ast.AST]:
-        """Yield all nodes but those in f-strings whose place Python before 3.12 does not know."""
+        """Yield all nodes except those in f-strings that Python before 3.12 misplaces."""
         for node in ast.walk(self.tree):
             if id(node) not in self._inside_f_strings or self._is_where_it_says(node):
                 yield node
 
     def shown(self, node: ast.AST) -> str:
-        """Return a node's code as one short line, for a name."""
+        """Return a node's code as one short line, for a mutant's name."""
         return " ".join(self.of(node).split())[:MOST_SLUG]
 
     def of(self, node: ast.AST) -> str:
@@ -42,12 +42,12 @@ class Code:
         return self._bytes[begin:end].decode()
 
     def put(self, node: ast.AST, new: str) -> str:
-        """Return the source with `new` in a node's place."""
+        """Return the source with a node replaced by `new`."""
         begin, end = self._span(node)
         return (self._bytes[:begin] + new.encode() + self._bytes[end:]).decode()
 
     def put_both(self, first: ast.AST, second: ast.AST) -> str:
-        """Return the source with two nodes in each other's places; `first` stands before."""
+        """Return the source with two nodes swapped; `first` comes before `second`."""
         (a, b), (c, d) = self._span(first), self._span(second)
         data = self._bytes
         return (data[:a] + data[c:d] + data[b:c] + data[a:b] + data[d:]).decode()
@@ -57,7 +57,7 @@ class Code:
         return " " * node.col_offset
 
     def statements(self) -> Iterator[ast.stmt]:
-        """Yield the statements that hold no others, but no imports and no docstrings."""
+        """Yield the expression and assignment statements, without docstrings."""
         for node in self.walk():
             if not isinstance(node, ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign):
                 continue

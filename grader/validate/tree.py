@@ -1,4 +1,4 @@
-"""A package as values: what each path holds, and the edits that make a mutant of it."""
+"""A package as an immutable mapping from path to content, and the edits that mutate it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Tree = Mapping[str, Entry]
 
 
 class EditError(Exception):
-    """An edit that does not fit the package it is applied to."""
+    """An edit does not fit the package it is applied to."""
 
 
 @dataclass(frozen=True)
@@ -40,14 +40,14 @@ class Replace:
         """Return the tree with the text replaced."""
         entry = _there(tree, self.path)
         if (found := entry.data.count(self.old.encode())) != 1:
-            raise EditError(f"{self.path} has the text {found} times, not once: {self.old!r}")
+            raise EditError(f"{self.path} contains the text {found} times, not once: {self.old!r}")
         data = entry.data.replace(self.old.encode(), self.new.encode())
         return {**tree, self.path: Entry(data, entry.mode)}
 
 
 @dataclass(frozen=True)
 class Write:
-    """Write a file (a text as UTF-8); without a mode, one that is there keeps its own."""
+    """Write a file (text as UTF-8); without `mode` an existing file keeps its own."""
 
     path: str
     data: bytes | str
@@ -62,7 +62,7 @@ class Write:
 
 @dataclass(frozen=True)
 class Delete:
-    """Delete a file, or a folder with all that is in it."""
+    """Delete a file, or a folder with its content."""
 
     path: str
 
@@ -83,7 +83,7 @@ class Copy:
         """Return the tree with the copy."""
         here = _below(tree, self.path)
         if any(path == self.to or path.startswith(f"{self.to}/") for path in tree):
-            raise EditError(f"{self.to} is there already")
+            raise EditError(f"{self.to} exists already")
         return {**tree, **{self.to + path[len(self.path) :]: tree[path] for path in here}}
 
 
@@ -95,7 +95,7 @@ class Move:
     to: str
 
     def apply(self, tree: Tree) -> Tree:
-        """Return the tree with it elsewhere."""
+        """Return the tree with it at its new path."""
         copied = Copy(self.path, self.to).apply(tree)
         gone = _below(tree, self.path)
         return {path: entry for path, entry in copied.items() if path not in gone}
@@ -109,18 +109,18 @@ class Chmod:
     mode: int
 
     def apply(self, tree: Tree) -> Tree:
-        """Return the tree with the other mode."""
+        """Return the tree with the new mode."""
         return {**tree, self.path: Entry(_there(tree, self.path).data, self.mode)}
 
 
 @dataclass(frozen=True)
 class Crlf:
-    """End every line of the file as Windows does."""
+    """Give every line of the file Windows line endings."""
 
     path: str
 
     def apply(self, tree: Tree) -> Tree:
-        """Return the tree with the other line ends."""
+        """Return the tree with the new line endings."""
         entry = _there(tree, self.path)
         data = entry.data.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n")
         return {**tree, self.path: Entry(data, entry.mode)}
@@ -128,7 +128,7 @@ class Crlf:
 
 @dataclass(frozen=True)
 class Link:
-    """Make a symbolic link; a file that is there is replaced."""
+    """Make a symbolic link; an existing file is replaced."""
 
     path: str
     to: str
@@ -140,7 +140,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Nest:
-    """Move all that is there into a new folder below; later paths start above it."""
+    """Move the whole package into a new folder; paths of later edits start above it."""
 
     folder: str
 
@@ -153,7 +153,7 @@ Edit = Replace | Write | Delete | Copy | Move | Chmod | Crlf | Link | Nest
 
 
 def apply_all(edits: tuple[Edit, ...], tree: Tree) -> Tree:
-    """Apply edits one after the other. Raises EditError where one does not fit."""
+    """Apply edits in order. Raises EditError if one does not fit."""
     for edit in edits:
         tree = edit.apply(tree)
     return tree
@@ -162,8 +162,8 @@ def apply_all(edits: tuple[Edit, ...], tree: Tree) -> Tree:
 def read_tree(folder: Path) -> Tree:
     """Read a package from disk.
 
-    Scripts (files that begin with `#!`) are executable whatever the checkout says: some file
-    systems keep no permission bits.
+    Scripts (files that begin with `#!`) are executable whatever their mode in the checkout: some
+    file systems keep no permission bits.
     """
     tree = {}
     for path in sorted(folder.rglob("*")):
@@ -175,7 +175,7 @@ def read_tree(folder: Path) -> Tree:
 
 
 def text_of(tree: Tree, path: str) -> str:
-    """Return a file's text. Raises AssignmentError where it is not UTF-8."""
+    """Return a file's text. Raises AssignmentError if it is not UTF-8."""
     try:
         return tree[path].data.decode()
     except UnicodeDecodeError:
@@ -183,7 +183,7 @@ def text_of(tree: Tree, path: str) -> str:
 
 
 def write_tree(tree: Tree, folder: Path) -> None:
-    """Write a package to a new folder. Raises FileExistsError where it is taken."""
+    """Write a package to a new folder. Raises FileExistsError if the folder exists."""
     folder.mkdir(parents=True)
     for name, entry in tree.items():
         path = folder / name
@@ -196,7 +196,7 @@ def write_tree(tree: Tree, folder: Path) -> None:
 
 
 def digest(tree: Tree) -> str:
-    """Return a hash of what a package is: two mutants with the same one are the same."""
+    """Return a hash of a package: equal hashes mean equal mutants."""
     parts = [
         f"{path}\0{entry.mode:o}\0{entry.link}\0{hashlib.sha256(entry.data).hexdigest()}"
         for path, entry in sorted(tree.items())

@@ -1,4 +1,4 @@
-"""`grader validate`: does an assignment mark what it claims to mark?"""
+"""`grader validate`: check that an assignment marks what it claims to mark."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ from grader.validate.tree import read_tree
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.mark import Order
 
-TELLS_EACH = 10.0  # seconds between two lines of progress
+PROGRESS_EVERY = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Wish:
-    """What is to be validated: `order` says how to mark (its path is not looked at).
+    """What to validate: `order` defines how to mark (its path is ignored).
 
-    `keys` has the solution and mutants.yaml, `starter` what students begin with (None: nothing).
-    `static`: only the mutants whose files decide them; `only`: those whose name fits the pattern;
-    `workers`: how many are marked at once (0: as a class is).
+    `keys` holds the solution and mutants.yaml, `starter` what students begin with (None: nothing).
+    `static`: only mutants that their files decide; `only`: only names that match the pattern;
+    `workers`: how many are marked at once (0: as a class is marked).
     """
 
     order: Order
@@ -53,7 +53,7 @@ class Wish:
 
 
 def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
-    """Mark the solution, the starter and the mutants; `say` is told how far it is.
+    """Mark the solution, the starter and the mutants; `say` receives lines of progress.
 
     Raises UsageError (AssignmentError for a fault in the files), SurroundingsError.
     """
@@ -63,7 +63,7 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
     mutants = collect(wish, original)
     chosen = [m for m in mutants if fnmatch.fnmatchcase(m.name, wish.only)]
     if not chosen:
-        raise UsageError(f"no mutant has a name like '{wish.only}'")
+        raise UsageError(f"no mutant's name matches '{wish.only}'")
     marked, waiting = _by_files(chosen, original, wish.order)
     if not wish.static:
         say(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
@@ -82,7 +82,7 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
 
 
 def collect(wish: Wish, original: Tree) -> list[Mutant]:
-    """Return the named mutants and the automatic ones that none of them is already."""
+    """Return the named mutants, and the automatic ones that differ from all of them."""
     assignment = wish.order.assignment
     automatic = tuple(generate(original, assignment))
     ids = [use.id for use in assignment.checks]
@@ -107,7 +107,7 @@ def starter_of(file: Path) -> Path | None:
 
 
 def write_json(matrix: Matrix, path: Path) -> None:
-    """Write the matrix to a file. Raises UsageError where that cannot be."""
+    """Write the matrix to a file. Raises UsageError if it cannot be written."""
     try:
         path.write_text(as_json(matrix), encoding="utf-8")
     except OSError as error:
@@ -126,7 +126,7 @@ def _solution(wish: Wish) -> Tree:
 
 
 def _ends(wish: Wish) -> dict[str, Submission]:
-    """Return what must have full marks, and what must not."""
+    """Return the solution, which must get full marks, and the starter, which must not."""
     ends = {SOLUTION: submit_path(wish.keys / "solution", wish.order)}
     if wish.starter is not None:
         ends[STARTER] = submit_path(wish.starter, wish.order)
@@ -136,7 +136,7 @@ def _ends(wish: Wish) -> dict[str, Submission]:
 def _by_files(
     mutants: list[Mutant], original: Tree, order: Order
 ) -> tuple[dict[str, Marked], dict[str, Submission]]:
-    """Mark those whose files decide them; return what was found, and what has to be run."""
+    """Mark mutants by their files; return the decided results and the submissions left to run."""
     marked = {}
     waiting = {}
     for mutant in mutants:
@@ -152,14 +152,14 @@ def _by_files(
 def _by_running(
     waiting: dict[str, Submission], wish: Wish, say: Callable[[str], None]
 ) -> dict[str, Marked]:
-    """Mark what has to be built and run, and tell how far it is."""
+    """Mark the submissions that need a build and a run, and report progress."""
     marked: dict[str, Marked] = {}
-    begin = told = time.monotonic()
+    begin = reported = time.monotonic()
     for name, found in mark_all(waiting.items(), wish.order, workers=wish.workers):
         marked[name] = found
         now = time.monotonic()
-        if now - told >= TELLS_EACH:
-            told = now
+        if now - reported >= PROGRESS_EVERY:
+            reported = now
             left = (now - begin) / len(marked) * (len(waiting) - len(marked))
             say(f"{len(marked)} of {len(waiting)} run, about {left:.0f} s left")
     return marked

@@ -87,7 +87,7 @@ def test_what_no_check_of_the_assignment_sees_is_no_mutant(course: Path, keys: P
     course.write_text(course.read_text().replace(SHEBANG, ""))
     status, _, errors = validate(course, "--keys", keys, "--static", "--only", "first line lost")
     assert status == 2
-    assert "no mutant has a name like 'first line lost'" in errors
+    assert "no mutant's name matches 'first line lost'" in errors
 
 
 def test_a_mutant_of_a_check_that_is_not_asked_is_told_with_its_line(
@@ -97,17 +97,21 @@ def test_a_mutant_of_a_check_that_is_not_asked_is_told_with_its_line(
     (keys / "mutants.yaml").write_text(MUTANTS.replace("package.marker\n", "source.shebang\n"))
     status, _, errors = validate(course, "--keys", keys, "--static")
     assert status == 2
-    assert f"{keys}/mutants.yaml:11: the assignment asks no check 'source.shebang'" in errors
+    assert f"{keys}/mutants.yaml:11: the assignment has no check 'source.shebang'" in errors
 
 
 @pytest.mark.parametrize(
     ("file", "text", "says"),
     [
         ("setup.cfg", None, "has no file setup.cfg"),
-        ("turtle_counter/ticker.py", b"def main(:\n", "turtle_counter/ticker.py is no Python"),
+        (
+            "turtle_counter/ticker.py",
+            b"def main(:\n",
+            "turtle_counter/ticker.py is not valid Python",
+        ),
         ("turtle_counter/ticker.py", b"# \xff\n", "turtle_counter/ticker.py is not UTF-8"),
         ("package.xml", b"\xff", "package.xml is not UTF-8"),
-        ("setup.py", b"print()\n", "setup.py calls no setup()"),
+        ("setup.py", b"print()\n", "setup.py does not call setup()"),
     ],
 )
 def test_a_solution_that_no_mutant_can_be_made_of_is_told(

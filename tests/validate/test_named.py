@@ -106,7 +106,7 @@ def test_names_that_do_not_fit_the_automatic_mutants_are_told_with_their_line(
         (edits("{chmdo: f}"), 7, "did you mean 'chmod'"),
         (edits("{delete: f}", "{chmod: f}"), 8, "mode"),
         (edits('{chmod: f, mode: "9"}'), 7, "octal"),
-        (edits("{chmod: f, mode: 420}"), 7, "text"),
+        (edits("{chmod: f, mode: 420}"), 7, "string"),
         (edits("{delete: ../f}"), 7, "inside"),
         (edits("{delete: /etc/passwd}"), 7, "inside"),
         (edits("{rename: f, to: ../g}"), 7, "inside"),
