@@ -1,4 +1,4 @@
-"""What a fix is given: the files, what was found wrong with them, and what is asked for."""
+"""The input of a fix: the files, the finding about them, and the assignment."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Param = str | int | float
 
 @dataclass(frozen=True)
 class Finding:
-    """A check that failed: its mistake with parameters, and the place in the package."""
+    """A failed check: its mistake with parameters, and the place in the package."""
 
     check: str
     mistake: str
@@ -26,7 +26,7 @@ class Finding:
 
     @property
     def known_by(self) -> tuple[object, ...]:
-        """What tells this finding from others: if a fix leaves it as it was, it did not help."""
+        """The identity of this finding: a fix after which it is unchanged did not help."""
         return self.check, self.mistake, self.actual
 
 
@@ -40,31 +40,31 @@ class Case:
 
     @property
     def package(self) -> str:
-        """The package's name, which is also that of its inner folder."""
+        """The name of the package and of its inner folder."""
         return self.assignment.package
 
     @property
     def node_path(self) -> str:
-        """Where the node's file has to be."""
+        """The required path of the node's file."""
         return f"{self.assignment.package}/{self.assignment.node_file}"
 
     @property
     def entry(self) -> str:
-        """The entry of console_scripts that is asked for."""
+        """The entry of console_scripts that the assignment requires."""
         return f"{self.assignment.executable} = {self.assignment.target}"
 
     def with_data(self, path: str, data: bytes | None) -> Files | None:
-        """Return the files with other bytes in one; None if there are none or they are the same."""
+        """Return the files with one replaced; None if `data` is None or equal to the old bytes."""
         same = data is None or self.files.data(path) == data
         return None if same or data is None else self.files.with_data(path, data)
 
 
 Fix = Callable[[Case], "Files | None"]
-"""Returns the files as they would be, or None where no fix is certain."""
+"""Returns the fixed files, or None if no fix is certain."""
 
 
 def finding_of(result: CheckResult) -> Finding | None:
-    """Return what a failed check found; None for one that did not fail."""
+    """Return the finding of a failed check; None for a check that did not fail."""
     if result.status != "failed":
         return None
     mistake = result.mistakes[0] if result.mistakes else None

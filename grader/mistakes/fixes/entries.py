@@ -30,7 +30,7 @@ ROUNDS = 5
 
 
 def comma(case: Case) -> Files | None:
-    """Put the comma between entries that Python has joined into one."""
+    """Add the comma between entries that Python has joined into one."""
     setup = read_setup_call(case)
     entry = _entry(case)
     if setup is None or entry is None or len(entry.pieces) < 2:
@@ -48,7 +48,7 @@ def comma(case: Case) -> Files | None:
 
 
 def replaced(case: Case) -> Files | None:
-    """Write the entry that is asked for in the place of the one that is wrong."""
+    """Replace the wrong entry with the required one."""
     entry = _entry(case)
     if entry is None or entry.pieces or not _is_meant(case, entry):
         return None
@@ -66,17 +66,17 @@ def replaced(case: Case) -> Files | None:
 
 
 def _is_meant(case: Case, entry: Entry) -> bool:
-    """Whether an entry is the one that is asked for, with a mistake in it."""
+    """Whether an entry is the required one with a mistake in it."""
     wanted = case.assignment.executable
     target = "".join(entry.target.split()).removesuffix("()")
     stem = case.assignment.node_file.removesuffix(".py")
     near = entry.name == wanted or nearest(wanted, [entry.name], cutoff=0.7) == entry.name
-    told = re.match(rf"\s*{re.escape(wanted)}\b", entry.text) is not None
-    return near or told or (target == case.assignment.target and stem in entry.text)
+    begins = re.match(rf"\s*{re.escape(wanted)}\b", entry.text) is not None
+    return near or begins or (target == case.assignment.target and stem in entry.text)
 
 
 def group(case: Case) -> Files | None:
-    """Call the group console_scripts, where its name is nearly that."""
+    """Rename the group to console_scripts if its name is nearly that."""
     wrong = str(case.finding.params.get("group", ""))
     text = _source(case, case.finding.file)
     if (
@@ -94,7 +94,7 @@ def group(case: Case) -> Files | None:
 
 
 def uncommented(case: Case) -> Files | None:
-    """Take away the # in front of the entry."""
+    """Remove the # before the entry."""
     text = _source(case, FILE)
     if text is None or case.finding.line is None:
         return None
@@ -108,7 +108,7 @@ def uncommented(case: Case) -> Files | None:
 
 
 def added(case: Case) -> Files | None:
-    """Add the entry to console_scripts, which is made where it is missing."""
+    """Add the entry to console_scripts, which is created if it is missing."""
     setup = read_setup_call(case)
     if setup is None or setup.unpacks or _has_entry(case) or not _leads_somewhere(case):
         return None
@@ -135,7 +135,7 @@ def _is_group(key: ast.expr | None) -> bool:
 
 
 def _has_entry(case: Case) -> bool:
-    """Whether there is an entry of the name already, right or wrong: another makes it no better."""
+    """Whether an entry of that name exists, right or wrong: a second one would not help."""
     points = _points(case)
     return points is not None and case.assignment.executable in [
         entry.name for entry in points.group(GROUP)
@@ -143,12 +143,12 @@ def _has_entry(case: Case) -> bool:
 
 
 def _leads_somewhere(case: Case) -> bool:
-    """Whether there is a node's file for an entry to lead to."""
+    """Whether the node's file, the target of the entry, exists."""
     return case.files.file(case.node_path) is not None
 
 
 def single(case: Case) -> Files | None:
-    """Keep one of several entries of the name: the right one."""
+    """Keep the right one of several entries with the same name."""
     points = _points(case)
     if points is None or case.finding.file != FILE:
         return None
@@ -169,12 +169,12 @@ def single(case: Case) -> Files | None:
 
 
 def _entry(case: Case) -> Entry | None:
-    """Return the entry that the finding is about."""
+    """Return the entry that the finding refers to."""
     points, line = _points(case), case.finding.line
     entries = points.group(GROUP) if points is not None else []
     found = [e for e in entries if e.line == line]
-    said = set(case.finding.params.values())
-    found = found if len(found) == 1 else [e for e in found if shown(e.text) in said]
+    texts = set(case.finding.params.values())
+    found = found if len(found) == 1 else [e for e in found if shown(e.text) in texts]
     return found[0] if len(found) == 1 else None
 
 

@@ -1,4 +1,4 @@
-"""Fixes of the node's first line, and of the line ends that spoil it."""
+"""Fixes of the node's first line, and of line endings that break it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LATE = 20
 
 
 def byte_order_mark(case: Case) -> Files | None:
-    """Take the byte order mark away."""
+    """Remove the byte order mark."""
     found = case.files.data(case.node_path)
     if found is None or not found.startswith(BOM) or not _is_python(found):
         return None
@@ -26,7 +26,7 @@ def byte_order_mark(case: Case) -> Files | None:
 
 
 def line_ends(case: Case) -> Files | None:
-    """End every line as Linux does: CRLF to LF."""
+    """Convert the line endings from CRLF to LF."""
     found = case.files.data(case.node_path)
     if found is None or len(found) > MOST_BYTES or b"\0" in found:
         return None
@@ -37,7 +37,7 @@ def line_ends(case: Case) -> Files | None:
 
 
 def _same_code(old: bytes, new: bytes) -> bool:
-    """Whether two texts are the same program: a text in it that holds line ends stays too."""
+    """Whether both versions can be parsed, or neither."""
     return _is_python(old) == _is_python(new)
 
 
@@ -50,14 +50,14 @@ def _is_python(found: bytes) -> bool:
 
 
 def shebang(case: Case) -> Files | None:
-    """Put the shebang on line 1: moved up, fixed, or written anew."""
+    """Put the shebang on line 1: moved up, fixed, or added."""
     found = case.files.data(case.node_path)
     text = read_source(found)
     if found is None or text is None or text.mark or not found.strip():
         return None
     first = text.line(1)
     if text.newline != "\n":
-        # a line that ends as on Windows does not do: the whole file is fixed with it
+        # a shebang with a Windows line ending does not work: convert the whole file
         found = found.replace(b"\r\n", b"\n")
         text = read_source(found)
         if text is None or "\r" in text.text:

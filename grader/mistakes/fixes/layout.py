@@ -1,4 +1,4 @@
-"""Fixes of what lies where: the marker, the node's file, the inner folder, the exec bit."""
+"""Fixes of the layout: the marker, the node's file, the inner folder, the exec bit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from grader.package.edit.files import Files
 
 
 def marker(case: Case) -> Files | None:
-    """Make the empty marker file, or give the one that is there its right name."""
+    """Create the empty marker file, or rename the one that has a wrong name."""
     path = f"resource/{case.package}"
     if path in case.files.by_path or "resource" in _files(case):
         return None
@@ -41,7 +41,7 @@ def inner_folder(case: Case) -> Files | None:
 
 
 def node_file(case: Case) -> Files | None:
-    """Move the node's file to its place, if there is one of its name in the package."""
+    """Move the node's file to its place, if the package has one file of that name elsewhere."""
     if case.finding.mistake != "source.misplaced_node_file" or case.node_path in case.files.by_path:
         return None
     path = _only_one_named(case.files, case.assignment.node_file)
@@ -56,7 +56,7 @@ def _only_one_named(files: Files, name: str) -> str | None:
 
 
 def node_name(case: Case) -> Files | None:
-    """Rename a node's file whose name is nearly right, if nothing else is called so."""
+    """Rename a node's file whose name is nearly right, unless the right name is taken."""
     old = f"{case.package}/{case.finding.params.get('name', '')}"
     if case.finding.mistake != "source.misnamed_node_file" or case.node_path in case.files.by_path:
         return None
@@ -64,7 +64,7 @@ def node_name(case: Case) -> Files | None:
 
 
 def init_file(case: Case) -> Files | None:
-    """Make the __init__.py without which find_packages() passes the folder over."""
+    """Create the __init__.py without which find_packages() skips the folder."""
     path = f"{case.package}/__init__.py"
     if path in case.files.by_path or case.files.file(case.node_path) is None:
         return None
@@ -72,7 +72,7 @@ def init_file(case: Case) -> Files | None:
 
 
 def exec_bit(case: Case) -> Files | None:
-    """Set the exec bit of the node's file, for whoever may read it."""
+    """Set the exec bit of the node's file for the owner and everyone who may read it."""
     file = case.files.file(case.node_path)
     if file is None or file.mode & 0o100:
         return None

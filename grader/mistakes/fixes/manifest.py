@@ -1,4 +1,4 @@
-"""Fixes of package.xml. They work on its bytes: expat tells where in them a tag begins."""
+"""Fixes of package.xml. They work on its bytes: expat gives the byte offset of each tag."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ TYPE = b"<build_type>ament_python</build_type>"
 
 @dataclass
 class Tag:
-    """An element in the bytes: from `start` (its `<`) to `end` (behind its last `>`).
+    """An element in the bytes: from `start` (its `<`) to `end` (after its last `>`).
 
-    `inside` is where its content begins and ends; `inside[0]` is -1 for an empty tag `<a/>`.
+    `inside` is the start and end of its content; `inside[0]` is -1 for an empty tag `<a/>`.
     """
 
     name: str
@@ -31,7 +31,7 @@ class Tag:
 
 
 class _Places:
-    """Finds the elements; `open` are those that a fault in the XML has left open."""
+    """Finds the elements; `open` holds those that broken XML leaves open."""
 
     def __init__(self, found: bytes) -> None:
         self.found = found
@@ -64,13 +64,13 @@ class _Places:
 
 
 def _head_end(found: bytes, start: int) -> int:
-    """Return where a tag's head ends; a `>` in the quotes of an attribute does not end it."""
+    """Return the end of a start tag; a `>` inside a quoted attribute does not end it."""
     match = re.compile(rb"<(?:[^<>\"']|\"[^\"]*\"|'[^']*')*>").match(found, start)
     return match.end() if match else start
 
 
 def _places(found: bytes | None) -> _Places | None:
-    """Return the elements' places; None for what is not XML of one byte a character."""
+    """Return the places of the elements; None for UTF-16 and for anything but valid XML."""
     if found is None or len(found) > MOST_BYTES or found[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return None
     places = _Places(found)
@@ -91,7 +91,7 @@ def _newline(found: bytes) -> bytes:
 
 
 def _indent(found: bytes, at: int) -> bytes:
-    """Return the blanks in front of a place, if only blanks are there on its line."""
+    """Return the indentation before a position, b"" if other characters come before it."""
     line = found[found.rfind(b"\n", 0, at) + 1 : at]
     return line if not line.strip(b" \t") else b""
 
@@ -102,7 +102,7 @@ def _put(case: Case, start: int, end: int, new: bytes) -> Files | None:
 
 
 def rename(case: Case) -> Files | None:
-    """Give a package.xml under another name its right one."""
+    """Rename a manifest with a nearly right name to package.xml."""
     if case.finding.mistake != "package.no_manifest" or FILE in case.files.by_path:
         return None
     close = nearest(FILE, case.files.names_in(""), cutoff=0.75)
@@ -127,7 +127,7 @@ def name(case: Case) -> Files | None:
 
 
 def build_type(case: Case) -> Files | None:
-    """Let <export> say ament_python, once."""
+    """Make <export> contain the build type ament_python once."""
     places = _places(case.files.data(FILE))
     if places is None or "CMakeLists.txt" in case.files.by_path:
         return None
@@ -140,7 +140,7 @@ def build_type(case: Case) -> Files | None:
         return _put(case, tags[0].start, tags[0].end, TYPE)
     if tags and (tags[0].within != "package" or export is not None):
         return None
-    if tags:  # it stands outside: the export is built around it
+    if tags:  # it is outside of <export>: wrap it
         return _put(case, tags[0].start, tags[0].end, b"<export>" + TYPE + b"</export>")
     if any(tag.name == "export" for tag in places.closed) and export is None:
         return None
@@ -158,7 +158,7 @@ def build_type(case: Case) -> Files | None:
 
 
 def depend(case: Case) -> Files | None:
-    """Say that the package needs rclpy."""
+    """Add a dependency on rclpy."""
     places = _places(case.files.data(FILE))
     licence = [t for t in places.closed if t.name == "license"] if places else []
     if places is None or not licence:
@@ -174,7 +174,7 @@ def depend(case: Case) -> Files | None:
 
 
 def version(case: Case) -> Files | None:
-    """Give a package without a version the one that `ros2 pkg create` gives."""
+    """Add a missing version: 0.0.0, as `ros2 pkg create` does."""
     places = _places(case.files.data(FILE))
     tag = _one(places, "name") if places else None
     if places is None or tag is None or case.finding.params.get("tag") != "version":
@@ -190,7 +190,7 @@ def version(case: Case) -> Files | None:
 
 
 def well_formed(case: Case) -> Files | None:
-    """Fix an end tag that has not the name of its start tag, or a bare `&`."""
+    """Fix an end tag that does not match its start tag, or a bare `&`."""
     found = case.files.data(FILE)
     if found is None or len(found) > MOST_BYTES or case.finding.mistake != "package.broken_xml":
         return None
@@ -215,7 +215,7 @@ def well_formed(case: Case) -> Files | None:
 
 
 def _right_end(found: bytes, at: int, name: str) -> bytes | None:
-    """Return the bytes with the end tag at (or just before) a place given its right name."""
+    """Return the bytes with the right name in the end tag at (or just before) a position."""
     start = found.rfind(b"</", max(0, at - 200), at + 3)
     match = (
         re.match(rb"</\s*([^<>\s]{1,100})\s*>", found[start : start + 120]) if start >= 0 else None

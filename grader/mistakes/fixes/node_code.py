@@ -1,4 +1,4 @@
-"""The node's file as syntax: its class, its methods, its calls, for the fixes of what a run shows."""
+"""The node's file as a syntax tree: its class, methods and calls, for fixes of mistakes in runs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
 
 @dataclass(frozen=True)
 class NodeCode:
-    """A node's file that Python can read and that has one class."""
+    """A node's file that Python can parse and that has one class."""
 
     case: Case
     source: SourceText
@@ -27,7 +27,7 @@ class NodeCode:
     node_class: ast.ClassDef
 
     def changed(self, *splices: Splice) -> Files | None:
-        """Return the files after changes of this one, if Python can read it still."""
+        """Return the files after changes to this one; None if Python cannot parse the result."""
         new = self.source.spliced(splices) if splices else None
         if new is None:
             return None
@@ -50,7 +50,7 @@ class NodeCode:
 
     @property
     def main(self) -> ast.FunctionDef | None:
-        """The function that the entry point leads to, if it is in this file."""
+        """The function that the entry point calls, if it is in this file."""
         name = self.case.assignment.target.partition(":")[2]
         found = [s for s in self.tree.body if isinstance(s, ast.FunctionDef) and s.name == name]
         return found[0] if len(found) == 1 else None
@@ -69,18 +69,18 @@ class NodeCode:
 
     @property
     def log_call(self) -> ast.Call | None:
-        """The one call of the node's logger, if it is given one thing to say."""
+        """The one call of the node's logger, if it has exactly one argument."""
         found = [c for c in self.calls(*LEVELS) if "get_logger" in ast.unparse(c.func)]
         return found[0] if len(found) == 1 and len(found[0].args) == 1 else None
 
     @property
     def quote(self) -> str:
-        """The quotes that the file uses for its texts."""
+        """The quotes that the file uses for most of its strings."""
         text = self.source.text.replace('"""', "").replace("'''", "")
         return '"' if text.count('"') > text.count("'") else "'"
 
     def counters(self) -> dict[str, ast.Constant]:
-        """Return the attributes of self that __init__ gives a number, written as one, once."""
+        """Return the attributes of self that __init__ sets to an integer literal."""
         init = self.method("__init__")
         found: dict[str, ast.Constant] = {}
         for statement in init.body if init else []:
@@ -91,7 +91,7 @@ class NodeCode:
         return found
 
     def changes_of(self, name: str) -> list[ast.stmt]:
-        """Return the statements outside of __init__ that give an attribute of self a value."""
+        """Return the statements outside of __init__ that assign to an attribute of self."""
         inside = {id(n) for n in ast.walk(self.method("__init__") or ast.Pass())}
         found: list[ast.stmt] = []
         for node in ast.walk(self.tree):
@@ -108,7 +108,7 @@ class NodeCode:
 
 
 def called(call: ast.Call) -> str:
-    """Return the last name of what is called."""
+    """Return the last part of the name of the called function."""
     function = call.func
     if isinstance(function, ast.Attribute):
         return function.attr
@@ -116,7 +116,7 @@ def called(call: ast.Call) -> str:
 
 
 def own(node: ast.expr | None) -> str:
-    """Return x of `self.x`; empty for all else."""
+    """Return x of `self.x`; "" for anything else."""
     plain = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
     if plain and isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
         return node.attr if node.value.id == "self" else ""
@@ -124,7 +124,7 @@ def own(node: ast.expr | None) -> str:
 
 
 def read_node(case: Case) -> NodeCode | None:
-    """Return the node's file; None if it cannot be read or has not one class."""
+    """Return the node's file; None if it cannot be parsed or does not have exactly one class."""
     found = case.files.data(case.node_path)
     source = read_source(found)
     if found is None or source is None:
@@ -138,7 +138,7 @@ def read_node(case: Case) -> NodeCode | None:
 
 
 def plain_text(code: NodeCode, node: ast.expr | None) -> str | None:
-    """Return a text that is written as one literal without prefix or escapes, else None."""
+    """Return the value of a string literal without prefix or escapes, else None."""
     if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
         return None
     text = node.value

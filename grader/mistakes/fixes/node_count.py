@@ -1,4 +1,4 @@
-"""Fixes of how the node counts."""
+"""Fixes of the counter."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from grader.package.edit.text import indent_of
 
 
 def plus(case: Case) -> Files | None:
-    """Write += where =+ stands."""
+    """Replace =+ with +=."""
     code = read_node(case)
     found: list[tuple[ast.Assign, ast.UnaryOp]] = []
     changes = [s for name in code.counters() for s in code.changes_of(name)] if code else []
@@ -33,7 +33,7 @@ def plus(case: Case) -> Files | None:
 
 
 def step(case: Case) -> Files | None:
-    """Add one to the counter after the log line, where nothing ever changes it."""
+    """Increment the counter after the log line, if nothing ever changes it."""
     code = read_node(case)
     call = code.log_call if code else None
     if code is None or call is None:
@@ -49,7 +49,7 @@ def step(case: Case) -> Files | None:
 
 
 def start(case: Case) -> Files | None:
-    """Let the counter start where it should: by its first value, or by adding after the log."""
+    """Correct the first number: change the initial value, or increment after the log line."""
     code = read_node(case)
     call = code.log_call if code else None
     name = _counted(code, call) if code and call else ""
@@ -68,7 +68,7 @@ def start(case: Case) -> Files | None:
 
 
 def _after_log(code: NodeCode, change: ast.stmt, call: ast.Call) -> Files | None:
-    """Put a line that comes just before the log line just after it."""
+    """Move the line directly before the log line to directly after it."""
     body = next((m.body for m in code.methods if change in m.body), [])
     at = body.index(change) if body else 0
     log = body[at + 1] if at + 1 < len(body) else None
@@ -82,13 +82,13 @@ def _after_log(code: NodeCode, change: ast.stmt, call: ast.Call) -> Files | None
 
 
 def _counted(code: NodeCode, call: ast.Call) -> str:
-    """Return the counter that is logged; empty if it is not one."""
+    """Return the name of the counter that is logged; "" if there is not exactly one."""
     named = {own(n) for n in ast.walk(call) if isinstance(n, ast.Attribute)} & set(code.counters())
     return min(named) if len(named) == 1 else ""
 
 
 def by(case: Case) -> Files | None:
-    """Add what the count should go up by."""
+    """Increment the counter by the required step."""
     code = read_node(case)
     call = code.log_call if code else None
     name = _counted(code, call) if code and call else ""
@@ -109,7 +109,7 @@ def by(case: Case) -> Files | None:
 
 
 def twice(case: Case) -> Files | None:
-    """Take away a line of a method that is there twice, one below the other."""
+    """Remove the second of two identical lines in a row in a method."""
     code = read_node(case)
     if code is None:
         return None
@@ -123,7 +123,7 @@ def twice(case: Case) -> Files | None:
 
 
 def self_dot(case: Case) -> Files | None:
-    """Put self. in front of the counter, where it was forgotten."""
+    """Put the missing self. before the counter."""
     code = read_node(case)
     if code is None or not code.counters():
         return None
@@ -140,7 +140,7 @@ def self_dot(case: Case) -> Files | None:
 
 
 def kept(case: Case) -> Files | None:
-    """Take away the line of the callback that sets the counter back to its start."""
+    """Remove the line of the callback that resets the counter to its start."""
     code = read_node(case)
     call = code.log_call if code else None
     name = _counted(code, call) if code and call else ""

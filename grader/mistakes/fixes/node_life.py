@@ -1,4 +1,4 @@
-"""Fixes of what keeps a node from starting, or gives it another name."""
+"""Fixes of what prevents a node from starting, or gives it a wrong name."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ IMPORT = "from rclpy.node import Node"
 
 
 def node_import(case: Case) -> Files | None:
-    """Import Node from where it is."""
+    """Import Node from rclpy.node."""
     code = read_node(case)
     if code is None or "Node" not in {ast.unparse(b) for b in code.node_class.bases}:
         return None
@@ -47,7 +47,7 @@ def _binds(code: NodeCode, name: str) -> bool:
 
 
 def base_class(case: Case) -> Files | None:
-    """Let the class be a Node, if it is a child of nothing and makes a timer."""
+    """Derive the class from Node, if it has no base class and creates a timer."""
     code = read_node(case)
     if code is None or code.node_class.bases or code.timer is None:
         return None
@@ -63,7 +63,7 @@ def base_class(case: Case) -> Files | None:
 
 
 def constructor(case: Case) -> Files | None:
-    """Call the constructor __init__, with two underscores on both sides."""
+    """Rename the constructor to __init__, with two underscores on both sides."""
     code = read_node(case)
     if code is None or code.method("__init__") is not None:
         return None
@@ -78,7 +78,7 @@ def constructor(case: Case) -> Files | None:
 
 
 def name(case: Case) -> Files | None:
-    """Give super().__init__() the node's name, and be called before all else of the node."""
+    """Pass the node's name to super().__init__(), and add a missing call at the start."""
     code = read_node(case)
     init = code.method("__init__") if code else None
     if code is None or init is None:
@@ -96,8 +96,8 @@ def name(case: Case) -> Files | None:
     given = call.args[0] if call.args else None
     for keyword in call.keywords:
         given = keyword.value if keyword.arg == "node_name" and given is None else given
-    said = plain_text(code, given)
-    if given is None or said is None or said == case.assignment.node_name:
+    old = plain_text(code, given)
+    if given is None or old is None or old == case.assignment.node_name:
         return None
     q = code.source.code(given)[0]
     return code.changed(code.source.swap(given, f"{q}{case.assignment.node_name}{q}"))
@@ -114,7 +114,7 @@ def _call_added(code: NodeCode, init: ast.FunctionDef, call: str) -> Files | Non
 
 
 def super_first(case: Case) -> Files | None:
-    """Move super().__init__() in front of what needs it."""
+    """Move super().__init__() to the start of the constructor."""
     code = read_node(case)
     init = code.method("__init__") if code else None
     if code is None or init is None:
@@ -134,7 +134,7 @@ def _is_super(node: ast.expr) -> bool:
 
 
 def main_arguments(case: Case) -> Files | None:
-    """Give main's argument a default: the entry point calls main without any."""
+    """Give main's argument a default: the entry point calls main without arguments."""
     code = read_node(case)
     main = code.main if code else None
     if code is None or main is None or main.args.defaults or main.decorator_list:
@@ -147,7 +147,7 @@ def main_arguments(case: Case) -> Files | None:
 
 
 def rclpy_init(case: Case) -> Files | None:
-    """Call rclpy.init() first in main, where nobody calls it, or move it there."""
+    """Call rclpy.init() first in main: add the missing call, or move it there."""
     code = read_node(case)
     main = code.main if code else None
     if code is None or main is None or "import rclpy" not in code.source.text:
@@ -178,7 +178,7 @@ def _is_text(statement: ast.stmt) -> bool:
 
 
 def spin(case: Case) -> Files | None:
-    """Spin the node that main makes: called, not only named; for ever, not once."""
+    """Spin the node that main creates: with a real call, and forever instead of once."""
     code = read_node(case)
     main = code.main if code else None
     if code is None or main is None:
@@ -194,19 +194,19 @@ def spin(case: Case) -> Files | None:
     if not spun and not _spins(code.tree):
         row = f"{indent_of(code.source.line(made[0].lineno))}rclpy.spin({target.id})"
         return code.changed(code.source.before((made[0].end_lineno or made[0].lineno) + 1, row))
-    said = [
+    wrong = [
         f"rclpy.spin_once({target.id})",
         "rclpy.spin",
         "rclpy.spin()",
         f"rclpy.spin({code.node_class.name})",
     ]
-    if len(spun) != 1 or ast.unparse(spun[0]) not in said:
+    if len(spun) != 1 or ast.unparse(spun[0]) not in wrong:
         return None
     return code.changed(code.source.swap(spun[0], f"rclpy.spin({target.id})"))
 
 
 def _spins(node: ast.AST) -> bool:
-    """Whether anything in it is called spin, or something with spin in front."""
+    """Whether it contains a name that begins with spin."""
     names = [
         n.attr if isinstance(n, ast.Attribute) else n.id
         for n in ast.walk(node)

@@ -1,4 +1,4 @@
-"""Fixes of what the node says."""
+"""Fixes of what the node logs."""
 
 from __future__ import annotations
 
@@ -21,48 +21,50 @@ ALIKE = 0.7
 
 
 def f_prefix(case: Case) -> Files | None:
-    """Put the f in front of a text with {self.…} in it."""
+    """Add the f prefix to a string with {self.…} in it."""
     code = read_node(case)
     call = code.log_call if code else None
     if code is None or call is None:
         return None
-    said = plain_text(code, call.args[0]) or ""
-    names = PLACE.findall(said)
-    if not names or said.count("{") != len(names) or not set(names) <= set(code.counters()):
+    logged = plain_text(code, call.args[0]) or ""
+    names = PLACE.findall(logged)
+    if not names or logged.count("{") != len(names) or not set(names) <= set(code.counters()):
         return None
     start = code.source.span(call.args[0])[0]
     return code.changed(Splice(start, start, "f"))
 
 
 def text(case: Case) -> Files | None:
-    """Let the text in front of the number be the one that is asked for, if it is nearly that."""
+    """Correct the text before the number if it is nearly the required one."""
     code = read_node(case)
     call = code.log_call if code else None
     before, _, after = case.assignment.output.text.partition("{n}")
     if code is None or call is None or after:
         return None
-    said = call.args[0]
-    if isinstance(said, ast.BinOp) and isinstance(said.op, ast.Add):
-        start, end = code.source.span(said.left)[1], code.source.span(said)[1]
-        if isinstance(said.left, ast.BinOp) and plain_text(code, said.right):
+    logged = call.args[0]
+    if isinstance(logged, ast.BinOp) and isinstance(logged.op, ast.Add):
+        start, end = code.source.span(logged.left)[1], code.source.span(logged)[1]
+        if isinstance(logged.left, ast.BinOp) and plain_text(code, logged.right):
             return code.changed(Splice(start, end, ""))
-        literal = plain_text(code, said.left)
+        literal = plain_text(code, logged.left)
         if literal is None or not _near(literal, before):
             return None
-        if isinstance(said.right, ast.Constant | ast.BinOp):
+        if isinstance(logged.right, ast.Constant | ast.BinOp):
             return None
-        quote = code.source.code(said.left)[0]
-        return code.changed(code.source.swap(said.left, f"{quote}{before}{quote}"))
-    return _formatted(code, said, before)
+        quote = code.source.code(logged.left)[0]
+        return code.changed(code.source.swap(logged.left, f"{quote}{before}{quote}"))
+    return _formatted(code, logged, before)
 
 
-def _formatted(code: NodeCode, said: ast.expr, before: str) -> Files | None:
-    """Fix the text in front of the one place of an f-string."""
-    written = code.source.code(said)
+def _formatted(code: NodeCode, logged: ast.expr, before: str) -> Files | None:
+    """Correct the text before the only replacement field of an f-string."""
+    written = code.source.code(logged)
     match = re.fullmatch(r"([fF])(['\"])([^{}'\"\\]+)(\{[^{}'\"\\]+\})\2", written)
-    if not isinstance(said, ast.JoinedStr) or match is None or not _near(match[3], before):
+    if not isinstance(logged, ast.JoinedStr) or match is None or not _near(match[3], before):
         return None
-    return code.changed(code.source.swap(said, f"{match[1]}{match[2]}{before}{match[4]}{match[2]}"))
+    return code.changed(
+        code.source.swap(logged, f"{match[1]}{match[2]}{before}{match[4]}{match[2]}")
+    )
 
 
 def _near(found: str, wanted: str) -> bool:
@@ -73,7 +75,7 @@ def _near(found: str, wanted: str) -> bool:
 
 
 def logger(case: Case) -> Files | None:
-    """Log what is printed, in a method of the node."""
+    """Replace print() with the logger in a method of the node."""
     code = read_node(case)
     prints = code.calls("print") if code else []
     if code is None or len(prints) != 1 or len(prints[0].args) != 1 or prints[0].keywords:
@@ -86,7 +88,7 @@ def logger(case: Case) -> Files | None:
 
 
 def level(case: Case) -> Files | None:
-    """Log as INFO."""
+    """Log at level INFO."""
     code = read_node(case)
     call = code.log_call if code else None
     if code is None or call is None or called(call) == "info":
@@ -96,7 +98,7 @@ def level(case: Case) -> Files | None:
 
 
 def logger_call(case: Case) -> Files | None:
-    """Write get_logger() with its brackets."""
+    """Add the missing () to get_logger."""
     code = read_node(case)
     if code is None:
         return None
@@ -109,19 +111,19 @@ def logger_call(case: Case) -> Files | None:
 
 
 def number_as_text(case: Case) -> Files | None:
-    """Put str() around the counter, where it is added to a text."""
+    """Put str() around a counter that is added to a string."""
     code = read_node(case)
     call = code.log_call if code else None
-    said = call.args[0] if call else None
-    if code is None or not isinstance(said, ast.BinOp) or not isinstance(said.op, ast.Add):
+    logged = call.args[0] if call else None
+    if code is None or not isinstance(logged, ast.BinOp) or not isinstance(logged.op, ast.Add):
         return None
-    if own(said.right) not in code.counters() or plain_text(code, said.left) is None:
+    if own(logged.right) not in code.counters() or plain_text(code, logged.left) is None:
         return None
-    return code.changed(code.source.swap(said.right, f"str({code.source.code(said.right)})"))
+    return code.changed(code.source.swap(logged.right, f"str({code.source.code(logged.right)})"))
 
 
 def comma(case: Case) -> Files | None:
-    """Join text and number with +, where a comma is between them as print would take it."""
+    """Join text and number with + instead of a comma, which only print accepts."""
     code = read_node(case)
     calls = [c for c in code.calls("info") if "get_logger" in ast.unparse(c)] if code else []
     if code is None or len(calls) != 1 or len(calls[0].args) != 2 or calls[0].keywords:
@@ -137,7 +139,7 @@ def comma(case: Case) -> Files | None:
 
 
 def number(case: Case) -> Files | None:
-    """Put the counter behind the text, where only the text is logged."""
+    """Append the counter if only the text is logged."""
     code = read_node(case)
     call = code.log_call if code else None
     before, _, after = case.assignment.output.text.partition("{n}")
@@ -151,15 +153,15 @@ def number(case: Case) -> Files | None:
 
 
 def plain_number(case: Case) -> Files | None:
-    """Write the number as it is, without zeros in front of it and without a decimal point."""
+    """Log the plain number, without leading zeros and without a decimal point."""
     code = read_node(case)
     call = code.log_call if code else None
     if code is None or call is None:
         return None
-    said = call.args[0]
-    if isinstance(said, ast.JoinedStr):
-        new, count = FORMATTED.subn(r"\1}", code.source.code(said))
-        return code.changed(code.source.swap(said, new)) if count == 1 else None
+    logged = call.args[0]
+    if isinstance(logged, ast.JoinedStr):
+        new, count = FORMATTED.subn(r"\1}", code.source.code(logged))
+        return code.changed(code.source.swap(logged, new)) if count == 1 else None
     init = code.method("__init__")
     floats = [
         s.value
@@ -174,15 +176,15 @@ def plain_number(case: Case) -> Files | None:
 
 
 def only_logged(case: Case) -> Files | None:
-    """Take away the print() of what is logged too."""
+    """Remove a print() of the text that is logged as well."""
     code = read_node(case)
     call = code.log_call if code else None
     if code is None or call is None:
         return None
-    said = code.source.code(call.args[0])
+    logged = code.source.code(call.args[0])
     for method in code.methods:
         for statement in method.body:
             row = code.source.line(statement.lineno).strip()
-            if row == f"print({said})" == code.source.code(statement) and len(method.body) > 1:
+            if row == f"print({logged})" == code.source.code(statement) and len(method.body) > 1:
                 return code.changed(code.source.without(statement.lineno))
     return None

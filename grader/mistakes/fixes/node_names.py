@@ -1,4 +1,4 @@
-"""Fixes of names that are nearly right: of the module, of main, of the counter."""
+"""Fixes of nearly right names: the module, main, the counter."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from grader.package.edit.text import indent_of
 
 
 def rclpy(case: Case) -> Files | None:
-    """Import rclpy by its right name, which the code then uses."""
+    """Import rclpy by its right name, if the code uses that name."""
     code = read_node(case)
     if code is None:
         return None
@@ -23,21 +23,21 @@ def rclpy(case: Case) -> Files | None:
     for statement in code.tree.body:
         line = code.source.line(statement.lineno)
         if isinstance(statement, ast.Import) and len(statement.names) == 1:
-            said = statement.names[0].name
+            written = statement.names[0].name
         elif isinstance(statement, ast.ImportFrom) and not statement.level:
-            said = (statement.module or "").partition(".")[0]
+            written = (statement.module or "").partition(".")[0]
         else:
             continue
-        if nearest("rclpy", [said], cutoff=0.75) != said or line.count(said) != 1:
+        if nearest("rclpy", [written], cutoff=0.75) != written or line.count(written) != 1:
             continue
-        at = code.source.start_of(statement.lineno) + line.find(said)
-        splices.append(Splice(at, at + len(said), "rclpy"))
+        at = code.source.start_of(statement.lineno) + line.find(written)
+        splices.append(Splice(at, at + len(written), "rclpy"))
     used = any(isinstance(n, ast.Name) and n.id == "rclpy" for n in ast.walk(code.tree))
     return code.changed(*splices) if used else None
 
 
 def main(case: Case) -> Files | None:
-    """Call the one function of the file main, if none is called so."""
+    """Rename the only function of the file to main."""
     code = read_node(case)
     wanted = case.assignment.target.partition(":")[2]
     found = [s for s in code.tree.body if isinstance(s, ast.FunctionDef)] if code else []
@@ -55,7 +55,7 @@ def main(case: Case) -> Files | None:
 
 
 def counter(case: Case) -> Files | None:
-    """Let __init__ set the counter that the callback logs: with self., and of the same name."""
+    """Make __init__ set the counter that the callback logs: with self. and the same name."""
     code = read_node(case)
     call = code.log_call if code else None
     init = code.method("__init__") if code else None
@@ -67,11 +67,11 @@ def counter(case: Case) -> Files | None:
     name = min(logged)
     for statement in init.body:
         target = statement.targets[0] if isinstance(statement, ast.Assign) else None
-        said = target.id if isinstance(target, ast.Name) else own(target)
-        near = said == name or nearest(name, [said], cutoff=0.8) == said
+        written = target.id if isinstance(target, ast.Name) else own(target)
+        near = written == name or nearest(name, [written], cutoff=0.8) == written
         if target is None or not near or not _is_number(statement):
             continue
-        if _is_alone(code, target, said):
+        if _is_alone(code, target, written):
             return code.changed(code.source.swap(target, f"self.{name}"))
     lines = [s for s in init.body if "super().__init__(" in ast.unparse(s)]
     if len(lines) != 1 or lines[0].lineno == init.lineno:
@@ -87,7 +87,7 @@ def _is_number(statement: ast.stmt) -> bool:
 
 
 def _is_set(code: NodeCode, name: str) -> bool:
-    """Whether anything makes an attribute of self, but for `+=`, which needs it already."""
+    """Whether anything defines an attribute of self, except `+=`, which needs it beforehand."""
     if any(name in (m.name, "self") for m in code.methods):
         return True
     for node in ast.walk(code.tree):
@@ -101,15 +101,15 @@ def _is_set(code: NodeCode, name: str) -> bool:
     )
 
 
-def _is_alone(code: NodeCode, target: ast.expr, said: str) -> bool:
-    """Whether a name is used nowhere but where it is given its value."""
+def _is_alone(code: NodeCode, target: ast.expr, written: str) -> bool:
+    """Whether a name is used only in the assignment to it."""
     same = [
         n
         for n in ast.walk(code.tree)
         if n is not target
         and (
-            (isinstance(n, ast.Name) and n.id == said and isinstance(target, ast.Name))
-            or (isinstance(n, ast.Attribute) and own(n) == said and own(target) == said)
+            (isinstance(n, ast.Name) and n.id == written and isinstance(target, ast.Name))
+            or (isinstance(n, ast.Attribute) and own(n) == written and own(target) == written)
         )
     ]
     return not same

@@ -17,25 +17,30 @@ NAMES = ("create_timer", "get_logger")
 
 
 def misspelt(case: Case) -> Files | None:
-    """Write create_timer and get_logger as they are called."""
+    """Correct misspelt create_timer and get_logger."""
     code = read_node(case)
     if code is None:
         return None
     known = {m.name for m in code.methods}
     splices = []
     for node in ast.walk(code.tree):
-        said = own(node) if isinstance(node, ast.Attribute) else ""
-        if not said or said in known or said in NAMES or not isinstance(node, ast.Attribute):
+        written = own(node) if isinstance(node, ast.Attribute) else ""
+        if (
+            not written
+            or written in known
+            or written in NAMES
+            or not isinstance(node, ast.Attribute)
+        ):
             continue
-        right = nearest(said, NAMES, cutoff=0.85)
+        right = nearest(written, NAMES, cutoff=0.85)
         if right and isinstance(node.ctx, ast.Load):
             end = code.source.span(node)[1]
-            splices.append(Splice(end - len(said), end, right))
+            splices.append(Splice(end - len(written), end, right))
     return code.changed(*splices)
 
 
 def arguments(case: Case) -> Files | None:
-    """Give create_timer first the period and then the callback."""
+    """Pass the period first and the callback second to create_timer."""
     code = read_node(case)
     timer = code.timer if code else None
     if code is None or timer is None or timer.keywords:
@@ -57,7 +62,7 @@ def _number(node: ast.expr) -> bool:
 
 
 def callback(case: Case) -> Files | None:
-    """Give create_timer the callback itself: with self., without (), of its right name."""
+    """Pass the callback itself to create_timer: with self., without (), by its right name."""
     code = read_node(case)
     timer = code.timer if code else None
     if code is None or timer is None or len(timer.args) < 2:
@@ -71,18 +76,18 @@ def callback(case: Case) -> Files | None:
     if isinstance(given, ast.Name) and given.id in names and not _is_bound(code, given.id):
         start = code.source.span(given)[0]
         return code.changed(Splice(start, start, "self."))
-    said = own(given)
-    if not said or said in names or said in code.counters():
+    written = own(given)
+    if not written or written in names or written in code.counters():
         return None
-    near = nearest(said, names - {"__init__"}, cutoff=0.8)
+    near = nearest(written, names - {"__init__"}, cutoff=0.8)
     if not near:
         return None
     end = code.source.span(given)[1]
-    return code.changed(Splice(end - len(said), end, near))
+    return code.changed(Splice(end - len(written), end, near))
 
 
 def _is_bound(code: NodeCode, name: str) -> bool:
-    """Whether a name stands for something outside of the class."""
+    """Whether a name is bound outside of the class, or assigned anywhere."""
     inside = {id(n) for n in code.node_class.body}
     for node in ast.walk(code.tree):
         if isinstance(node, ast.FunctionDef) and node.name == name and id(node) not in inside:
@@ -100,7 +105,7 @@ def _timer_method(code: NodeCode) -> ast.FunctionDef | None:
 
 
 def callback_self(case: Case) -> Files | None:
-    """Let the callback take self, and nothing else."""
+    """Give the callback the single parameter self."""
     code = read_node(case)
     method = _timer_method(code) if code else None
     if code is None or method is None or method.decorator_list:
@@ -125,7 +130,7 @@ def callback_self(case: Case) -> Files | None:
 
 
 def period(case: Case) -> Files | None:
-    """Let the timer's period be the one that is asked for."""
+    """Set the timer's period to the required one."""
     code = read_node(case)
     timer = code.timer if code else None
     if code is None or timer is None or not timer.args:
@@ -147,7 +152,7 @@ def period(case: Case) -> Files | None:
 
 
 def by_hand(case: Case) -> Files | None:
-    """Take away the call of the callback in __init__."""
+    """Remove the call of the callback in __init__."""
     code = read_node(case)
     method, init = (_timer_method(code), code.method("__init__")) if code else (None, None)
     if code is None or method is None or init is None:
@@ -165,7 +170,7 @@ def by_hand(case: Case) -> Files | None:
 
 
 def made(case: Case) -> Files | None:
-    """Make the timer, where nothing makes one and one method is there to be called."""
+    """Create the missing timer, if exactly one method can be its callback."""
     code = read_node(case)
     init = code.method("__init__") if code else None
     if code is None or init is None or code.calls("create_timer", "create_rate", "sleep"):
@@ -185,7 +190,7 @@ def made(case: Case) -> Files | None:
 
 
 def cancelled(case: Case) -> Files | None:
-    """Take away .cancel() behind the timer that is just made."""
+    """Remove .cancel() after the creation of the timer."""
     code = read_node(case)
     timer = code.timer if code else None
     cancels = code.calls("cancel") if code else []

@@ -1,4 +1,4 @@
-"""The call of setup() in a setup.py: where its arguments are, and how new ones are put in."""
+"""The call of setup() in a setup.py: finds its arguments and adds new ones."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ FILE = "setup.py"
 
 @dataclass(frozen=True)
 class SetupCall:
-    """The one call of setup() in a file that Python can read."""
+    """The only call of setup() in a file that Python can parse."""
 
     source: SourceText
     tree: ast.Module
     call: ast.Call
 
     def argument(self, name: str) -> ast.expr | None:
-        """Return what is given for an argument, or None."""
+        """Return the value of a keyword argument, or None."""
         return next((k.value for k in self.call.keywords if k.arg == name), None)
 
     @property
@@ -35,7 +35,7 @@ class SetupCall:
         return bool(self.call.args) or any(k.arg is None for k in self.call.keywords)
 
     def literal(self, node: ast.expr | None) -> ast.Constant | None:
-        """Return the literal text that an expression is: written there, or once under its name."""
+        """Return the string literal of an expression: in place, or assigned once to a name."""
         if isinstance(node, ast.Name):
             node = self.constant(node.id)
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -43,7 +43,7 @@ class SetupCall:
         return None
 
     def constant(self, name: str) -> ast.expr | None:
-        """Return what a name is given at the top of the file, if it is given something once."""
+        """Return the value of a name at module level, if it is assigned exactly once."""
         stores = [
             node
             for node in ast.walk(self.tree)
@@ -55,7 +55,7 @@ class SetupCall:
         return None
 
     def is_plain(self, node: ast.Constant) -> bool:
-        """Whether a text is written as one literal without a prefix or escapes."""
+        """Whether a string is a single literal without prefix or escapes."""
         code = self.source.code(node)
         return isinstance(node.value, str) and code in (f"'{node.value}'", f'"{node.value}"')
 
@@ -66,13 +66,11 @@ class SetupCall:
 
     @property
     def quote(self) -> str:
-        """The quotes that the file uses."""
+        """The quotes that the file uses for most of its strings."""
         return '"' if self.source.text.count('"') > self.source.text.count("'") else "'"
 
     def into_list(self, node: ast.List | ast.Tuple, new: str) -> list[Splice]:
-        """Return the splices that put an item at the end of a list, on a line of its own if the
-        others have one.
-        """
+        """Return the splices that append an item to a list, on its own line if the others are."""
         source = self.source
         start, end = source.span(node)
         inner = source.text[start + 1 : end - 1]
@@ -100,7 +98,7 @@ class SetupCall:
         return [self.source.before(close_line, f"{indent}{more}{new},")]
 
     def new_argument(self, name: str, rows: list[str]) -> list[Splice]:
-        """Return the splices that give setup() one more argument, written on several lines."""
+        """Return the splices that add an argument of several lines to setup()."""
         source, call = self.source, self.call
         close, last = call.end_lineno or call.lineno, call.keywords[-1:] or None
         if self.unpacks or last is None or not source.line(close).lstrip().startswith(")"):
@@ -120,7 +118,7 @@ class SetupCall:
 
 
 def _comma(text: str, start: int, end: int) -> int | None:
-    """Return where the comma between two places is, 0 if there is none, None if it is not sure."""
+    """Return the position of the comma in a range, 0 if there is none, None if it is unclear."""
     between = text[start:end]
     code = "\n".join(row.partition("#")[0] for row in between.splitlines())
     if code.strip() not in ("", ","):
@@ -132,7 +130,7 @@ def _comma(text: str, start: int, end: int) -> int | None:
 
 
 def read_setup_call(case: Case) -> SetupCall | None:
-    """Return the call in the case's setup.py; None if there is not one call, or no reading it."""
+    """Return the call in setup.py; None if there is not exactly one or Python cannot parse it."""
     found = case.files.data(FILE)
     source = read_source(found)
     if found is None or source is None:

@@ -25,7 +25,7 @@ def wanted(package: str) -> str:
 
 
 def missing(case: Case) -> Files | None:
-    """Make a setup.cfg that is not there, of the name that is nearly right if there is one."""
+    """Create the missing setup.cfg, or rename a file with a nearly right name."""
     if FILE in case.files.by_path:
         return None
     close = nearest(FILE, case.files.names_in(""), cutoff=0.8)
@@ -36,7 +36,7 @@ def missing(case: Case) -> Files | None:
 
 
 def setting(case: Case) -> Files | None:
-    """Give the section that was named its key and value."""
+    """Set the key in the section that the finding names."""
     found = case.files.data(FILE)
     text = read_text(found)
     section = str(case.finding.params.get("section", ""))
@@ -65,7 +65,7 @@ def _change(cfg: SetupCfg, text: SourceText, section: str, row: str) -> Splice |
     names = (key, key.replace("_", "-"), nearest(key, settings))
     old = next((settings[name] for name in names if name in settings), None)
     if old is None:
-        head = cfg.lines.get(section)  # None for a heading that is indented
+        head = cfg.lines.get(section)  # None for an indented heading
         return text.before(head + 1, row) if head is not None else None
     if "\n" in old.value:
         return None
@@ -74,12 +74,12 @@ def _change(cfg: SetupCfg, text: SourceText, section: str, row: str) -> Splice |
     if match is None or match[3] != old.value or match[1] not in names:
         return None
     at, (name, value) = text.start_of(old.line), row.split("=", 1)
-    # a key with a dash is not wrong; it is changed only with the value
+    # a key with a dash is not wrong; it changes only along with the value
     return Splice(at, at + match.end(3), indent_of(line) + name + match[2] + value)
 
 
 def dashes(case: Case) -> Files | None:
-    """Write `script_dir` for `script-dir`: some versions of setuptools refuse the dash."""
+    """Replace `script-dir` with `script_dir`: some versions of setuptools reject the dash."""
     text = read_text(case.files.data(FILE))
     if text is None:
         return None
@@ -94,7 +94,7 @@ def dashes(case: Case) -> Files | None:
 
 
 def syntax(case: Case) -> Files | None:
-    """Close a heading's bracket, or take away a byte order mark."""
+    """Close a heading's bracket, or remove a byte order mark."""
     found = case.files.data(FILE)
     text = read_text(found)
     if text is None or found is None or _is_read(found):

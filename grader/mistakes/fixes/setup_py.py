@@ -1,4 +1,4 @@
-"""Fixes of setup.py but for its entry points: the package's name, the marker, what stops it."""
+"""Fixes of setup.py except its entry points: the name, the marker, what makes the build fail."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from grader.package.source.setup_py import INDEX
 
 
 def name(case: Case) -> Files | None:
-    """Give setup() the package's name, in the variable if it is kept in one."""
+    """Pass the package's name to setup(), through the variable if there is one."""
     setup = read_setup_call(case)
     literal = setup.literal(setup.argument("name")) if setup else None
     if setup is None or literal is None or literal.value == case.package:
@@ -24,7 +24,7 @@ def name(case: Case) -> Files | None:
 
 
 def marker(case: Case) -> Files | None:
-    """Let data_files install the marker: fix the name that it names, or add the lost line."""
+    """Make data_files install the marker: correct its name, or add the missing line."""
     setup = read_setup_call(case)
     if setup is None:
         return None
@@ -33,7 +33,7 @@ def marker(case: Case) -> Files | None:
 
 
 def _pair(node: ast.expr) -> tuple[ast.Constant, ast.expr] | None:
-    """Return folder and files of an item of data_files."""
+    """Return the folder and the files of an item of data_files."""
     if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:
         folder, files = node.elts
         if isinstance(folder, ast.Constant) and isinstance(folder.value, str):
@@ -42,7 +42,7 @@ def _pair(node: ast.expr) -> tuple[ast.Constant, ast.expr] | None:
 
 
 def _renamed(setup: SetupCall, case: Case) -> list[Splice]:
-    """Return the splice of the one wrong name that the marker's line has, in whatever form."""
+    """Return the splice that corrects a wrong name in the marker's line."""
     data_files = setup.argument("data_files")
     items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
     for item in items:
@@ -80,7 +80,7 @@ def _added(setup: SetupCall, case: Case) -> list[Splice]:
 
 
 def prints(case: Case) -> Files | None:
-    """Take print() out of setup.py, where it is a whole line of the module's own."""
+    """Remove print() from setup.py if it is a whole line at module level."""
     setup = read_setup_call(case)
     if setup is None or case.finding.mistake != "build.setup_prints":
         return None
@@ -104,15 +104,18 @@ def prints(case: Case) -> Files | None:
 
 
 def setuptools(case: Case) -> Files | None:
-    """Import setup from setuptools by its right name."""
+    """Correct the misspelt setuptools in `from setuptools import setup`."""
     setup = read_setup_call(case)
     if setup is None:
         return None
     splices = []
     for statement in setup.tree.body:
-        said = (statement.module or "") if isinstance(statement, ast.ImportFrom) else ""
+        written = (statement.module or "") if isinstance(statement, ast.ImportFrom) else ""
         line = setup.source.line(statement.lineno)
-        if nearest("setuptools", [said], cutoff=0.85) == said != "" and line.count(said) == 1:
-            at = setup.source.start_of(statement.lineno) + line.find(said)
-            splices.append(Splice(at, at + len(said), "setuptools"))
+        if (
+            nearest("setuptools", [written], cutoff=0.85) == written != ""
+            and line.count(written) == 1
+        ):
+            at = setup.source.start_of(statement.lineno) + line.find(written)
+            splices.append(Splice(at, at + len(written), "setuptools"))
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None

@@ -1,4 +1,4 @@
-"""Fixes of Python that Python cannot read, where only one small change makes it readable."""
+"""Fixes of syntax errors for which only one small change is possible."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def setup_py(case: Case) -> Files | None:
 
 
 def fault_of(found: bytes) -> PythonFault | None:
-    """Return why Python cannot read a file; None if it can."""
+    """Return why Python cannot parse a file; None if it can."""
     try:
         parse_python(found)
     except PythonFault as fault:
@@ -50,7 +50,7 @@ def _fixed(case: Case, path: str) -> Files | None:
 
 
 def _without_tabs(text: SourceText) -> bytes | None:
-    """Return the file with blanks for the tabs that indent, if only one width of them will do."""
+    """Return the file indented with spaces instead of tabs, if only one tab width works."""
     fitting = []
     for width in TAB_WIDTHS:
         splices = []
@@ -65,7 +65,7 @@ def _without_tabs(text: SourceText) -> bytes | None:
 
 
 def _smaller(text: SourceText, fault: PythonFault) -> bytes | None:
-    """Return the file with the one sign that Python says is missing from the line it names."""
+    """Return the file with the single character that Python reports as missing."""
     number = fault.line or 0
     line = text.line(number)
     if not line.strip():
@@ -85,7 +85,7 @@ def _smaller(text: SourceText, fault: PythonFault) -> bytes | None:
 
 
 def _open_brackets(line: str) -> list[str]:
-    """Return the brackets that a line opens and does not close; `?` for one that does not fit."""
+    """Return the brackets that a line leaves open; `?` for one that does not match."""
     pairs = {")": "(", "]": "[", "}": "{"}
     waiting: list[str] = []
     quote = ""
@@ -100,7 +100,7 @@ def _open_brackets(line: str) -> list[str]:
 
 
 def _without_comment(line: str) -> str:
-    """Return a line without a comment at its end (one in which no quote comes before a `#`)."""
+    """Return a line without a comment at its end (only if no quote comes before the `#`)."""
     before, hash_sign, _ = line.partition("#")
     plain = hash_sign and not {"'", '"'} & set(before)
     return (before if plain else line).rstrip()

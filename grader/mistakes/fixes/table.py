@@ -1,4 +1,4 @@
-"""Which fixes there are for which check, in the order in which they are tried."""
+"""The fixes for each check and mistake, in the order in which they are tried."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ STATIC: dict[str, tuple[Fix, ...]] = {
         entries.added,
     ),
 }
-"""Fixes of what the files alone show: whether one has helped is seen by asking again."""
+"""Fixes of what the files alone show: running the check again shows whether one has helped."""
 
 BY_MISTAKE: dict[str, tuple[Fix, ...]] = {
     "build.setup_error": (syntax.setup_py, setup_py.setuptools),
@@ -117,12 +117,12 @@ BY_MISTAKE: dict[str, tuple[Fix, ...]] = {
     "node.print_used": (node_log.logger, node_log.only_logged),
     "run.print_not_logger": (node_log.logger,),
 }
-"""Fixes of what a build or a run has shown, by the mistake that was recognised in it: they look at
-the form of the code, and return None where it is not the one that they know.
+"""Fixes of what a build or a run has shown, by the recognised mistake. They match the form of the
+code, and return None for a form that they do not know.
 """
 
 ADVISED: tuple[Fix, ...] = (manifest.depend, layout.init_file, setup_cfg.dashes)
-"""Fixes of what costs no points by itself, or only once the node is run."""
+"""Fixes of what costs no points by itself, or only when the node runs."""
 
 
 def fixes_for(finding: Finding) -> tuple[Fix, ...]:
