@@ -1,4 +1,4 @@
-"""Let ``python -m wheels_ros2`` be the same as ``ros2``."""
+"""Make ``python -m wheels_ros2`` equivalent to ``ros2``."""
 
 from .cli import main
 

@@ -1,7 +1,7 @@
-"""Packages and their executables, found as ament_index_python and ros2pkg find them.
+"""Find packages and their executables as ament_index_python and ros2pkg do.
 
 Source: ament_index_python 1.8.1 (``packages.py``, ``resources.py``, ``search_paths.py``).
-``os.path`` and not pathlib throughout: `ros2 run` passes here before the student's node starts.
+``os.path`` instead of pathlib for speed: `ros2 run` uses this before the student's node starts.
 """
 # ruff: noqa: PTH110, PTH112, PTH113, PTH118, PTH208
 
@@ -15,7 +15,7 @@ _PACKAGE_NAME = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+", re.ASCII)
 def search_paths() -> list[str]:
     """Return the prefixes of AMENT_PREFIX_PATH that exist, the overlay first.
 
-    Raises OSError when the variable is unset or empty: no ROS environment was sourced.
+    Raises OSError if the variable is unset or empty: no ROS environment was sourced.
     """
     value = os.environ.get("AMENT_PREFIX_PATH")
     if not value:
@@ -24,10 +24,10 @@ def search_paths() -> list[str]:
 
 
 def package_prefix(package: str) -> str | None:
-    """Return the first prefix with a marker of the package, or None without one.
+    """Return the first prefix with a marker of the package, or None if there is none.
 
-    A marker that is a dangling link (a workspace that was moved or whose source is gone) is
-    none, and neither is anything under a name that no package can have (REP 127).
+    A dangling link (of a workspace that was moved or whose source is gone) does not count as a
+    marker, and neither does a name that is not valid for a package (REP 127).
 
     Raises OSError as `search_paths` does.
     """
@@ -40,7 +40,7 @@ def package_prefix(package: str) -> str | None:
 
 
 def share_directory(package: str) -> str | None:
-    """Return the package's share directory, or None where the package is not found.
+    """Return the package's share directory, or None if the package is not found.
 
     Raises OSError as `search_paths` does.
     """
@@ -68,10 +68,10 @@ def package_names() -> list[str]:
 
 
 def package_executables(package: str) -> list[str] | None:
-    """Return the paths of the package's executables, or None where it is not found.
+    """Return the paths of the package's executables, or None if the package is not found.
 
-    Looked for in ``<prefix>/lib/<package>`` and all folders below it whose names do not start
-    with a dot; a file counts when the caller may execute it.
+    Searches ``<prefix>/lib/<package>`` and all folders below it whose names do not start with a
+    dot; a file counts if the caller may execute it.
 
     Raises OSError as `search_paths` does.
     """

@@ -1,7 +1,7 @@
-"""The `ros2` command line: find the command and the verb, read their arguments, run them.
+"""The `ros2` command line: find the command and the verb, parse their arguments, run them.
 
 Only the modules that a command line names are imported, as in ros2cli (its
-``add_subparsers_on_demand``): a node should not wait for code that it does not need.
+``add_subparsers_on_demand``), so that a node does not wait for code that it does not need.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ if TYPE_CHECKING:
     from .parsing import Result
 
 COMMANDS = ("node", "pkg", "run", "topic")
-# The real command lists these among its choices; they need its daemon and its plug-ins.
+# The real command lists these as choices; they need its daemon and its plug-ins.
 ABSENT = ("daemon", "extension_points", "extensions")
 
 
 def main(argv: Sequence[str] | None = None) -> Result:
-    """Run `ros2` with these arguments (default: the process's own) and return what to exit with.
+    """Run `ros2` with these arguments (default: the process's own); return the exit status.
 
     An int is the exit status, a text is an error message for stderr with status 1.
 
-    Raises SystemExit with status 0 after `-h` and 2 after a usage error (argparse), and what the
-    verbs raise: none of it is caught, as in ros2cli, so that the user sees what it shows there.
+    Raises SystemExit with status 0 after `-h` and 2 after a usage error (argparse), and whatever
+    the verbs raise: as in ros2cli, nothing is caught, so that the user sees the same output.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     command = first_word(arguments)
@@ -45,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> Result:
     try:
         return _run(args)
     except KeyboardInterrupt:
-        import signal  # noqa: PLC0415 (a small module, yet most verbs have no use for it)
+        import signal  # noqa: PLC0415 (most verbs do not need it)
 
         return signal.SIGINT
 
@@ -80,7 +80,7 @@ def _parser(command: str | None, arguments: list[str]) -> Parser:
 
 
 def _fill(parser: Parser, module: ModuleType, *, command_line: str, arguments: list[str]) -> None:
-    """Give the selected command's parser its arguments, and its verbs where it has some."""
+    """Add the arguments of the selected command to its parser, and its verbs if it has any."""
     if hasattr(module, "add_arguments"):
         module.add_arguments(parser)
     verbs: tuple[str, ...] = getattr(module, "VERBS", ())

@@ -1,4 +1,4 @@
-"""Which ROS distribution the command speaks for."""
+"""The ROS distribution whose `ros2` command is imitated."""
 
 import os
 
@@ -8,10 +8,10 @@ DEFAULT = "jazzy"
 def current() -> str:
     """Return the distro's name, such as ``jazzy``.
 
-    ``ROS_DISTRO`` says it (a sourced prefix sets it, REP 149); without that, the file
-    ``distro`` that the builder of the prefix may put beside this module; without both, jazzy.
+    Taken from ``ROS_DISTRO`` (a sourced prefix sets it, REP 149), else from the file ``distro``
+    that the builder of the prefix may put beside this module, else jazzy.
 
-    Raises OSError when that file is there but cannot be read.
+    Raises OSError if that file exists but cannot be read.
     """
     named = os.environ.get("ROS_DISTRO", "").strip()
     if named:
@@ -24,7 +24,7 @@ def current() -> str:
 
 
 def is_kilted() -> bool:
-    """Tell whether to behave as ros2cli 0.38 (kilted) instead of 0.32 (jazzy).
+    """Return whether to behave like ros2cli 0.38 (kilted) instead of 0.32 (jazzy).
 
     Raises OSError as `current` does.
     """

@@ -1,9 +1,9 @@
-"""A look at the ROS graph with a node of our own, as ros2cli's DirectNode takes it.
+"""Query the ROS graph with a node of our own, as ros2cli's DirectNode does.
 
-The real command asks its daemon, which has known the graph for long. The wheels have none: every
-call discovers the graph itself. Half a second, as ros2cli takes without its daemon, found the only
-other node in two thirds of the calls (measured on 2 busy cores); so, unless `--spin-time` is
-given, it counts from the moment when some other node is known, waited for up to `PATIENCE`.
+The real command asks its daemon, which already knows the graph. The wheels have no daemon: every
+call discovers the graph itself. Half a second, as ros2cli waits without its daemon, found the only
+other node in two thirds of the calls (measured on 2 busy cores). So, unless `--spin-time` is given,
+the half second starts when another node is known, which is awaited for up to `PATIENCE`.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 HIDDEN_PREFIX = "_"
 SPIN_TIME = 0.5  # seconds, ros2cli's default
 # A lost message of discovery is repeated after 3 s (Fast DDS's heartbeat and announcement period)
-PATIENCE = 3.5
+PATIENCE = 3.5  # seconds
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare the options that all verbs share that look at the graph."""
+    """Declare the options shared by all verbs that query the graph."""
     parser.add_argument(
         "--spin-time",
         type=float,
@@ -45,7 +45,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def is_hidden(name: str) -> bool:
-    """Tell whether a part of a topic's or node's name starts with an underscore."""
+    """Return whether any part of a topic's or node's name starts with an underscore."""
     return any(part.startswith(HIDDEN_PREFIX) for part in name.split("/"))
 
 
@@ -53,9 +53,9 @@ def is_hidden(name: str) -> bool:
 def graph(args: Namespace) -> Iterator[Any]:
     """Yield an rclpy node that has had time to discover the others (`args.spin_time` in seconds).
 
-    Raises KeyboardInterrupt when Ctrl+C ends the wait, ModuleNotFoundError without rclpy.
+    Raises KeyboardInterrupt if Ctrl+C ends the wait, ModuleNotFoundError without rclpy.
     """
-    import rclpy  # noqa: PLC0415 (slow, and only this needs it)
+    import rclpy  # noqa: PLC0415 (slow to import)
     from rclpy.executors import ExternalShutdownException  # noqa: PLC0415
     from rclpy.parameter import Parameter  # noqa: PLC0415
 
@@ -89,7 +89,7 @@ def _spin(node: Any, seconds: float) -> None:
 
 
 def _discover(node: Any, seconds: float) -> bool:
-    """Spin for that long, or until a node other than ours is known; tell whether one is."""
+    """Spin for that long, or until another node is known; return whether one is."""
     import rclpy  # noqa: PLC0415
 
     end = time.monotonic() + seconds

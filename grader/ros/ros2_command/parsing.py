@@ -1,7 +1,7 @@
-"""Command lines read, and their errors worded, as by the argparse of Python 3.12.
+"""Parse command lines, with the error and help texts of the argparse of Python 3.12.
 
-That is the Python of jazzy and kilted; the prefix may run on 3.10 to 3.13, whose argparse
-puts some of its texts differently.
+That is the Python of jazzy and kilted; the prefix may run on 3.10 to 3.13, whose argparse words
+some texts differently.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from argparse import ArgumentParser
 from argparse import RawDescriptionHelpFormatter
 
 TYPE_CHECKING = False
-if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` has to be quick
+if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` must be quick
     from argparse import Namespace
     from argparse import _SubParsersAction
     from collections.abc import Iterable
@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` has to be quick
     Result = int | str | None  # what sys.exit takes; a text goes to stderr with status 1
 
     class Verb(Protocol):
-        """A module that is one command or verb; its docstring is its help."""
+        """A module that implements one command or verb; its docstring is its help."""
 
         __doc__: str | None
 
@@ -30,12 +30,12 @@ if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` has to be quick
             """Declare the arguments."""
 
         def main(self, args: Namespace) -> Result:
-            """Do it."""
+            """Run it."""
 
 
 class _HelpFormatter(RawDescriptionHelpFormatter):
     def _format_action_invocation(self, action: Action) -> str:
-        # 3.13 names an option's value once, 3.12 after each of the option's spellings
+        # 3.13 shows an option's value once, 3.12 after each form of the option
         if not action.option_strings or action.nargs == 0:
             return super()._format_action_invocation(action)
         value = self._format_args(action, self._get_default_metavar_for_optional(action))
@@ -50,29 +50,29 @@ class Parser(ArgumentParser):
         super().__init__(**options)
 
     def _check_value(self, action: Action, value: Any) -> None:
-        # later releases leave the quotes out
+        # later releases omit the quotes
         if action.choices is not None and value not in action.choices:
             choices = ", ".join(map(repr, action.choices))
             raise ArgumentError(action, f"invalid choice: {value!r} (choose from {choices})")
 
 
 def summary(verb: Verb) -> str:
-    """Return the one line that describes a command: its docstring's first, without the dot."""
+    """Return the description of a command: its docstring's first line without the dot."""
     return (verb.__doc__ or "").strip().partition("\n")[0].rstrip(".")
 
 
 def first_word(arguments: Iterable[str]) -> str | None:
-    """Return the first argument that is no option: the name of the command or verb."""
+    """Return the first argument that is not an option: the name of the command or verb."""
     return next((argument for argument in arguments if not argument.startswith("-")), None)
 
 
 def add_commands(
     parser: Parser, command_line: str, listed: dict[str, str]
 ) -> _SubParsersAction[Parser]:
-    """Give a parser sub-commands, and its help the list of them as ros2cli puts it.
+    """Add sub-commands to a parser, and list them in its help as ros2cli does.
 
-    `command_line` is what comes before the sub-command (``ros2 pkg``), `listed` are those that
-    the help shows, with their one-line descriptions.
+    `command_line` is the part before the sub-command (``ros2 pkg``), `listed` maps the sub-commands
+    that the help shows to their one-line descriptions.
     """
     width = max(map(len, listed), default=0)
     return parser.add_subparsers(

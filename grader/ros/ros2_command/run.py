@@ -1,6 +1,6 @@
 """Run a package specific executable.
 
-Sources: ros2run 0.32.2 and, for kilted, ros2cli#899 (the signals are forwarded since 0.38.0).
+Sources: ros2run 0.32.2 and, for kilted, ros2cli#899 (forwards signals since 0.38.0).
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def add_arguments(parser: Parser) -> None:
 def main(args: Namespace) -> Result:
     """Run the executable until it ends and return its status, negative for a signal.
 
-    Raises OSError when the program cannot be started (a `--prefix` that does not exist, a script
+    Raises OSError if the program cannot be started (a `--prefix` that does not exist, a script
     without shebang) or no ROS environment was sourced: the real command does not catch it either.
     """
     paths = package_executables(args.package_name)
@@ -52,11 +52,11 @@ def main(args: Namespace) -> Result:
 
 
 def run(command: list[str]) -> int:
-    """Start a command, wait for its end, and say on stdout how it failed if it did.
+    """Start a command, wait for its end, and print on stdout how it failed if it did.
 
-    Ctrl+C on a terminal reaches the whole foreground process group, so the child has had it too:
-    waiting goes on. In kilted SIGINT and SIGTERM are passed on to the child, which makes it two
-    SIGINTs for one Ctrl+C.
+    Ctrl+C on a terminal reaches the whole foreground process group, including the child, so the
+    wait continues. In kilted SIGINT and SIGTERM are also forwarded to the child, which then gets
+    two SIGINTs for one Ctrl+C.
 
     Returns the child's status, -N if signal N ended it. Raises OSError as `main` does.
     """
@@ -72,11 +72,11 @@ def run(command: list[str]) -> int:
 
 
 def _outlive(child: subprocess.Popen[bytes]) -> None:
-    """Wait for the child's end, whatever is typed meanwhile.
+    """Wait for the child's end, through any number of KeyboardInterrupts.
 
     ros2cli calls communicate() again after each KeyboardInterrupt. On a busy machine the child's
-    end and the interrupt come together, the status is lost with the interrupted call, and
-    subprocess makes a 0 of it. Here the end is awaited first, and the status fetched after that.
+    end and the interrupt coincide, the status is lost with the interrupted call, and subprocess
+    reports 0. Here the end is awaited first, and the status fetched after that.
     """
     while child.returncode is None:
         try:
@@ -85,7 +85,7 @@ def _outlive(child: subprocess.Popen[bytes]) -> None:
             child.wait()
         except KeyboardInterrupt:
             continue
-        except ChildProcessError:  # reaped already: by poll(), or as SIGCHLD is ignored
+        except ChildProcessError:  # reaped already: by poll(), or because SIGCHLD is ignored
             child.wait()
 
 
@@ -102,6 +102,6 @@ def _forward_signals(child: subprocess.Popen[bytes]) -> None:
 def _words(prefix: str | None) -> list[str]:
     if prefix is None:
         return []
-    import shlex  # noqa: PLC0415 (hardly ever used, and the child waits for it)
+    import shlex  # noqa: PLC0415 (rarely used, and it delays the child)
 
     return shlex.split(prefix)

@@ -1,7 +1,7 @@
 """The CMake files of a new ament_cmake or plain cmake package.
 
-They do what ros2's do, in our words. Kilted links modern targets, since
-ament_target_dependencies is deprecated there (ros2cli#973), and asks for CMake 3.20 (#969).
+They do the same as those of ros2 but are worded differently. In kilted they link modern targets,
+since ament_target_dependencies is deprecated there (ros2cli#973), and require CMake 3.20 (#969).
 """
 
 from .manifest import PackageDescription
@@ -85,7 +85,7 @@ endif()
 def populate_ament_cmake(package: PackageDescription, folder: str) -> None:
     """Write CMakeLists.txt.
 
-    Raises OSError when it cannot be written.
+    Raises OSError if it cannot be written.
     """
     include = "include/${PROJECT_NAME}"
     ament = ["ament_cmake", *(["ament_cmake_ros"] if package.library_name else [])]
@@ -102,9 +102,9 @@ def populate_ament_cmake(package: PackageDescription, folder: str) -> None:
 
 
 def populate_cmake(package: PackageDescription, folder: str) -> None:
-    """Write CMakeLists.txt and the two files that find_package() will want.
+    """Write CMakeLists.txt and the two files that find_package() needs.
 
-    Raises OSError when a file cannot be written.
+    Raises OSError if a file cannot be written.
     """
     parts = [
         _project(package, " VERSION 0.0.0"),

@@ -75,17 +75,17 @@ _VISIBILITY = """\
 
 
 def write_node(package: PackageDescription, source: str, node: str) -> None:
-    """Write the source of an executable that greets.
+    """Write the source of an executable that prints a greeting.
 
-    Raises OSError when it cannot be written.
+    Raises OSError if it cannot be written.
     """
     write_file(f"{source}/{node}.cpp", _NODE.format(package=package.name))
 
 
 def write_library(package: PackageDescription, source: str, include: str, library: str) -> None:
-    """Write a library with one empty class that is named after it (`my_lib`: `MyLib`).
+    """Write a library with one empty class named after it (`my_lib`: `MyLib`).
 
-    Raises OSError when a file cannot be written.
+    Raises OSError if a file cannot be written.
     """
     words = {
         "package": package.name,

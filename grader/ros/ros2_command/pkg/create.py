@@ -70,11 +70,11 @@ def add_arguments(parser: Parser) -> None:
 
 
 def main(args: Namespace) -> str | None:
-    """Write the package's files, saying which; return the message where it cannot be.
+    """Write the package's files and print their names; return an error message or None.
 
-    The name is not checked, as ros2 does not check it: `My Robot` is created.
+    Like ros2, this does not check the name: `My Robot` is created.
 
-    Raises OSError when a file cannot be written.
+    Raises OSError if a file cannot be written.
     """
     if args.license == "?":
         print("Supported licenses:", *LICENSES, sep="\n")

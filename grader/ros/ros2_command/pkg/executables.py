@@ -20,9 +20,9 @@ def add_arguments(parser: Parser) -> None:
 
 
 def main(args: Namespace) -> str | None:
-    """Print the executables of the package, or of all; return the message for an unknown one.
+    """Print the executables of one or all packages; return the message for an unknown package.
 
-    Raises OSError when no ROS environment was sourced.
+    Raises OSError if no ROS environment was sourced.
     """
     names = package_names() if args.package_name is None else [args.package_name]
     for name in names:

@@ -1,6 +1,6 @@
-"""The licences that ament knows, and their texts.
+"""The licenses that ament knows, and their texts.
 
-The texts are the standard ones without a copyright line, as ament's are: Apache-2.0, GPL-3 and
+The texts are the standard ones without a copyright line, as in ament: Apache-2.0, GPL-3 and
 LGPL-3 from Debian's ``/usr/share/common-licenses``, the rest from the SPDX list (PyPI's
 ``spdx`` 2.5.1), wrapped. BSD-2.0 is ament's name for the three-clause text with a title.
 """
@@ -23,7 +23,7 @@ LICENSES = (
 def license_text(identifier: str) -> str:
     """Return the text of one of `LICENSES`.
 
-    Raises OSError when its data file is missing.
+    Raises OSError if its data file is missing.
     """
     path = Path(__file__).parent.parent / "licenses" / f"{identifier}.txt"
     return path.read_text(encoding="utf-8")

@@ -1,6 +1,6 @@
-"""The tests that a new ament_python package brings: ament's linters, run by pytest.
+"""The tests of a new ament_python package: ament's linters, run by pytest.
 
-Names and purpose are those of ros2's own; the texts are ours, so their sizes differ.
+Names and purpose are those of ros2's own tests; the texts are ours, so their sizes differ.
 """
 
 _SKIP = """\
@@ -26,7 +26,7 @@ _FLAKE8 = """\
 
 
 def linter_tests(*, kilted: bool) -> dict[str, str]:
-    """Return the files' names and texts; kilted checks package.xml as well (ros2cli#957)."""
+    """Return the texts by file name; kilted checks package.xml as well (ros2cli#957)."""
     tests = {
         "test_copyright.py": _main("copyright", ["copyright", "linter"], "['.', 'test']", _SKIP),
         "test_flake8.py": _check("flake8", "main_with_errors", ["flake8", "linter"], _FLAKE8),

@@ -11,9 +11,9 @@ def add_arguments(_parser: Parser) -> None:
 
 
 def main(_args: Namespace) -> None:
-    """Print the names of all packages, sorted, one a line.
+    """Print the names of all packages, sorted, one per line.
 
-    Raises OSError when no ROS environment was sourced.
+    Raises OSError if no ROS environment was sourced.
     """
     for name in package_names():
         print(name)

@@ -1,4 +1,4 @@
-"""Who maintains a new package, where the command line does not say it."""
+"""The default maintainer of a new package."""
 
 import getpass
 import shutil
@@ -8,7 +8,7 @@ from .. import distro
 
 
 def default_name() -> str:
-    """Return the login name, or in kilted git's ``user.name`` where it is set (ros2cli#968).
+    """Return the login name, or in kilted git's ``user.name`` if it is set (ros2cli#968).
 
     Raises KeyError (OSError from Python 3.13 on) for a user id without name and no ``USER``.
     """
@@ -16,7 +16,7 @@ def default_name() -> str:
 
 
 def default_email(name: str) -> str:
-    """Return git's ``user.email``, or an address to be filled in."""
+    """Return git's ``user.email``, or a placeholder address."""
     return _git("user.email") or f"{name}@todo.todo"
 
 

@@ -7,7 +7,7 @@ _SCHEMA = "http://download.ros.org/schema/package_format{format}.xsd"
 
 @dataclass(frozen=True, kw_only=True)
 class PackageDescription:
-    """What the files of a new package are made from; `kilted` chooses the newer templates."""
+    """The values for the files of a new package; `kilted` selects the newer templates."""
 
     name: str
     format: int

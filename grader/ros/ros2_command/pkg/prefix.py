@@ -14,9 +14,9 @@ def add_arguments(parser: Parser) -> None:
 
 
 def main(args: Namespace) -> str | None:
-    """Print the folder; return the message where the package is not found.
+    """Print the folder; return the message if the package is not found.
 
-    Raises OSError when no ROS environment was sourced.
+    Raises OSError if no ROS environment was sourced.
     """
     find = share_directory if args.share else package_prefix
     path = find(args.package_name)

@@ -32,7 +32,7 @@ setup(
 )
 """
 _TESTS_JAZZY = "    tests_require=['pytest'],\n"
-# ros2cli#1066, since setuptools dropped tests_require
+# ros2cli#1066: setuptools dropped tests_require
 _TESTS_KILTED = """\
     extras_require={
         'test': [
@@ -57,9 +57,9 @@ if __name__ == '__main__':
 
 
 def populate_ament_python(package: PackageDescription, folder: str) -> None:
-    """Write everything but package.xml and LICENSE.
+    """Write everything except package.xml and LICENSE.
 
-    Raises OSError when a file cannot be written.
+    Raises OSError if a file cannot be written.
     """
     print("creating source folder")
     source = create_folder(f"{folder}/{package.name}")

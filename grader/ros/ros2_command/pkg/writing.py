@@ -1,12 +1,12 @@
-"""Folders and files written under the eyes of the user, as `ros2 pkg create` does."""
+"""Create folders and files and print their names, as `ros2 pkg create` does."""
 
 from pathlib import Path
 
 
 def create_folder(path: str) -> str:
-    """Create a folder and its parents, say so, and return its path as it was given.
+    """Create a folder and its parents, print its path, and return the path as given.
 
-    Raises OSError when it cannot be created.
+    Raises OSError if it cannot be created.
     """
     print("creating folder", path)
     Path(path).mkdir(parents=True, exist_ok=True)
@@ -14,9 +14,9 @@ def create_folder(path: str) -> str:
 
 
 def write_file(path: str, text: str) -> None:
-    """Write a new text file and say so.
+    """Write a text file and print its path.
 
-    Raises OSError when it cannot be written.
+    Raises OSError if it cannot be written.
     """
     print("creating", path)
     Path(path).write_text(text, encoding="utf-8")

@@ -17,9 +17,9 @@ def add_arguments(parser: Parser) -> None:
 def main(args: Namespace) -> str | None:
     """Print the installed package.xml, or the texts of its elements with the tag.
 
-    Returns the message for a package, manifest or tag that is not there.
+    Returns the message for a missing package, manifest or tag.
 
-    Raises OSError when no ROS environment was sourced, ET.ParseError for broken XML.
+    Raises OSError if no ROS environment was sourced, ET.ParseError for broken XML.
     """
     share = share_directory(args.package_name)
     if share is None:
@@ -27,7 +27,7 @@ def main(args: Namespace) -> str | None:
     manifest = Path(share, "package.xml")
     if not manifest.is_file():
         return "Package XML manifest not found"
-    tree = ET.parse(manifest)  # noqa: S314 (a manifest that was installed here)
+    tree = ET.parse(manifest)  # noqa: S314 (a locally installed manifest)
     if args.tag is None:
         ET.dump(tree)
         return None

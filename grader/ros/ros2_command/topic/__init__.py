@@ -10,7 +10,7 @@ VERBS = ("list",)
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare the option that may stand before the verb."""
+    """Declare the option that may come before the verb."""
     parser.add_argument(
         "--include-hidden-topics", action="store_true", help="Consider hidden topics as well"
     )

@@ -36,7 +36,7 @@ def add_arguments(parser: Parser) -> None:
 
 
 def main(args: Namespace) -> None:
-    """Print the topics' names, sorted, with what the options add; or their number.
+    """Print the topics' names, sorted, with the details of the options; or only their number.
 
     Raises what `graph.graph` raises.
     """
