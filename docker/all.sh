@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Builds and runs the whole table of distros and bases on a machine that reaches a registry, and
-# prints it as README has it:  docker/all.sh [DISTRO...]
-# For each: both images are built, the solution is marked in a container (it must have all points),
-# and the lab answers `ros2 pkg prefix`. WHEELS_BASE names another image for the base `wheels`.
+# Builds and tests all distros and bases on a machine that reaches a registry, and prints the table
+# for the README:  docker/all.sh [DISTRO...]
+# For each: builds both images, marks the solution in a container (it must get full marks), and runs
+# `ros2 pkg prefix` in the lab. WHEELS_BASE names another image for the base `wheels`.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 python3 grader/bootstrap.py || exit 3
@@ -17,7 +17,7 @@ for distro in "$@"; do
     if [ $base = wheels ] && ! grep -q "^\[$distro.wheels\]" grader/ros/distros.toml; then continue; fi
     suffix=$([ $base = wheels ] && echo -wheels || true)
     built=no marked=no lab=no
-    # another repository for each row: what is marked is this image, not its neighbour
+    # another repository for each row, so that the row's own image is used
     export GRADER_IMAGES="$repository-row-$distro-$base"
     image=$([ $base = wheels ] && echo "${WHEELS_BASE:-}" || true)
     if .venv/bin/python -m grader images --distro "$distro" --base $base \

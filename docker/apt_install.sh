@@ -1,8 +1,8 @@
 #!/bin/sh
-# Installs packages in one layer: from the mirror $APT_MIRROR if there is one (it is not kept), and
-# without what apt leaves behind. $MAN_OF: packages of a slim base whose man pages are brought back.
+# Installs packages in one layer, from the mirror $APT_MIRROR if it is set (it is not kept), and
+# removes apt's lists, caches and logs. $MAN_OF: packages of a slim base to restore man pages of.
 set -eu
-# apt reads the lower-case names alone
+# apt reads only the lower-case names
 export http_proxy="${http_proxy:-${HTTP_PROXY:-}}" https_proxy="${https_proxy:-${HTTPS_PROXY:-}}"
 kept=/tmp/apt-sources
 mkdir -p "$kept"

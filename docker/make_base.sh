@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Makes a base image where no registry can be reached: debootstrap and `docker import`.
+# Makes a base image without a registry: debootstrap and `docker import`.
 #
 #   docker/make_base.sh SUITE IMAGE [MIRROR]
 #   docker/make_base.sh trixie ros2-teaching-lab:base
 #   docker/make_base.sh noble my-ubuntu:noble http://archive.ubuntu.com/ubuntu
 #
-# Debian's suites (bookworm, trixie) do for the wheels images; the official ROS packages need
-# Ubuntu's (jammy, noble), where a mirror of it can be reached. An image that is there is kept:
-# remove it first (`docker rmi IMAGE`) to make it anew. Needs root.
+# Debian's suites (bookworm, trixie) are sufficient for the wheels images; the official ROS packages
+# need Ubuntu's (jammy, noble) and a mirror of Ubuntu. An existing image is kept: remove it first
+# (`docker rmi IMAGE`) to make it again. Needs root.
 set -euo pipefail
 
 if [ $# -lt 2 ] || [ $# -gt 3 ]; then
@@ -31,14 +31,14 @@ command -v docker > /dev/null || missing "the docker command is missing" "apt-ge
 docker info > /dev/null 2>&1 || missing "the Docker daemon does not answer" "Start it: systemctl start docker"
 
 if [ -n "$(docker image ls -q "$image")" ]; then
-  echo "make_base.sh: $image is there already"
+  echo "make_base.sh: $image exists already"
   exit 0
 fi
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 script=$suite
-# an old debootstrap does not know a new suite by name; they are all made alike
+# an old debootstrap does not know the name of a new suite; all use the same script
 [ -e "/usr/share/debootstrap/scripts/$suite" ] || script=sid
 echo "make_base.sh: fetching $suite from $mirror (a minute or two)"
 debootstrap --variant=minbase --components="$components" "$suite" "$folder/root" "$mirror" \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Says by which digests the official images are had today, as rows for grader/ros/distros.toml.
+# Prints today's digests of the official images, as rows for grader/ros/distros.toml.
 # Needs a machine that reaches the registry:  docker/pin.sh [DISTRO...]
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,11 +1,11 @@
-# A base for machines that cannot have the official ROS images: Debian's (or Docker's own) Python,
-# and /opt/ros/<distro> made of PyPI's ROS wheels by the same code as the local prefix.
-# jazzy and kilted. Builds with and without BuildKit.
+# A base for machines that cannot pull the official ROS images: Python of Debian (or of another
+# base), and /opt/ros/<distro> made from PyPI's ROS wheels by the same code as the local prefix.
+# For jazzy and kilted. Builds with and without BuildKit.
 #
 #   docker build -f docker/wheels.Dockerfile --build-arg DISTRO=jazzy -t ros2-teaching-lab:base-jazzy-wheels .
 #
-# APT_MIRROR, PIP_INDEX_URL, HTTP_PROXY, HTTPS_PROXY: for networks as they are. An extra CA
-# certificate is a file docker/ca/*.crt; it stays in the builder stage, which is thrown away.
+# APT_MIRROR, PIP_INDEX_URL, HTTP_PROXY, HTTPS_PROXY adapt the build to the network. An extra CA
+# certificate is a file docker/ca/*.crt; it stays in the builder stage, which is discarded.
 ARG WHEELS_BASE=debian:trixie-slim
 
 FROM ${WHEELS_BASE} AS python
