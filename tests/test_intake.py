@@ -71,7 +71,7 @@ def test_what_is_neither_file_nor_folder_is_never_opened(tmp_path: Path) -> None
     found = take(root)
     assert time.monotonic() - begin < 2
     assert not {"fifo", "socket", f"{PACKAGE}/node.py"} & paths(found)
-    assert "neither file nor folder" in notes(found)
+    assert "neither a file nor a folder" in notes(found)
 
 
 def test_a_fifo_in_place_of_the_manifest_does_not_block(tmp_path: Path) -> None:

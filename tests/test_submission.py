@@ -46,7 +46,7 @@ def test_a_path_through_a_link_is_the_folder_that_it_leads_to(tmp_path: Path) ->
     ("make_it", "words"),
     [
         (lambda p: None, "there is no folder"),
-        (lambda p: p.write_text("x"), "is a file"),
+        (lambda p: p.write_text("x"), "neither a folder nor an archive"),
         (os.mkfifo, "neither a folder nor a file"),
         (lambda p: p.symlink_to(p), "cannot be read"),
         (lambda p: p.symlink_to("gone"), "there is no folder"),
@@ -121,7 +121,7 @@ def test_a_package_inside_another_is_explained_as_colcon_sees_it(tmp_path: Path)
     make(tmp_path / "two/outer/inner")
     found = take(tmp_path / "two")
     assert found.root == "outer/inner"
-    assert "lies inside another package (outer, in outer)" in found.hints[0]
+    assert "is inside another package (outer, in outer)" in found.hints[0]
 
 
 def test_the_only_package_is_taken_whatever_it_is_called(tmp_path: Path) -> None:

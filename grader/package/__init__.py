@@ -1,1 +1,1 @@
-"""package"""
+"""A submitted package: intake, source analysis and edits."""

@@ -1,4 +1,4 @@
-"""Intake: find the package in what was handed in, without running or trusting any of it."""
+"""Intake: find the package in a submission without running or trusting any of it."""
 
 from __future__ import annotations
 
@@ -47,11 +47,11 @@ def take_in(
     name: str | None = None,
     modes_kept: bool = True,
 ) -> Submission:
-    """Take in a folder or an archive that is the package, a workspace, or holds the package below.
+    """Take in a folder or an archive: the package, a workspace, or a parent of the package.
 
-    `modes_kept` is False where the way here lost the exec bits of a folder's files (what was
-    uploaded file by file, say). Raises UsageError for a path that is neither, does not exist or
-    cannot be read. All else that is wrong is the student's, and is said in the Submission.
+    `modes_kept` is False if the exec bits of a folder's files were lost on the way (e.g. in an
+    upload file by file). Raises UsageError for a path that is neither, does not exist or cannot
+    be read. Any other problem is the student's and is recorded in the Submission.
     """
     own = resolved(path)
     name = name or submission_name(_without_ending(own), package)
@@ -106,7 +106,7 @@ def _origin(tree: Tree, root: str) -> Origin:
 
 
 def _refused(path: Path, name: str, problem: Problem) -> Submission:
-    """An archive that was not taken in: known by its bytes."""
+    """Return the submission of a refused archive, identified by its bytes."""
     return Submission(
         path=path,
         name=sanitise(name),
@@ -127,13 +127,13 @@ def _named(tree: Tree, name: str) -> tuple[str, ...]:
 
 
 def _outline(tree: Tree) -> Iterable[SourceFile]:
-    """Return what is there, without contents: enough to tell two packageless hand-ins apart."""
+    """Yield the entries without contents: enough to tell submissions without a package apart."""
     for path, entry in sorted(tree.entries.items()):
         yield SourceFile(path, entry.kind, entry.mode, str(entry.size).encode(), entry.target)
 
 
 def _digest(files: Iterable[SourceFile], modes: Modes) -> str:
-    """Return the hash of what was handed in: paths, kinds, exec bits (if known) and contents."""
+    """Return the hash of a submission: paths, kinds, exec bits (if known) and contents."""
     digest = hashlib.sha256()
     for file in files:
         bits = "x" if file.kind == "file" and file.mode & 0o100 else "-"

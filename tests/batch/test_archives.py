@@ -240,13 +240,13 @@ def test_a_name_that_is_there_twice_is_the_last_one_and_noted(tmp_path: Path) ->
     node = found.file(NODE_PATH)
     assert node is not None
     assert node.data == b"second"
-    assert f"twice in the archive: the last one was taken: {NODE_PATH}" in notes(found)
+    assert f"twice in the archive: the last one was used: {NODE_PATH}" in notes(found)
 
 
 def test_names_that_differ_only_in_case_are_kept_apart_and_noted(tmp_path: Path) -> None:
     found = hand_in(tmp_path, zipped({**package(), "Setup.py": b"other"}))
     assert found.file("setup.py") != found.file("Setup.py")
-    assert "differ only in their case" in notes(found)
+    assert "differ only in case" in notes(found)
     assert "Setup.py" in notes(found)
 
 
@@ -326,16 +326,16 @@ def test_a_document_is_not_opened_though_it_is_a_zip(tmp_path: Path) -> None:
         (tarred(package(), "w:xz")[:-20], "a.txz", "package.archive_corrupt", "damaged"),
         (tarred(package(), "w:bz2")[:-20], "a.tbz", "package.archive_corrupt", "damaged"),
         (tarred(package())[:3000], "a.tar", "package.archive_corrupt", "damaged"),
-        (b"", "a.zip", "package.archive_corrupt", "is none"),
-        (b"<html>Sign in</html>", "a.zip", "package.archive_corrupt", "is none"),
-        (gzip.compress(b"x = 1\n" * 200), "a.gz", "package.archive_unsupported", "no archive"),
-        (bz2.compress(b"x = 1\n" * 200), "a.bz2", "package.archive_unsupported", "no archive"),
+        (b"", "a.zip", "package.archive_corrupt", "is not one"),
+        (b"<html>Sign in</html>", "a.zip", "package.archive_corrupt", "is not one"),
+        (gzip.compress(b"x = 1\n" * 200), "a.gz", "package.archive_unsupported", "a single file"),
+        (bz2.compress(b"x = 1\n" * 200), "a.bz2", "package.archive_unsupported", "a single file"),
         (b"Rar!\x1a\x07\x01\x00" + bytes(99), "a.rar", "package.archive_unsupported", "RAR"),
         (b"7z\xbc\xaf\x27\x1c" + bytes(99), "a.7z", "package.archive_unsupported", "7z"),
         (b"Rar!\x1a\x07\x01\x00" + bytes(99), "a.zip", "package.archive_unsupported", "RAR"),
-        (zipped({}), "a.zip", "package.archive_empty", "nothing"),
-        (tarred({}), "a.tar", "package.archive_empty", "nothing"),
-        (tarred({}, "w:gz"), "a.tgz", "package.archive_empty", "nothing"),
+        (zipped({}), "a.zip", "package.archive_empty", "is empty"),
+        (tarred({}), "a.tar", "package.archive_empty", "is empty"),
+        (tarred({}, "w:gz"), "a.tgz", "package.archive_empty", "is empty"),
         (zipped({"notes.txt": b"x"}), "a.zip", "package.no_manifest", "notes.txt"),
         (zipped({NODE: b"x"}), "a.zip", "package.only_node", NODE),
     ],

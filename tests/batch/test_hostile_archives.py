@@ -81,7 +81,7 @@ def test_devices_and_pipes_are_left_out_and_noted(tmp_path: Path, kind: bytes) -
     found = hand_in(tmp_path, tar_with(odd_member("dev", kind)))
     assert found.root == "."
     assert found.file("dev") is None
-    assert "neither file nor folder" in notes(found)
+    assert "neither a file nor a folder" in notes(found)
 
 
 def test_a_file_below_a_link_or_a_file_is_left_out(tmp_path: Path) -> None:
@@ -89,7 +89,7 @@ def test_a_file_below_a_link_or_a_file_is_left_out(tmp_path: Path) -> None:
     link = odd_member("way", tarfile.SYMTYPE, "/etc")
     found = hand_in(tmp_path, tar_with(link, odd_member("way/cron.d", tarfile.REGTYPE)))
     assert found.file("way/cron.d") is None
-    assert "below a name that is no folder: way/cron.d" in notes(found)
+    assert "below a name that is not a folder: way/cron.d" in notes(found)
 
 
 def test_a_file_in_place_of_a_folder_with_files_is_left_out(tmp_path: Path) -> None:

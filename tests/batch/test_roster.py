@@ -172,7 +172,7 @@ def test_a_roster_that_is_not_there_is_wrong_usage(tmp_path: Path) -> None:
     for name in ("gone.csv", "a\0b"):
         with pytest.raises(UsageError, match="no roster"):
             read_roster(tmp_path / name)
-    with pytest.raises(UsageError, match="plain file"):
+    with pytest.raises(UsageError, match="regular file"):
         read_roster(tmp_path)
 
 

@@ -106,10 +106,10 @@ def _resource_is_a_link(root: Path) -> None:
     ("meanwhile", "said"),
     [
         (_read_only, "read-only"),
-        (_changed, "changed meanwhile"),
+        (_changed, "has changed since"),
         (_gone, "No such file"),
         (_link, "it is a link"),
-        (_marker_there, "was not there"),
+        (_marker_there, "did not exist"),
         (_resource_is_a_link, "link"),
     ],
 )

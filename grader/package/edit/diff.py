@@ -1,6 +1,6 @@
-"""A change of a package as a unified diff in git's extended form (git-diff(1)).
+"""The changes to a package as a unified diff in git's extended format (git-diff(1)).
 
-`git apply` takes all of it, `patch -p1` all but the modes. The lines are the file's own bytes.
+`git apply` applies all of it, `patch -p1` all but the modes. The lines are the file's own bytes.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from grader.package.intake.model import SourceFile
 
 CONTEXT = 3
 MOST_COMPARED = 400
-"""Beyond this many lines that differ, all are shown as replaced: comparing costs their square."""
+"""If more lines differ, all are shown as replaced: the cost of comparing is quadratic."""
 NO_END = b"\\ No newline at end of file\n"
-Opcode = tuple[bool, int, int, int, int]  # whether equal; from where to where in old and in new
+Opcode = tuple[bool, int, int, int, int]  # equal; start, end in old; start, end in new
 
 
 def diff(old: Files, new: Files) -> bytes:
-    """Return the diff that makes the new files of the old; empty if they are equal."""
+    """Return the diff from the old files to the new ones; empty if they are equal."""
     parts: list[bytes] = []
     for path, file in sorted(new.by_path.items()):
         if file.kind != "file" or file.unreadable:
@@ -59,11 +59,11 @@ def _head(source: str, path: str) -> bytes:
 
 
 def _mode(file: SourceFile) -> bytes:
-    return b"100755" if file.mode & 0o100 else b"100644"  # git knows no others
+    return b"100755" if file.mode & 0o100 else b"100644"  # git records no others
 
 
 def _quoted(path: str) -> bytes:
-    """Return a path as git quotes it (`core.quotePath`); one with a blank too, for patch's sake."""
+    """Return a path quoted as git does (`core.quotePath`), and for patch also if it has a space."""
     plain = all(" " < c < "\x7f" and c not in '"\\' for c in path)
     if plain:
         return path.encode("ascii")
@@ -78,7 +78,7 @@ def _quoted(path: str) -> bytes:
 
 
 def _lines(data: bytes) -> list[bytes]:
-    """Return the lines as git counts them: only a line feed ends one."""
+    """Return the lines as git counts them: only a line feed ends a line."""
     lines = [line + b"\n" for line in data.split(b"\n")]
     last = lines.pop()[:-1]
     return [*lines, last] if last else lines
@@ -128,7 +128,7 @@ def _opcodes(old: list[bytes], new: list[bytes]) -> list[Opcode]:
 
 
 def _groups(opcodes: list[Opcode]) -> Iterator[list[Opcode]]:
-    """Yield the changes with the lines around them; those that are near each other together."""
+    """Yield the changes with their context lines; changes near each other form one group."""
     group: list[Opcode] = []
     for number, (equal, i, j, k, m) in enumerate(opcodes):
         if not equal:

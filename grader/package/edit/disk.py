@@ -1,9 +1,9 @@
-"""Writing changed files to the student's own copy: all of it or nothing, and never out of the package.
+"""Write changed files to the student's own copy: all or nothing, and never outside the package.
 
-Every folder on the way is opened without following links (openat(2), O_NOFOLLOW), so that neither
-a link in the package nor one that is put there meanwhile leads out of it. A file is written beside
-its place and renamed over it; the bytes that it had before stay in `<name>.~1~`, a backup as
-`cp --backup=numbered` makes them (intake leaves such files out).
+Every folder of a path is opened without following links (openat(2), O_NOFOLLOW), so no link in
+the package leads out of it, not even one that is created during the write. A new file is written
+next to the old one and renamed over it; the old bytes stay in `<name>.~1~`, a backup as
+`cp --backup=numbered` makes it (intake leaves such files out).
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ FILE = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
 NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 MOST_BACKUPS = 1000
 NOTHING_WRITTEN = say("Nothing was written.")
-IS_NEW = say("it was not there when the package was looked at")
-IS_LINK = say("it is a link, and only the file itself is fixed")
-BEHIND_LINK = say("the way to it is a link")
-IS_CHANGED = say("it was changed meanwhile; call grader fix again")
-IS_READ_ONLY = say("it is read-only (chmod u+w makes it yours to change)")
+IS_NEW = say("it did not exist when the package was read")
+IS_LINK = say("it is a link, and only regular files are fixed")
+BEHIND_LINK = say("a folder in its path is a link")
+IS_CHANGED = say("it has changed since the package was read; run grader fix again")
+IS_READ_ONLY = say("it is read-only (make it writable with: chmod u+w)")
 
 
 @dataclass(frozen=True)
 class Change:
-    """One file of the plan: where it is now, as what; where it will be, as what."""
+    """One file to change: its old path and content, and its new path and content."""
 
     source: str | None
     before: SourceFile | None
@@ -61,8 +61,8 @@ def changes(old: Files, new: Files) -> list[Change]:
 def apply(old: Files, new: Files, root: Path) -> list[str]:
     """Write the new files to the package in the folder `root` and return the backups' paths in it.
 
-    Raises UsageError, with nothing written, for what may not be written to, is a link, or is not
-    any more as it was when it was looked at.
+    Raises UsageError, with nothing written, if a file is read-only, is a link, or has changed
+    since it was read.
     """
     todo = changes(old, new)
     backups: list[str] = []
@@ -79,7 +79,7 @@ def apply(old: Files, new: Files, root: Path) -> list[str]:
         except OSError as error:
             _undo(top, undo)
             raise _refused(todo[len(undo) - 1].path, error.strerror or str(error)) from None
-        except BaseException:  # Ctrl+C in the middle leaves nothing half done
+        except BaseException:  # Ctrl+C leaves no partial change
             _undo(top, undo)
             raise
     return backups
@@ -103,7 +103,7 @@ def _package(root: Path) -> Iterator[int]:
 
 @contextmanager
 def _folder_of(top: int, path: str, *, make: bool = False) -> Iterator[tuple[int, str]]:
-    """Open the folder of a path in the package, and yield it with the file's name."""
+    """Open the folder of a path in the package and yield it with the file's name."""
     *above, name = path.split("/")
     at = os.dup(top)
     try:
@@ -122,7 +122,7 @@ def _folder_of(top: int, path: str, *, make: bool = False) -> Iterator[tuple[int
 
 
 def _check(top: int, change: Change) -> None:
-    """Raise UsageError if a change may not be made."""
+    """Raise UsageError if a change is not allowed."""
     if change.source != change.path and _is_there(top, change.path):
         raise _refused(change.path, IS_NEW)
     if change.source is None or change.before is None:
@@ -155,7 +155,7 @@ def _is_there(top: int, path: str) -> bool:
         return False
     except OSError as error:
         what = BEHIND_LINK if error.errno in (errno.ELOOP, errno.ENOTDIR) else ""
-        raise _refused(path, what or error.strerror or say("it cannot be looked at")) from None
+        raise _refused(path, what or error.strerror or say("it cannot be accessed")) from None
     return True
 
 
@@ -201,7 +201,7 @@ def _move(top: int, source: str, path: str) -> None:
 
 
 def _put(folder: int, name: str, found: bytes, like: os.stat_result | None) -> None:
-    """Write a new file, with the mode and (where that is allowed) the owner of another."""
+    """Write a new file with the mode and, if allowed, the owner of `like`."""
     with os.fdopen(os.open(name, NEW, 0o644, dir_fd=folder), "wb") as file:
         file.write(found)
         file.flush()
@@ -214,7 +214,7 @@ def _put(folder: int, name: str, found: bytes, like: os.stat_result | None) -> N
 
 
 def _backed_up(folder: int, name: str) -> str:
-    """Keep a file under another name too (a hard link, or a copy where there are none)."""
+    """Keep a file under a second name: a hard link, or a copy if links are not supported."""
     for number in range(1, MOST_BACKUPS):
         backup = f"{name}.~{number}~"
         try:
@@ -232,7 +232,7 @@ def _backed_up(folder: int, name: str) -> str:
 
 
 def _undo(top: int, done: list[tuple[Change, str]]) -> None:
-    """Bring back what was before, the last change first."""
+    """Restore the old files, the last change first."""
     for change, backup in reversed(done):
         with suppress(OSError), _folder_of(top, change.path) as (folder, name):
             if backup:

@@ -16,14 +16,14 @@ PLAIN, EXECUTABLE = 0o644, 0o755
 
 @dataclass(frozen=True)
 class Files:
-    """Files by their path in the package; `moved` tells where one with a new path was before."""
+    """Files by their path in the package; `moved` maps a new path to the old one."""
 
     by_path: Mapping[str, SourceFile]
     moved: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, submission: Submission) -> Files:
-        """Return the files of what was handed in."""
+        """Return the files of a submission."""
         return cls({file.path: file for file in submission.files})
 
     def put_into(self, submission: Submission) -> Submission:
@@ -31,23 +31,23 @@ class Files:
         return replace(submission, files=tuple(file for _, file in sorted(self.by_path.items())))
 
     def file(self, path: str) -> SourceFile | None:
-        """Return a plain file that can be read; None for all else, links too."""
+        """Return a regular file that can be read; None for anything else, including links."""
         found = self.by_path.get(path)
         plain = found is not None and found.kind == "file" and not found.unreadable
         return found if plain and not self.through_link(path) else None
 
     def data(self, path: str) -> bytes | None:
-        """Return the bytes of a plain file, or None."""
+        """Return the bytes of a regular file, or None."""
         found = self.file(path)
         return found.data if found is not None else None
 
     def through_link(self, path: str) -> bool:
-        """Whether the way to a path goes through a link: such a file is never fixed."""
+        """Whether a path goes through a link: such a file is never fixed."""
         links = {name: f.target for name, f in self.by_path.items() if f.kind == "link"}
         return follow(path, links).place != path
 
     def with_data(self, path: str, data: bytes) -> Files:
-        """Return the files with other bytes in one of them, which is made where it is missing."""
+        """Return the files with new bytes in one of them, which is created if it is missing."""
         old = self.by_path.get(path)
         new = replace(old, data=data) if old else SourceFile(path, "file", PLAIN, data)
         return replace(self, by_path={**self.by_path, **self._folders(path), path: new})
@@ -58,7 +58,7 @@ class Files:
         return replace(self, by_path={**self.by_path, path: new})
 
     def with_move(self, path: str, to: str) -> Files:
-        """Return the files with one of them in another place. KeyError if it is not there."""
+        """Return the files with one of them at another path. KeyError if it is not there."""
         rest = {name: file for name, file in self.by_path.items() if name != path}
         moved = {new: old for new, old in self.moved.items() if new != path}
         first = self.moved.get(path, path)
@@ -68,7 +68,7 @@ class Files:
         return Files({**rest, **self._folders(to), to: new}, moved)
 
     def names_in(self, folder: str) -> list[str]:
-        """Return the names of the files directly in a folder, the package's own if it is empty."""
+        """Return the names of the files directly in a folder ("" is the package's own)."""
         start = f"{folder}/" if folder else ""
         inside = [
             path[len(start) :]

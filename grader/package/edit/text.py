@@ -1,4 +1,4 @@
-"""A student's file as text that can be changed in places, while all else stays byte for byte."""
+"""A student's file as text that can be changed in places; all other bytes are kept."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from grader.package.source.python import ENCODINGS
 LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+\Z")
 BOM = codecs.BOM_UTF8
 MOST_BYTES = 20_000
-"""A longer file is not fixed: each fix reads it anew, and an exercise's has a tenth of that."""
+"""A longer file is not fixed: each fix reads it again, and an exercise's has a tenth of that."""
 
 
 @dataclass(frozen=True)
 class Splice:
-    """Put `new` in the place of the characters from `start` up to (not with) `end`."""
+    """Replace the characters from `start` up to (not including) `end` with `new`."""
 
     start: int
     end: int
@@ -30,7 +30,7 @@ class Splice:
 
 @dataclass(frozen=True)
 class SourceText:
-    """The text of a file as it is, line ends and all; lines are counted from 1, as Python does."""
+    """The exact text of a file, including line ends; lines are counted from 1, as in Python."""
 
     text: str
     encoding: str
@@ -50,7 +50,7 @@ class SourceText:
 
     @property
     def newline(self) -> str:
-        """How the file ends its lines: as its first line does."""
+        """The line end of the file: that of its first line."""
         first = self.lines[0] if self.lines else ""
         return next((end for end in ("\r\n", "\n", "\r") if first.endswith(end)), "\n")
 
@@ -67,12 +67,12 @@ class SourceText:
         return self.lines[line - 1].rstrip("\r\n") if 0 < line <= len(self.lines) else ""
 
     def at(self, line: int, column: int) -> int:
-        """Return where a place of Python's parser is: its columns count bytes of UTF-8."""
+        """Return the offset of a position of Python's parser, whose columns count UTF-8 bytes."""
         before = self.line(line).encode("utf-8", "surrogatepass")[:column]
         return self.start_of(line) + len(before.decode("utf-8", "ignore"))
 
     def span(self, node: ast.expr | ast.stmt) -> tuple[int, int]:
-        """Return from where to where a piece of syntax goes."""
+        """Return the offsets at which a piece of syntax starts and ends."""
         end = self.at(node.end_lineno or node.lineno, node.end_col_offset or 0)
         return self.at(node.lineno, node.col_offset), end
 
@@ -82,25 +82,25 @@ class SourceText:
         return self.text[start:end]
 
     def swap(self, node: ast.expr | ast.stmt, new: str) -> Splice:
-        """Return the splice that puts other text in the place of a piece of syntax."""
+        """Return the splice that replaces a piece of syntax."""
         start, end = self.span(node)
         return Splice(start, end, new)
 
     def before(self, line: int, *rows: str) -> Splice:
-        """Return the splice that puts whole lines in front of a line (after the last: at the end).
+        """Return the splice that inserts whole lines before a line (after the last: at the end).
 
-        A last line without a line end gets one, since something comes after it now.
+        A last line without a line end gets one, since another line follows it now.
         """
         start = self.start_of(line)
         glue = self.newline if start and self.text[start - 1] not in "\r\n" else ""
         return Splice(start, start, glue + "".join(row + self.newline for row in rows))
 
     def without(self, line: int) -> Splice:
-        """Return the splice that takes a whole line away."""
+        """Return the splice that removes a whole line."""
         return Splice(self.start_of(line), self.start_of(line + 1), "")
 
     def spliced(self, splices: Iterable[Splice]) -> bytes | None:
-        """Return the file's bytes after changes; None if they overlap or cannot be encoded."""
+        """Return the file's bytes with the splices; None if they overlap or cannot be encoded."""
         kept: list[str] = []
         done = 0
         for splice in sorted(splices, key=lambda s: (s.start, s.end)):
@@ -116,12 +116,12 @@ class SourceText:
 
 
 def indent_of(line: str) -> str:
-    """Return the blanks and tabs in front of a line."""
+    """Return the spaces and tabs at the start of a line."""
     return line[: len(line) - len(line.lstrip(" \t"))]
 
 
 def read_text(found: bytes | None, encoding: str = "utf-8") -> SourceText | None:
-    """Return a file's text; None where writing it again would not give the same bytes."""
+    """Return a file's text; None if writing it again would not give the same bytes."""
     if found is None or len(found) > MOST_BYTES or b"\0" in found:
         return None
     mark = BOM if found.startswith(BOM) else b""

@@ -1,1 +1,1 @@
-"""Intake: what was handed in is read here, and nothing of it is run or trusted."""
+"""Intake: reads a submission without running or trusting any of it."""

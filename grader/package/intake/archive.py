@@ -1,6 +1,6 @@
-"""An archive as a place to look into: read once, kept in memory, never unpacked to the disk."""
+"""An archive as a place: read once, kept in memory, never unpacked to the disk."""
 
-# ruff: noqa: D102 - what a method does is said once, in Place
+# ruff: noqa: D102 - Place documents the methods
 
 from __future__ import annotations
 
@@ -35,17 +35,17 @@ from grader.package.intake.place import not_there
 from grader.package.intake.reading import Unread
 from grader.package.intake.reading import larger_than
 
-TWICE = say("twice in the archive: the last one was taken")
-BELOW_FILE = say("left out, as it lies below a name that is no folder")
-CASE_ONLY = say("names that differ only in their case: not every system can keep them apart")
+TWICE = say("twice in the archive: the last one was used")
+BELOW_FILE = say("left out, as it is below a name that is not a folder")
+CASE_ONLY = say("names that differ only in case: not every system can distinguish them")
 LONG_NAME = say("left out, as its name is too long")
-HARD_LINK = say("left out, as a hard link to what is not in the archive before it")
+HARD_LINK = say("left out, as it is a hard link to a file that is not before it in the archive")
 SEVERAL_LOST = say("left out, as the archive has other files below that name")
-GIT_MODES = (".git/config", ".git/index")  # what tells the exec bits of a checkout
+GIT_MODES = (".git/config", ".git/index")  # they record the exec bits of a checkout
 
 
 class Archive:
-    """A zip or tar in memory; `name` is the archive's without its ending."""
+    """A zip or tar in memory; `name` is the archive's name without its ending."""
 
     def __init__(self, name: str, form: Literal["zip", "tar"]) -> None:
         self.name = name
@@ -56,7 +56,7 @@ class Archive:
         self._modes: dict[str, int | None] = {}
         self._remarks: list[tuple[str, str]] = []
 
-    # what Place asks
+    # the methods of Place
 
     def origin(self, path: str) -> Literal["directory", "zip", "tar"]:
         del path
@@ -75,7 +75,7 @@ class Archive:
     def read(self, path: str, limit: int) -> bytes | Unread:
         entry = self._entries.get(path)
         if entry is None or entry.kind != "file":
-            return Unread(say("it is not a plain file"))
+            return Unread(say("it is not a regular file"))
         if entry.size > limit:
             return larger_than(limit)
         return self._data.get(path, Unread(say("it was not kept")))
@@ -90,10 +90,10 @@ class Archive:
     def remarks(self) -> Iterable[tuple[str, str]]:
         return (*self._remarks, *((CASE_ONLY, " and ".join(pair)) for pair in self._case_only()))
 
-    # how it is filled
+    # filling it
 
     def add(self, member: Member, what: str, spent: Spent) -> None:
-        """Take in one member; ArchiveError for a name that leads out, or beyond the limits."""
+        """Add one member; ArchiveError for a name that leads out, or beyond the limits."""
         path = inside(member.name)
         if path is None:
             raise ArchiveError(unsafe(what, member.name))
@@ -104,7 +104,7 @@ class Archive:
             return
         if member.remark:
             self._remarks.append((member.remark, path))
-        if not self._make_way(path, member):
+        if not self._make_parents(path, member):
             return
         if member.kind == "hard link":
             self._hard_link(path, member)
@@ -119,8 +119,8 @@ class Archive:
         else:
             self._put(path, None, member.mode)
 
-    def _make_way(self, path: str, member: Member) -> bool:
-        """Make the folders above a member; False if it cannot be where it wants to be."""
+    def _make_parents(self, path: str, member: Member) -> bool:
+        """Make the folders above a member; False if the member cannot be added there."""
         parts = path.split("/")
         for depth in range(1, len(parts)):
             above = "/".join(parts[:depth])
@@ -147,7 +147,7 @@ class Archive:
         self._children[folder or "."][name] = None
 
     def _hard_link(self, path: str, member: Member) -> None:
-        """A hard link is one more name of a file that came before it."""
+        """Add a hard link: one more name of a file that came before it."""
         goal = inside(member.target)
         entry = self._entries.get(goal) if goal is not None else None
         if goal is None or entry is None or entry.kind != "file":
@@ -158,7 +158,7 @@ class Archive:
         self._put(path, Entry(path, "file", entry.mode, size=entry.size), self._modes[goal])
 
     def _keep(self, path: str, member: Member, what: str, spent: Spent) -> int:
-        """Keep a file's bytes, if it is one that may be asked for; return its size."""
+        """Keep a file's bytes, if they may be needed; return its size."""
         of_a_tool = any(part in FOLDERS for part in path.split("/")[:-1])
         if (of_a_tool and not path.endswith(GIT_MODES)) or member.size > spent.limits.nested:
             return member.size
@@ -184,7 +184,7 @@ class Archive:
 
 @contextmanager
 def parsing(what: str) -> Iterator[None]:
-    """Everything that a parser raises over the bytes of a stranger becomes an ArchiveError."""
+    """Turn every exception of a parser of untrusted bytes into an ArchiveError."""
     try:
         yield
     except (ArchiveError, GraderError):
@@ -194,7 +194,7 @@ def parsing(what: str) -> Iterator[None]:
 
 
 def members_of(file: IO[bytes], kind: Kind, what: str, spent: Spent) -> Iterator[Member]:
-    """Yield an archive's members; to be used within `parsing`."""
+    """Yield an archive's members; use it within `parsing`."""
     if kind.form == "zip":
         return read_zip(file, what, spent)
     if kind.form == "tar":
@@ -203,9 +203,9 @@ def members_of(file: IO[bytes], kind: Kind, what: str, spent: Spent) -> Iterator
 
 
 def read_archive(file: IO[bytes], kind: Kind, what: str, spent: Spent) -> Archive:
-    """Read an archive into memory; ArchiveError if it cannot or may not be.
+    """Read an archive into memory; ArchiveError if it is damaged or refused.
 
-    `what` is its path, as messages name it.
+    `what` is its path for messages.
     """
     name = without_ending(what.rpartition("/")[2])
     archive = Archive(name, "zip" if kind.form == "zip" else "tar")

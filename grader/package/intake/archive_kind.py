@@ -1,4 +1,4 @@
-"""What kind of archive a file is, told by its first bytes and not by its name."""
+"""The kind of an archive, recognised by its first bytes and not by its name."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Literal
 from grader.base.i18n.message import say
 
 HEAD = 512
-"""How many bytes tell the kind: a tar's first header."""
+"""How many bytes determine the kind: a tar's first header."""
 
 Packing = Literal["", "gzip", "xz", "bzip2"]
 
@@ -38,7 +38,7 @@ ZIPS = (b"PK\x03\x04", b"PK\x05\x06", b"PK\x07\x08")
 
 @dataclass(frozen=True)
 class Kind:
-    """A zip, or a tar and what it is packed with, or the words for what is not read here."""
+    """A zip, a tar with its compression, or the description of an unsupported kind."""
 
     form: Literal["zip", "tar", "unsupported"]
     packing: Packing = ""
@@ -46,9 +46,9 @@ class Kind:
 
 
 def kind_of(head: bytes) -> Kind | None:
-    """Return the kind by the first `HEAD` bytes; None for what is no archive.
+    """Return the kind by the first `HEAD` bytes; None if it is not an archive.
 
-    What is packed with gzip, xz or bzip2 counts as a tar until it is looked into.
+    A file packed with gzip, xz or bzip2 counts as a tar until it is read.
     """
     if head.startswith(ZIPS):
         return Kind("zip")
@@ -62,7 +62,7 @@ def kind_of(head: bytes) -> Kind | None:
 
 
 def is_tar(head: bytes) -> bool:
-    """Whether a file begins with a tar header (its checksum tells), or with tar's end, all zero."""
+    """Whether a file begins with a tar header (valid checksum), or with tar's end, all zeros."""
     block = head[:HEAD]
     if len(block) < HEAD:
         return False
@@ -76,11 +76,11 @@ def is_tar(head: bytes) -> bool:
 
 
 def is_named_archive(name: str) -> bool:
-    """Whether a name is one that archives have."""
+    """Whether a name is that of an archive."""
     return NAMED.fullmatch(name) is not None
 
 
 def without_ending(name: str) -> str:
-    """Return an archive's name without what tells its kind: `jane.tar.gz` is `jane`."""
+    """Return an archive's name without its endings: `jane.tar.gz` is `jane`."""
     match = NAMED.fullmatch(name)
     return match["stem"] if match else name

@@ -1,4 +1,4 @@
-"""How much an archive may hold: every number in one place, and what counts them while it is read."""
+"""The limits of an archive, all in one place, and the counters that enforce them during reading."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from grader.package.intake.reading import MEGABYTE
 
 @dataclass(frozen=True)
 class ArchiveLimits:
-    """Limits of one thing handed in, whatever is nested in it; sizes in bytes.
+    """Limits of one submission, including nested archives; sizes in bytes.
 
-    `packed` is the archive's own size, `unpacked` what comes out of it in all, `held` what is
-    kept in memory, `file` what one file may have to be kept, `nested` the same for an archive in
-    the archive. What comes out may be `ratio` times the size of what goes in; below `ratio_from`
-    nobody asks. `directory` is a zip's table of contents, `header` what describes one member of a
-    tar, and `headers` all of them. `seconds` are processor time, so that load changes no verdict.
+    `packed` is the archive's own size, `unpacked` its total unpacked size, `held` what is kept in
+    memory, `file` the largest file that is kept, `nested` the same for an archive in the archive.
+    The unpacked size may be `ratio` times the packed size; up to `ratio_from` any ratio is
+    accepted. `directory` is a zip's table of contents, `header` the headers of one member of a
+    tar, `headers` those of all. `seconds` are CPU time, so that load changes no verdict.
     """
 
     packed: int = 500 * MEGABYTE
@@ -41,7 +41,7 @@ class ArchiveLimits:
 
 
 class Spent:
-    """What the reading of one thing handed in has come to; every count raises at its limit."""
+    """Counts what reading one submission has used; every count raises at its limit."""
 
     def __init__(self, limits: ArchiveLimits) -> None:
         self.limits = limits
@@ -49,7 +49,7 @@ class Spent:
         self._until = time.thread_time() + limits.seconds
 
     def archive(self, what: str, size: int, *, handed_in: bool) -> None:
-        """One more archive of `size` bytes is opened; `handed_in` if it lay in no other one."""
+        """Count one more archive of `size` bytes; `handed_in` if it is not in another one."""
         if handed_in:
             self._packed += size
         if size > self.limits.packed:
@@ -58,43 +58,44 @@ class Spent:
         if self._archives > self.limits.archives:
             raise ArchiveError(
                 too_large(
-                    what, say("it holds more than {count} others", count=self.limits.archives)
+                    what,
+                    say("it contains more than {count} other archives", count=self.limits.archives),
                 )
             )
 
     def member(self, what: str) -> None:
-        """One more file, folder or link."""
+        """Count one more file, folder or link."""
         self._members += 1
         if self._members > self.limits.members:
             most = f"{self.limits.members:,}"
             raise ArchiveError(
-                too_large(what, say("it holds more than {count} files and folders", count=most))
+                too_large(what, say("it contains more than {count} files and folders", count=most))
             )
         self._in_time(what)
 
     def unpack(self, what: str, size: int) -> None:
-        """`size` bytes more have come out."""
+        """Count `size` more unpacked bytes."""
         self._unpacked += size
         self.foresee(what, 0)
         self._in_time(what)
 
     def foresee(self, what: str, size: int) -> None:
-        """Refuse what says of itself that `size` bytes more will come out, if they are too many."""
+        """Refuse an archive that declares `size` more unpacked bytes, if they are too many."""
         coming = self._unpacked + size
         if coming > self.limits.ratio_from and coming > self.limits.ratio * max(self._packed, 1):
             raise ArchiveError(bomb(what, packed=_in_mb(self._packed), unpacked=_in_mb(coming)))
         if coming > self.limits.unpacked:
             raise ArchiveError(
-                too_large(what, say("unpacked it has more than {size}", size=_in_mb(coming)))
+                too_large(what, say("it unpacks to more than {size}", size=_in_mb(coming)))
             )
 
     def hold(self, what: str, size: int) -> None:
-        """`size` bytes more are kept in memory."""
+        """Count `size` more bytes kept in memory."""
         self._held += size
         if self._held > self.limits.held:
             most = _in_mb(self.limits.held)
             raise ArchiveError(
-                too_large(what, say("its files have more than {size} together", size=most))
+                too_large(what, say("its files have more than {size} in total", size=most))
             )
 
     def _in_time(self, what: str) -> None:

@@ -1,4 +1,4 @@
-"""A member of an archive, as its reader gives it, and where its name leads."""
+"""A member of an archive, as its reader yields it, and where its name leads."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ CHUNK = 65_536
 class Member:
     """One name in an archive: `name` as it is written there, with `/` between folders.
 
-    `mode` is None where the archive does not record it, `modified` (no time zone: archives have
-    none, or the local one) where it tells no time; `target` is where a link or a hard link leads.
-    `chunks` gives a file's bytes, once, and before the next member is asked for; `remark` is a
-    thing to be told about the name.
+    `mode` is None if the archive does not record it, `modified` if it records no valid time (UTC
+    in a tar, without a time zone in a zip); `target` is where a link or a hard link leads.
+    `chunks` yields a file's bytes, once, and only before the next member is requested; `remark`
+    is a note about the name.
     """
 
     name: str
@@ -36,7 +36,7 @@ class Member:
 def inside(name: str) -> str | None:
     """Return where a name leads below the archive's root (`.`), None if it leads out of it.
 
-    A name leads out that is absolute, begins with a drive's letter, or goes up anywhere.
+    A name leads out if it is absolute, begins with a drive letter, or contains `..`.
     """
     if name.startswith("/") or DRIVE.match(name):
         return None

@@ -1,6 +1,6 @@
-"""Archives that lie in what was handed in, looked into where the package is nowhere else."""
+"""Archives inside a submission, read if the package is nowhere else."""
 
-# ruff: noqa: D102 - what a method does is said once, in Place
+# ruff: noqa: D102 - Place documents the methods
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ from grader.package.intake.tree import ancestors
 from grader.package.intake.tree import look
 
 MOST_TRIED = 50
-"""How many files are asked whether they are archives."""
+"""How many files are tested for being archives."""
 
 
 class Opened:
-    """A place in which some archives are opened: they look like folders of their own names."""
+    """A place in which some archives are opened: they look like folders of the same name."""
 
     def __init__(self, base: Place, archives: dict[str, Archive]) -> None:
         self.name = base.name
@@ -83,10 +83,10 @@ class Opened:
 
 
 def look_inside(place: Place, spent: Spent) -> tuple[Tree, Problem | None]:
-    """Look at a place and, where no package is in it, into the archives in it.
+    """Read a place and, if it contains no package, the archives in it.
 
-    Returns the tree with the archives as folders, and the first archive's problem if some could
-    not be opened. Raises OSError where the place cannot be read.
+    Returns the tree with the archives as folders, and the first problem if some archives could
+    not be opened. Raises OSError if the place cannot be read.
     """
     tree = look(place)
     opened: dict[str, Archive] = {}
@@ -110,7 +110,7 @@ def look_inside(place: Place, spent: Spent) -> tuple[Tree, Problem | None]:
 
 
 def _archives_in(tree: Tree) -> Iterator[tuple[str, Kind]]:
-    """Yield the files that are archives, of those whose names do not say that they are not."""
+    """Yield the files that are archives, among those whose names may be an archive's."""
     likely = (
         path
         for path, entry in sorted(tree.entries.items())
@@ -127,7 +127,7 @@ def _archives_in(tree: Tree) -> Iterator[tuple[str, Kind]]:
 
 
 def _may_be(name: str) -> bool:
-    """Whether a file may be an archive: a document or a wheel is a zip too, but not meant as one."""
+    """Whether a file may be an archive: a document or a wheel is a zip too, but not meant here."""
     return is_named_archive(name) or "." not in name
 
 

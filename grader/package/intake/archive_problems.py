@@ -1,4 +1,4 @@
-"""Why an archive that was handed in cannot be marked: the student's mistakes, one by one."""
+"""Why a submitted archive cannot be graded: one function for each of the student's mistakes."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from grader.package.intake.problems import Problem
 
 ENCRYPTED = "package.archive_encrypted"
 AGAIN = say(
-    "Pack the package's folder anew, with nothing else in it: cd ~/ros2_ws/src && "
+    "Pack the package's folder again, with nothing else in it: cd ~/ros2_ws/src && "
     "tar -czf my_package.tar.gz my_package (with your package's name)."
 )
 
 
 class ArchiveError(Exception):
-    """An archive that is not taken in; `problem` is for the student."""
+    """A refused archive; `problem` is for the student."""
 
     def __init__(self, problem: Problem) -> None:
         super().__init__(problem.text)
@@ -27,25 +27,25 @@ def corrupt(what: str, reason: str) -> Problem:
     return Problem(
         "package.archive_corrupt",
         say(
-            "The archive {what} is damaged or was cut short: {reason}.",
+            "The archive {what} is damaged or incomplete: {reason}.",
             what=shown(what),
             reason=reason if isinstance(reason, Message) else shown(reason),
         ),
-        say("Pack it again, open it once to see that all is in it, and hand it in again."),
+        say("Pack it again, open it once to check that everything is in it, and hand it in again."),
     )
 
 
 def no_archive(what: str) -> Problem:
-    """It is called an archive and is something else."""
+    """It is named like an archive but is not one."""
     return Problem(
         "package.archive_corrupt",
-        say("{what} is called an archive, but what is in it is none.", what=shown(what)),
-        say("A new name does not make an archive. {again}", again=AGAIN),
+        say("{what} is named like an archive but is not one.", what=shown(what)),
+        say("Renaming a file does not make it an archive. {again}", again=AGAIN),
     )
 
 
 def encrypted(what: str) -> Problem:
-    """It asks for a password."""
+    """It needs a password."""
     return Problem(
         ENCRYPTED,
         say("The archive {what} is locked with a password.", what=shown(what)),
@@ -54,34 +54,34 @@ def encrypted(what: str) -> Problem:
 
 
 def unsupported(what: str, kind: str) -> Problem:
-    """It is of a kind that is not read."""
+    """Its kind is not supported."""
     return Problem(
         "package.archive_unsupported",
-        say("{what} is {kind}, which is not opened here.", what=shown(what), kind=kind),
+        say("{what} is {kind}, which the grader cannot open.", what=shown(what), kind=kind),
         say("Hand in a zip or a tar.gz. {again}", again=AGAIN),
     )
 
 
 def unsafe(what: str, name: str) -> Problem:
-    """A name in it leads out of the folder that it is unpacked in."""
+    """A path in it leads out of the folder in which it is unpacked."""
     return Problem(
         "package.archive_unsafe",
         say(
-            "The archive {what} holds a name that leads out of it: {name}. Nothing of it was "
+            "The archive {what} contains a path that leads out of it: {name}. Nothing was "
             "unpacked.",
             what=shown(what),
             name=shown(name),
         ),
-        say("Names in an archive are relative and go down only. {again}", again=AGAIN),
+        say("Paths in an archive must be relative and contain no '..'. {again}", again=AGAIN),
     )
 
 
 def bomb(what: str, *, packed: str, unpacked: str) -> Problem:
-    """What comes out of it is out of all proportion."""
+    """It unpacks to many times its size."""
     return Problem(
         "package.archive_bomb",
         say(
-            "The archive {what} has {packed}, and more than {unpacked} come out of it: "
+            "The archive {what} has {packed} but unpacks to more than {unpacked}: "
             "reading was stopped.",
             what=shown(what),
             packed=packed,
@@ -92,11 +92,11 @@ def bomb(what: str, *, packed: str, unpacked: str) -> Problem:
 
 
 def too_large(what: str, reason: str) -> Problem:
-    """It is beyond a limit of size or number."""
+    """It exceeds a limit of size or number."""
     return Problem(
         "package.archive_too_large",
         say(
-            "The archive {what} is too large to be marked: {reason}.",
+            "The archive {what} is too large to grade: {reason}.",
             what=shown(what),
             reason=reason,
         ),
@@ -113,7 +113,7 @@ def too_deep(what: str, depth: int) -> Problem:
     return Problem(
         "package.archive_nested",
         say(
-            "{what} is an archive in more than {depth} others, and was not opened.",
+            "{what} is nested in more than {depth} archives and was not opened.",
             what=shown(what),
             depth=depth,
         ),
@@ -125,6 +125,6 @@ def empty(what: str) -> Problem:
     """Nothing is in it."""
     return Problem(
         "package.archive_empty",
-        say("There is nothing in the archive {what}.", what=shown(what)),
-        say("See that the package is in it before you hand it in. {again}", again=AGAIN),
+        say("The archive {what} is empty.", what=shown(what)),
+        say("Check that the package is in it before you hand it in. {again}", again=AGAIN),
     )

@@ -25,12 +25,12 @@ from grader.package.intake.archive_problems import ArchiveError
 from grader.package.intake.archive_problems import corrupt
 from grader.package.intake.archive_problems import unsupported
 
-IN_MEMORY = 8_000_000  # what is unpacked on the way lies on disk from here on, without a name
-XZ_MEMORY = 100_000_000  # xz -9 asks for 65 MB
+IN_MEMORY = 8_000_000  # bytes; larger unpacked data goes to an unnamed file on disk
+XZ_MEMORY = 100_000_000  # bytes; xz -9 needs 65 MB
 
 
 class _Guarded(io.RawIOBase):
-    """A file of which no more may be read than was allowed: a hostile header asks for gigabytes."""
+    """A file of which only the allowed bytes can be read: a hostile header asks for gigabytes."""
 
     def __init__(self, file: IO[bytes], what: str) -> None:
         self._file = file
@@ -51,15 +51,15 @@ class _Guarded(io.RawIOBase):
 
     def read(self, size: int = -1) -> bytes:
         if not 0 <= size <= self.allowed:
-            raise ArchiveError(corrupt(self._what, say("a header in it is impossibly long")))
+            raise ArchiveError(corrupt(self._what, say("one of its headers is too long")))
         self.allowed -= size
         return self._file.read(size)
 
 
 def read_tar(file: IO[bytes], packing: Packing, what: str, spent: Spent) -> Iterator[Member]:
-    """Yield a tar's members in their order; ArchiveError where it is refused.
+    """Yield a tar's members in their order; ArchiveError if it is refused.
 
-    Whatever else tarfile raises over the bytes of a stranger means that they are damaged.
+    Any other exception of tarfile means that the archive is damaged.
     """
     if not packing:
         yield from _members(file, what, spent)
@@ -70,7 +70,7 @@ def read_tar(file: IO[bytes], packing: Packing, what: str, spent: Spent) -> Iter
             _write(unpacked, chunk)
         unpacked.seek(0)
         if not is_tar(unpacked.read(HEAD)):
-            kind = say("one file packed with {packing} and no archive", packing=packing)
+            kind = say("a single file packed with {packing}", packing=packing)
             raise ArchiveError(unsupported(what, kind))
         unpacked.seek(0)
         yield from _members(unpacked, what, spent)
@@ -81,13 +81,13 @@ def _write(unpacked: tempfile.SpooledTemporaryFile[bytes], chunk: bytes) -> None
         unpacked.write(chunk)
     except OSError as error:
         raise SurroundingsError(
-            f"there is no room to unpack an archive in {tempfile.gettempdir()}: {error.strerror}",
-            remedy="Make room there, or name another folder in TMPDIR.",
+            f"there is no space to unpack an archive in {tempfile.gettempdir()}: {error.strerror}",
+            remedy="Free some space there, or set TMPDIR to another folder.",
         ) from None
 
 
 def _unpacked(file: IO[bytes], packing: Packing) -> Iterator[bytes]:
-    """Yield what comes out, in pieces whose size is bounded whatever goes in."""
+    """Yield the unpacked bytes, in pieces of bounded size for any input."""
     if packing == "gzip":
         with gzip.GzipFile(fileobj=file) as unpacking:
             while chunk := unpacking.read(CHUNK):
@@ -123,20 +123,20 @@ def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
             if info is None:
                 break
             archive.members = []  # type: ignore[attr-defined] # it would keep them all
-            # a negative size sends tarfile back to where it was, for ever (CVE-2025-8194)
+            # a negative size makes tarfile read the same header for ever (CVE-2025-8194)
             if info.offset <= before or info.size < 0 or archive.offset <= info.offset:
-                raise ArchiveError(corrupt(what, say("its headers go round in a circle")))
+                raise ArchiveError(corrupt(what, say("its headers form a loop")))
             before = info.offset
             spent.member(what)
             yield _member(archive, info, guarded)
-        _see_the_end(file, archive.offset, what)
+        _check_end(file, archive.offset, what)
 
 
-def _see_the_end(file: IO[bytes], offset: int, what: str) -> None:
-    """Refuse what goes on after the last header that could be read: tarfile takes it for the end."""
+def _check_end(file: IO[bytes], offset: int, what: str) -> None:
+    """Refuse data after the last readable header, which tarfile takes for the end."""
     file.seek(offset)
     if file.read(HEAD).strip(b"\0"):
-        raise ArchiveError(corrupt(what, say("what follows its last readable file makes no sense")))
+        raise ArchiveError(corrupt(what, say("the data after its last readable file is invalid")))
 
 
 def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) -> Member:
@@ -157,7 +157,7 @@ def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) 
         return Member(info.name, "link", mode, target=info.linkname)
     if info.islnk():
         return Member(info.name, "hard link", mode, target=info.linkname)
-    # a sparse file is read by a table that a stranger wrote; no source file is one
+    # a sparse file is read by a table that the student controls; no source file is sparse
     if not info.isreg() or info.issparse():
         return Member(info.name, "special", mode)
     return Member(info.name, "file", mode, info.size, _time(info), chunks=chunks)

@@ -1,4 +1,4 @@
-"""Zip archives, read member by member; the rules are those of PKWARE's APPNOTE 6.3."""
+"""Zip archives, read member by member by the rules of PKWARE's APPNOTE 6.3."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ UNIX = (3, 19)  # "version made by": Unix, and macOS (APPNOTE 4.4.2)
 ENCRYPTED, UTF8 = 0x1, 0x800  # general purpose flags (APPNOTE 4.4.4)
 READABLE = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 COMMIT = re.compile(rb"[0-9a-f]{40}(?:[0-9a-f]{24})?")
-NOT_UTF8 = say("a name that is not UTF-8: read as code page 437, as zip has it")
-BACKSLASHES = say("a name with backslashes: taken as folders, as Windows has it")
+NOT_UTF8 = say("a name that is not UTF-8: read as code page 437, the default of zip")
+BACKSLASHES = say("a name with backslashes: read as folders, as on Windows")
 LONGEST_LINK = 4_096  # PATH_MAX
 
 
 class _Guarded(io.RawIOBase):
-    """A file that refuses to be read in one large piece: the directory of a hostile zip."""
+    """A file that refuses one large read, such as the directory of a hostile zip."""
 
     def __init__(self, file: IO[bytes], most: int, what: str) -> None:
         self._file = file
@@ -56,15 +56,15 @@ class _Guarded(io.RawIOBase):
 
 
 def read_zip(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
-    """Yield a zip's members in their order; ArchiveError where it is refused.
+    """Yield a zip's members in their order; ArchiveError if it is refused.
 
-    Whatever else zipfile raises over the bytes of a stranger means that they are damaged.
+    Any other exception of zipfile means that the archive is damaged.
     """
     guarded = _Guarded(file, max(spent.limits.directory, 2 * CHUNK), what)
     with zipfile.ZipFile(guarded) as archive:
         members = archive.infolist()
         spent.foresee(what, sum(member.file_size for member in members))
-        # git archive writes the commit as comment, and plain files as made nowhere (archive-zip.c)
+        # git archive writes the commit as comment, and system 0 for plain files (archive-zip.c)
         by_git = COMMIT.fullmatch(archive.comment) is not None
         for member in members:
             spent.member(what)
@@ -84,7 +84,9 @@ def _member(
         if locked:
             raise ArchiveError(encrypted(what))
         if info.compress_type not in READABLE:
-            kind = say("packed by a method of zip ({method})", method=info.compress_type)
+            kind = say(
+                "a zip with an unsupported compression method ({method})", method=info.compress_type
+            )
             raise ArchiveError(unsupported(what, kind))
         with archive.open(info) as file:
             while chunk := file.read(CHUNK):
@@ -111,10 +113,10 @@ def _member(
 
 
 def _name(info: zipfile.ZipInfo) -> tuple[str, str]:
-    """Return a member's name and what is to be said of it.
+    """Return a member's name and a remark about it.
 
-    Without the flag for UTF-8 a name is in code page 437, but macOS and Linux write UTF-8 all the
-    same; bytes of 437 that are UTF-8 by accident make no word of any language.
+    Without the flag for UTF-8 a name is in code page 437, but macOS and Linux write UTF-8 anyway;
+    bytes of 437 that are valid UTF-8 by accident are not a word of any language.
     """
     name, remark = info.filename, ""
     if not info.flag_bits & UTF8 and not name.isascii():

@@ -1,7 +1,7 @@
-"""What tools leave in a folder and make anew: colcon's trees, caches, editors' and systems' files.
+"""What tools leave in a folder and generate again: colcon's trees, caches, editor and system files.
 
-A name alone does not tell: a student's own module may be called `log` or `build`. colcon's
-folders are known by what is in them (colcon-core writes `COLCON_IGNORE` into all three,
+A name alone is not enough: a student's own module may be called `log` or `build`. colcon's
+folders are recognised by their contents (colcon-core writes `COLCON_IGNORE` into all three,
 `.colcon_install_layout` into install and the link `latest` into log).
 """
 
@@ -37,8 +37,8 @@ MOST_PEEKED = 1_000
 def is_colcon_artefact(place: Place, folder: str, beside: Set[str]) -> bool:
     """Whether a folder called build, install or log was made by colcon or by setup.py build.
 
-    `beside` are those of the three names that lie side by side: colcon makes all three, so that
-    one that is known makes the others known.
+    `beside` are those of the three names that are side by side: colcon makes all three, so if
+    one is recognised, all are.
     """
     if "__init__.py" in _names(place, folder):
         return False

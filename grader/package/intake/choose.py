@@ -1,4 +1,4 @@
-"""Which of the folders that look like packages is the one to mark."""
+"""Choose the package to grade among the folders that look like packages."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def find_candidates(tree: Tree) -> list[Candidate]:
 
 
 def _name(tree: Tree, folder: str) -> str:
-    """Return what a package calls itself: in package.xml, else in setup.py, else its folder."""
+    """Return a package's name: from package.xml, else setup.py, else its folder."""
     for file, read in ((MANIFEST, name_in), (SETUP, literal_name)):
         entry = tree.file(join(folder, file))
         if entry is not None:
@@ -60,12 +60,12 @@ def _name(tree: Tree, folder: str) -> str:
 
 
 def choose(tree: Tree, candidates: list[Candidate], *, package: str, node_file: str) -> Choice:
-    """Choose by the assignment's package name, as colcon would see the folders."""
+    """Choose by the assignment's package name, among the folders that colcon would find."""
     if not candidates:
         return Choice(None, problem=no_package(tree, package=package, node_file=node_file))
     seen = [c for c in candidates if not _ignored(tree, c)]
     right = _outermost([c for c in seen if c.name == package])
-    # colcon looks no further inside a package: what lies beside others goes before what is nested
+    # colcon does not search inside a package: prefer a package that is not nested in another
     free = [c for c in right if not _around(c, seen)]
     if len(free or right) > 1:
         return Choice(None, problem=duplicate([c.path for c in free or right], package))
@@ -86,13 +86,13 @@ def _outermost(candidates: list[Candidate]) -> list[Candidate]:
 
 
 def _around(candidate: Candidate, others: list[Candidate]) -> list[Candidate]:
-    """Return those of the others in which the candidate is nested, the outermost first."""
+    """Return the others in which the candidate is nested, the outermost first."""
     above = set(ancestors(candidate.path)) - {candidate.path}
     return [other for other in others if other.path in above]
 
 
 def _nearest(tree: Tree, wrong: list[Candidate], *, package: str, node_file: str) -> Choice:
-    """None has the right name: take the only one, or the one that comes nearest, and say so."""
+    """Choose the nearest candidate, with a hint, since none has the right name."""
 
     def likeness(candidate: Candidate) -> tuple[bool, float, int]:
         start = "" if candidate.path == "." else f"{candidate.path}/"
@@ -107,7 +107,7 @@ def _nearest(tree: Tree, wrong: list[Candidate], *, package: str, node_file: str
         hints.insert(
             0,
             say(
-                "No package is called {package}; of {names} the one marked is {name}.",
+                "No package is called {package}; of {names}, {name} was graded.",
                 package=package,
                 names=names,
                 name=best.name,
@@ -122,9 +122,9 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
     if outer:
         hints.append(
             say(
-                "{path} lies inside another package ({name}, in {outer}): colcon stops at the "
-                "outer one and never builds the inner. It was marked as if it lay beside it: "
-                "packages belong side by side in src.",
+                "{path} is inside another package ({name}, in {outer}): colcon stops at the "
+                "outer one and never builds the inner one. It was graded as if they were side by "
+                "side. Put packages side by side in src.",
                 path=shown(chosen.path),
                 name=outer[0].name,
                 outer=shown(outer[0].path),
@@ -135,15 +135,15 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
         hints.append(
             say(
                 "There is another package inside this one ({path}): colcon stops at the outer "
-                "one and never builds the inner. Packages belong side by side in src.",
+                "one and never builds the inner one. Put packages side by side in src.",
                 path=shown(inner[0].path),
             )
         )
     if _ignored(tree, chosen):
         hints.append(
             say(
-                "A file {ignore} lies in or above the package: colcon then leaves it out, and "
-                "says '0 packages finished'. Delete {ignore}.",
+                "There is a file {ignore} in or above the package, so colcon skips the package "
+                "and prints '0 packages finished'. Delete {ignore}.",
                 ignore=IGNORE,
             )
         )

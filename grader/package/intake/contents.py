@@ -1,4 +1,4 @@
-"""The files of one package, read with bounds."""
+"""The files of one package, read with limits."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ MOST_FILES = 5_000
 """How many files and folders a package may have."""
 MOST_FILE_BYTES = 5 * MEGABYTE
 MOST_BYTES = 50 * MEGABYTE
-"""How much all files of a package may hold together."""
+"""The total size of all files of a package."""
 MOST_LINKS = 200
-"""How many links of a package are looked at."""
+"""How many links of a package are read."""
 
-COPIED = say("a link to a file outside the package: the file's content was taken in its place")
+COPIED = say("a link to a file outside the package: replaced by the file's content")
 TOO_MANY_LINKS = say("left out, as there are more than {count} links", count=MOST_LINKS)
 
 
 class TooLargeError(Exception):
-    """A package beyond the limits; `reason` says which and by how much."""
+    """A package beyond the limits; `reason` names the limit."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(reason)
@@ -36,7 +36,7 @@ class TooLargeError(Exception):
 def read_package(tree: Tree, root: str) -> tuple[SourceFile, ...]:
     """Return the files of the package in the folder `root`, sorted by path.
 
-    Raises TooLargeError where the package as a whole is beyond the limits.
+    Raises TooLargeError if the package as a whole is beyond the limits.
     """
     entries = tree.below(root)
     cut = root in tree.truncated or any(e.path in tree.truncated for e in entries.values())
@@ -77,12 +77,12 @@ class _Reader:
         self._bytes += len(found)
         if self._bytes > MOST_BYTES:
             raise TooLargeError(
-                say("its files hold more than {size} MB", size=MOST_BYTES // MEGABYTE)
+                say("its files have more than {size} MB in total", size=MOST_BYTES // MEGABYTE)
             )
         return SourceFile(path, "file", entry.mode, found)
 
     def _link(self, path: str, entry: Entry) -> Iterator[SourceFile]:
-        """A link that stays inside is kept; one to another file handed in becomes that file."""
+        """Keep a link that stays inside; replace one to another submitted file by that file."""
         way = follow(path, self._links)
         if way.loops or way.place is not None:
             yield SourceFile(path, "link", 0o777, target=entry.target)

@@ -1,4 +1,4 @@
-"""The path that was given: a folder or an archive, opened as a place to look into."""
+"""The path that the user gave: a folder or an archive, opened as a place."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ CHUNK = 1_000_000
 
 
 def resolved(path: Path) -> Path:
-    """Return the resolved path of a folder or file that exists; UsageError for all else."""
+    """Return the resolved path of an existing folder or file; UsageError for anything else."""
     name = shown(str(path))
     try:
-        kind = os.stat(path).st_mode  # noqa: PTH116 - one look tells all
+        kind = os.stat(path).st_mode  # noqa: PTH116 - one call for both tests
         if stat.S_ISDIR(kind) or stat.S_ISREG(kind):
             return path.resolve()
     except FileNotFoundError:
@@ -42,10 +42,10 @@ def resolved(path: Path) -> Path:
 
 
 def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
-    """Open what a resolved path leads to.
+    """Open a resolved path.
 
-    Raises UsageError for a file that is neither an archive nor called one, or cannot be read, and
-    ArchiveError for an archive that is not taken in.
+    Raises UsageError for a file that is neither an archive nor named like one, or cannot be read,
+    and ArchiveError for an archive that is refused.
     """
     if path.is_dir():
         return Folder(path, modes_kept=modes_kept)
@@ -59,8 +59,8 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
             raise ArchiveError(no_archive(path.name))
         if kind is None:
             raise UsageError(
-                say("{name} is a file, and neither a folder nor an archive", name=shown(str(path))),
-                remedy=say("Give the folder that holds the package, or a zip or tar of it."),
+                say("{name} is neither a folder nor an archive", name=shown(str(path))),
+                remedy=say("Give the folder that contains the package, or a zip or tar of it."),
             )
         spent.archive(path.name, os.fstat(file.fileno()).st_size, handed_in=True)
         file.seek(0)
@@ -68,7 +68,7 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
 
 
 def digest_of_file(path: Path, *, most: int) -> str:
-    """Return the hash of a file's size and of its bytes, as far as `most`."""
+    """Return the hash of a file's size and of about its first `most` bytes."""
     digest = hashlib.sha256()
     with path.open("rb") as file:
         digest.update(f"{os.fstat(file.fileno()).st_size}:".encode())

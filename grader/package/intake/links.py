@@ -1,4 +1,4 @@
-"""Where a symbolic link leads, told from the text of the links alone: nothing is followed."""
+"""Where a symbolic link leads, computed from the links' targets alone: nothing is followed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MOST_FOLLOWED = 40
 
 @dataclass(frozen=True)
 class Way:
-    """Where a path ends: a `place` below the root (it need not exist), or None: `loops`, or out."""
+    """Where a path ends: a `place` below the root (may be missing); None: it `loops` or leaves."""
 
     place: str | None
     loops: bool = False
@@ -20,7 +20,7 @@ class Way:
 def follow(path: str, links: Mapping[str, str]) -> Way:
     """Return where `path` leads; the links' own paths are relative to the same root.
 
-    A way that passes above the root, or through an absolute path, leads out.
+    A path leads out if it passes above the root, or through an absolute target.
     """
     to_go = path.split("/")[::-1]
     at: list[str] = []

@@ -1,4 +1,4 @@
-"""What intake hands on: one package with its files, or the reason why there is none."""
+"""The result of intake: one package with its files, or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from grader.report.model import Origin
 class SourceFile:
     """One file of the package: `path` relative to the package root, POSIX style.
 
-    `mode` holds the permission bits (e.g. 0o755), `data` the bytes, `kind` whether it is a
-    folder, a file or a link that stays inside the package (`target` then). A file that could not
-    be read, or is beyond the size limit, is `unreadable`: it has no data, and `reason` says why.
+    `mode` holds the permission bits (e.g. 0o755), `data` the bytes, `target` where a link leads;
+    only links that stay inside the package are kept. A file that cannot be read, or exceeds the
+    size limit, is `unreadable`: it has no data, and `reason` gives the cause.
     """
 
     path: str
@@ -40,14 +40,14 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Submission:
-    """What was handed in.
+    """One submission.
 
     `root` is the package's folder relative to `path` (`.` if it is `path` itself); None if
-    nothing can be marked: then `problem` says why in a sentence, `problem_fix` what to do, and
-    `problem_mistake` is the id of the catalogue. `notes` tell what was left out; `hints` what the
-    student should change although it costs nothing; `node_files` where in all that was handed in
-    a file of the node's name lies, relative to `path`; `links_out` the package's links, relative
-    to it, that lead out of it and were left out.
+    nothing can be graded: then `problem` gives the reason in a sentence, `problem_fix` the fix,
+    and `problem_mistake` the mistake's id in the catalogue. `notes` list what was left out;
+    `hints` what the student should change although it costs no points; `node_files` all files
+    with the node's name, relative to `path`; `links_out` the package's links, relative to it,
+    that lead out of it and were left out.
     """
 
     path: Path

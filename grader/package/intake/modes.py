@@ -1,4 +1,4 @@
-"""Whether the exec bits that a directory shows are the student's, or an accident of its place."""
+"""Whether the exec bits in a folder are the student's, or only those of its file system."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def keeps_modes(path: Path, mounts: Path = MOUNTS) -> bool:
             continue
         point = re.sub(r"\\([0-7]{3})", lambda m: chr(int(m[1], 8)), fields[4])
         inside = point == "/" or str(path) == point or str(path).startswith(f"{point}/")
-        if inside and len(point) >= len(best):  # of two on one place the later one is on top
+        if inside and len(point) >= len(best):  # of two mounts on a folder the later is on top
             best, kind = point, right.partition(" ")[0]
     return kind not in NO_MODES
 
@@ -64,7 +64,7 @@ def git_ignores_modes(
 def git_modes(
     repository: Path, read: Callable[[Path, int], bytes | Unread] = read_bytes
 ) -> Mapping[str, int]:
-    """Return the modes (0o644, 0o755) of a checkout's index by path; empty if it tells none.
+    """Return the modes (0o644, 0o755) of a checkout's index by path; empty if it has none.
 
     Versions 2 and 3 of the format (gitformat-index(5)) with SHA-1 names.
     """

@@ -1,6 +1,6 @@
-"""Where a submission's names and bytes are: a folder of this machine, or an archive in memory."""
+"""The source of a submission's files: a folder of this machine, or an archive in memory."""
 
-# ruff: noqa: D102 - what a method does is said once, in Place
+# ruff: noqa: D102 - Place documents the methods
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from grader.package.intake.reading import read_bytes
 
 @dataclass(frozen=True)
 class Entry:
-    """A name in the tree: `path` relative to the tree's root; `size` in bytes, `target` of links."""
+    """A name in the tree: `path` relative to its root; `size` in bytes, `target` of a link."""
 
     path: str
     kind: Literal["file", "folder", "link"]
@@ -33,39 +33,39 @@ class Entry:
 
 
 class Place(Protocol):
-    """What intake looks into. Paths are relative to its root (`.`), with `/` between names.
+    """What intake reads. Paths are relative to its root (`.`), with `/` between names.
 
     Nothing in it is run, and no link is followed.
     """
 
     @property
     def name(self) -> str:
-        """What the place itself is called."""
+        """The name of the place itself."""
 
     def origin(self, path: str) -> Literal["directory", "zip", "tar"]:
-        """Return what kind of thing holds a path."""
+        """Return the kind of source that contains a path."""
 
     def names(self, folder: str) -> Iterable[str]:
         """Return the names in a folder, one at a time; OSError if it cannot be read."""
 
     def entry(self, path: str) -> Entry | None:
-        """Return what a name is; None for a device, pipe or socket. Raises OSError."""
+        """Return the entry at a path; None for a device, pipe or socket. Raises OSError."""
 
     def read(self, path: str, limit: int) -> bytes | Unread:
         """Return a file's bytes, at most `limit`, or why there are none."""
 
     def open(self, path: str) -> IO[bytes] | Unread:
-        """Return a file to be read from its beginning, or why that cannot be."""
+        """Return a file open for reading, or why it cannot be opened."""
 
     def records_modes(self, path: str) -> bool:
-        """Whether the exec bit that a path shows is the one that the student gave it."""
+        """Whether the exec bit of a path is the one that the student set."""
 
     def remarks(self) -> Iterable[tuple[str, str]]:
-        """Return what was left out before anybody looked: the reason, and the place."""
+        """Return what was left out when the place was made: the reason and the path of each."""
 
 
 class Folder:
-    """A folder of this machine; `modes_kept` says whether its files came here with their modes."""
+    """A folder of this machine; `modes_kept` is False if its files lost their modes on the way."""
 
     def __init__(self, root: Path, *, modes_kept: bool = True) -> None:
         self.root = root

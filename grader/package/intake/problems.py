@@ -1,4 +1,4 @@
-"""Why there is no package to mark: what was seen, and what to do about it."""
+"""Why there is no package to grade: what was found, and the fix."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CREATE = "ros2 pkg create --build-type ament_python {package}"
 
 @dataclass(frozen=True)
 class Problem:
-    """The mistake's id, a sentence that says what was seen, and the fix."""
+    """The mistake's id, a sentence that states what was found, and the fix."""
 
     mistake: str
     text: str
@@ -25,19 +25,19 @@ class Problem:
 
 
 def duplicate(paths: list[str], package: str) -> Problem:
-    """Two packages of the right name: colcon refuses, and so nobody knows which one is meant."""
+    """Several packages have the right name: colcon refuses, and which one is meant is unknown."""
     places = ", ".join(shown(path) for path in paths[:3])
     return Problem(
         "package.duplicate",
         say(
-            "There are {count} packages of the name {package}: in {places}.",
+            "There are {count} packages called {package}: in {places}.",
             count=len(paths),
             package=package,
             places=places,
         ),
         say(
-            "Keep one of them. A backup copy belongs outside the workspace (or put an empty "
-            "file COLCON_IGNORE into it)."
+            "Keep one of them. Move a backup copy out of the workspace (or put an empty file "
+            "COLCON_IGNORE into it)."
         ),
     )
 
@@ -47,7 +47,7 @@ def too_large(reason: str, root: str) -> Problem:
     return Problem(
         "package.too_large",
         say(
-            "The package in {root} is too large to be marked: {reason}.",
+            "The package in {root} is too large to grade: {reason}.",
             root=shown(root),
             reason=reason,
         ),
@@ -56,7 +56,7 @@ def too_large(reason: str, root: str) -> Problem:
 
 
 def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
-    """No folder holds a package.xml or a setup.py."""
+    """No folder contains a package.xml or a setup.py."""
     create = CREATE.format(package=package)
     files = [path for path, entry in tree.entries.items() if entry.kind == "file"]
     names = {path: path.rpartition("/")[2] for path in files}
@@ -65,9 +65,9 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
         wanted = "package.xml" if "package" in names[near[0]].lower() else "setup.py"
         return Problem(
             "package.manifest_renamed",
-            say("There is no package.xml and no setup.py, but a file {file}.", file=shown(near[0])),
+            say("There is no package.xml or setup.py, but a file {file}.", file=shown(near[0])),
             say(
-                "Rename it to exactly {wanted}: capitals count, and nothing may follow the ending.",
+                "Rename it to exactly {wanted}: case matters, and nothing may follow the ending.",
                 wanted=wanted,
             ),
         )
@@ -76,13 +76,13 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
         return Problem(
             "package.archive_inside",
             say(
-                "There is no package in the folder, only a file that is called an archive and is "
-                "none: {file}.",
+                "There is no package in the folder, only a file that is named like an archive "
+                "but is not one: {file}.",
                 file=shown(archives[0]),
             ),
             say(
-                "Pack the package's folder anew (a new name does not make an archive), and open "
-                "the archive once before you hand it in."
+                "Pack the package's folder again (renaming a file does not make it an archive), "
+                "and open the archive once before you hand it in."
             ),
         )
     links = list(tree.links().items())
@@ -90,7 +90,7 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
         place = " -> ".join(links[0])
         return Problem(
             "package.link",
-            say("There is no package, only a link to elsewhere: {place}.", place=shown(place)),
+            say("There is no package, only a link to another place: {place}.", place=shown(place)),
             say("Hand in the folder that the link leads to, not the link."),
         )
     if not files:
@@ -100,12 +100,12 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
         return Problem(
             "package.only_node",
             say(
-                "Only the file {file} was handed in, without the package around it.",
+                "Only the file {file} was handed in, without its package.",
                 file=shown(nodes[0]),
             ),
             say(
                 "Hand in the whole folder {package}, with package.xml, setup.py, setup.cfg and "
-                "resource/. Is there none yet? Make it with: {create}",
+                "resource/. If you have none yet, create it with: {create}",
                 package=package,
                 create=create,
             ),
@@ -115,13 +115,13 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
     return Problem(
         "package.no_manifest",
         say(
-            "No folder holds a package.xml or a setup.py. Files that are there: {some}{more}.",
+            "No folder contains a package.xml or a setup.py. Files found: {some}{more}.",
             some=some,
             more=more,
         ),
         say(
-            "Hand in the folder {package} that holds package.xml and setup.py, or the "
-            "workspace around it. Is there none yet? Make it with: {create}",
+            "Hand in the folder {package} that contains package.xml and setup.py, or its "
+            "workspace. If you have none yet, create it with: {create}",
             package=package,
             create=create,
         ),
@@ -134,12 +134,12 @@ def _nothing(tree: Tree, create: str) -> Problem:
         return Problem(
             "package.only_build",
             say(
-                "Only what tools have made is there ({folders}), and no source.",
+                "There are only generated files ({folders}) and no source.",
                 folders=", ".join(made),
             ),
             say(
                 "Hand in the package from the workspace's src folder: build, install and log are "
-                "made from it and cannot stand for it."
+                "generated from it and do not replace it."
             ),
         )
     rest = tree.left_out.lines()
@@ -147,9 +147,9 @@ def _nothing(tree: Tree, create: str) -> Problem:
         "package.empty",
         say("The folder is empty.")
         if not rest
-        else say("There is no file to mark. {reason}.", reason=rest[0]),
+        else say("There is no file to grade. {reason}.", reason=rest[0]),
         say(
-            "Hand in your package. Is there none yet? Make it in ~/ros2_ws/src with: {create}",
+            "Hand in your package. If you have none yet, create it in ~/ros2_ws/src with: {create}",
             create=create,
         ),
     )

@@ -1,4 +1,4 @@
-"""Files of this machine, read with bounds; what is no plain file is never opened."""
+"""Files of this machine, read with limits; only regular files are read."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ class Unread:
 
 
 def larger_than(limit: int) -> Unread:
-    """A file beyond the limit (bytes)."""
+    """Return the reason for a file beyond the limit (bytes)."""
     return Unread(say("it is larger than {size} MB", size=f"{limit / MEGABYTE:g}"))
 
 
 def open_file(path: Path) -> IO[bytes] | Unread:
-    """Open a regular file to be read; never follows a link, never waits."""
+    """Open a regular file for reading; never follows a link, never waits."""
     flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     try:
         handle = os.open(path, flags)
@@ -36,7 +36,7 @@ def open_file(path: Path) -> IO[bytes] | Unread:
         )
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         os.close(handle)
-        return Unread(say("it is not a plain file"))
+        return Unread(say("it is not a regular file"))
     return os.fdopen(handle, "rb")
 
 
@@ -54,5 +54,5 @@ def read_bytes(path: Path, limit: int) -> bytes | Unread:
         return Unread(
             say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
         )
-    # (what grows while it is read, or tells no size, is cut off by the limit)
+    # (the limit also stops a file that grows while it is read, or reports no size)
     return larger_than(limit) if len(found) > limit else found

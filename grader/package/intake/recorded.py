@@ -1,4 +1,4 @@
-"""The exec bits that the student gave the package's files, as far as that is known."""
+"""The exec bits that the student gave the package's files, as far as they are known."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from grader.report.model import Modes
 def with_modes(
     tree: Tree, root: str | None, files: tuple[SourceFile, ...]
 ) -> tuple[tuple[SourceFile, ...], Modes]:
-    """Return the files with the exec bits that the student gave them, as far as that is known.
+    """Return the files with the exec bits that the student gave them, as far as they are known.
 
-    A checkout whose git ignores them, on a file system that has none, or in an archive made on
-    Windows, still has those of its index.
+    If git ignores them, the file system has none, or the archive was made on Windows, the index
+    of a checkout still records them.
     """
     if root is None:
         return files, "recorded"
@@ -31,20 +31,20 @@ def with_modes(
 
     repository = next((place for place in ancestors(root) if place in tree.git), None)
     ignored = repository is not None and git_ignores_modes(Path(repository), read)
-    shown = [not ignored and tree.place.records_modes(join(root, file.path)) for file in files]
-    if all(shown[n] for n, file in enumerate(files) if file.kind == "file"):
+    recorded = [not ignored and tree.place.records_modes(join(root, file.path)) for file in files]
+    if all(recorded[n] for n, file in enumerate(files) if file.kind == "file"):
         return files, "recorded"
     index = git_modes(Path(repository), read) if repository is not None else {}
-    told = [
+    found = [
         file.mode if known else index.get(_below(repository, join(root, file.path)))
-        for file, known in zip(files, shown, strict=True)
+        for file, known in zip(files, recorded, strict=True)
         if file.kind == "file"
     ]
     plain = [file for file in files if file.kind == "file"]
-    python = [m for f, m in zip(plain, told, strict=True) if f.path.endswith(".py")]
+    python = [m for f, m in zip(plain, found, strict=True) if f.path.endswith(".py")]
     if not python or any(mode is None for mode in python):
         return files, "unknown"
-    modes = {f.path: m for f, m in zip(plain, told, strict=True) if m is not None}
+    modes = {f.path: m for f, m in zip(plain, found, strict=True) if m is not None}
     return tuple(replace(f, mode=modes.get(f.path, f.mode)) for f in files), "recorded"
 
 

@@ -1,4 +1,4 @@
-"""What lies in a folder or an archive: looked at from outside, no link followed."""
+"""The contents of a folder or an archive, listed without following any link."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ from grader.package.intake.place import Entry
 from grader.package.intake.place import Place
 
 MOST_LEVELS = 32
-"""How many folders deep the submission is looked at."""
+"""How many folders deep a submission is read."""
 MOST_IN_FOLDER = 5_000
-"""How many names of one folder are looked at."""
+"""How many names of one folder are read."""
 MOST_ENTRIES = 50_000
-"""How many names are looked at in all; nearest to the top first."""
+"""How many names are read in total, nearest to the top first."""
 LONGEST_TARGET = 1_000
-"""The longest text (characters) of a link that is kept."""
+"""The longest link target (characters) that is kept."""
 
-MADE_BY_TOOLS = say("left out, as tools make it anew")
-LEADS_OUT = say("left out, as a link that leads out of the package")
-SPECIAL = say("left out, as neither file nor folder (a device, named pipe or socket)")
+MADE_BY_TOOLS = say("left out, as tools generate it")
+LEADS_OUT = say("left out, as it is a link that leads out of the package")
+SPECIAL = say("left out, as it is neither a file nor a folder (a device, named pipe or socket)")
 BAD_NAME = say("left out, as its name is not plain UTF-8 text")
-TOO_DEEP = say("not looked into, as it lies more than {count} folders deep", count=MOST_LEVELS)
-TOO_FULL = say("only the first {count} names were looked at in", count=MOST_IN_FOLDER)
+TOO_DEEP = say("not read, as it is more than {count} folders deep", count=MOST_LEVELS)
+TOO_FULL = say("only the first {count} names were read in", count=MOST_IN_FOLDER)
 TOO_MANY = say(
-    "not looked into, as there are more than {count} files and folders",
+    "not read, as there are more than {count} files and folders",
     count=MOST_ENTRIES,
 )
 
 
 @dataclass
 class Tree:
-    """All that was seen; `truncated` are the folders with more names than are looked at,
+    """All entries found; `truncated` are the folders of which not every name was read,
     `links_out` the package's links (relative to it) that lead out of it.
     """
 
@@ -68,7 +68,7 @@ class Tree:
         return {path: e.target for path, e in self.entries.items() if e.kind == "link"}
 
     def file(self, path: str) -> Entry | None:
-        """Return the file at a path, or the one of the tree that a link there leads to."""
+        """Return the file at a path, or the file of the tree to which a link there leads."""
         entry = self.entries.get(path)
         if entry is not None and entry.kind == "link":
             place = follow(path, self.links()).place
@@ -95,7 +95,7 @@ def ancestors(path: str) -> list[str]:
 
 
 def look(place: Place) -> Tree:
-    """Return what lies in a place; OSError only where the place itself cannot be read."""
+    """Return the tree of a place; OSError only if the place itself cannot be read."""
     tree = Tree(place)
     for reason, where in place.remarks():
         tree.left_out.add(reason, where)
@@ -136,7 +136,7 @@ def _names(tree: Tree, folder: str) -> list[str]:
 
 
 def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
-    """Put what is kept into the tree and return it; note what is not."""
+    """Add the entries that are kept to the tree and return them; note the others."""
     kept = []
     found = {name: _entry(tree, join(folder, name)) for name in names}
     beside = COLCON & {name for name, e in found.items() if e is not None and e.kind == "folder"}
@@ -159,7 +159,7 @@ def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
 
 
 def _entry(tree: Tree, path: str) -> Entry | None:
-    """Return what a name is; None, with a note, for what is not to be kept."""
+    """Return the entry at a path; None, with a note, if it is not kept."""
     if not is_plain(path.rpartition("/")[2]):
         tree.left_out.add(BAD_NAME, path)
         return None
@@ -167,13 +167,13 @@ def _entry(tree: Tree, path: str) -> Entry | None:
         entry = tree.place.entry(path)
     except OSError as error:
         tree.left_out.add(
-            say("left out, as it cannot be looked at ({reason})", reason=str(error.strerror)), path
+            say("left out, as it cannot be accessed ({reason})", reason=str(error.strerror)), path
         )
         return None
     if entry is None:
         tree.left_out.add(SPECIAL, path)
     elif entry.kind == "link":
-        # one that cannot be kept leads out: an absolute path is what that looks like
+        # a target that cannot be kept counts as leading out, as an absolute path does
         fits = len(entry.target) <= LONGEST_TARGET and is_plain(entry.target)
         return entry if fits else replace(entry, target="/")
     return entry
@@ -182,7 +182,7 @@ def _entry(tree: Tree, path: str) -> Entry | None:
 def is_plain(name: str) -> bool:
     """Whether a name is UTF-8 text without control characters, line ends or direction overrides.
 
-    (Python shows bytes that are not UTF-8 as lone surrogates, category Cs.)
+    (Python represents bytes that are not UTF-8 as lone surrogates, category Cs.)
     """
     if name.isascii():
         return name.isprintable()

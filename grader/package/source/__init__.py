@@ -1,1 +1,1 @@
-"""The package's own files as text: parsed with positions, never imported and never run."""
+"""The package's own files as text: parsed with positions, never imported or run."""

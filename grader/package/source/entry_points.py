@@ -1,4 +1,4 @@
-"""Entry points as they are written in setup.py or setup.cfg, before setuptools reads them."""
+"""Entry points as written in setup.py or setup.cfg, before setuptools reads them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from grader.package.source.values import Table
 from grader.package.source.values import Text
 from grader.package.source.values import Value
 
-# The form that importlib.metadata.EntryPoint (Python 3.10 to 3.13) takes an entry's value in.
+# The form in which importlib.metadata.EntryPoint (Python 3.10 to 3.13) accepts an entry's value.
 TARGET = re.compile(r"[\w.]+\s{0,9}(:\s{0,9}[\w.]+\s{0,9})?(\[[^\]]*\]\s{0,9})?")
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of a group: its text, where it is, and its literals if it was written as several."""
+    """One entry of a group: its text, file and line, and its literals if it has several."""
 
     text: str
     file: str
@@ -28,23 +28,23 @@ class Entry:
 
     @property
     def name(self) -> str:
-        """What is before the first `=`."""
+        """The part before the first `=`."""
         return self.text.partition("=")[0].strip()
 
     @property
     def target(self) -> str:
-        """What is after the first `=`; empty if there is none."""
+        """The part after the first `=`; empty if there is none."""
         return self.text.partition("=")[2].strip()
 
     @property
     def valid(self) -> bool:
-        """Whether setuptools accepts it; one that it does not accept stops the whole build."""
+        """Whether setuptools accepts it; one invalid entry stops the whole build."""
         return bool(self.name and TARGET.fullmatch(self.target))
 
 
 @dataclass
 class EntryPoints:
-    """The groups, and whether all of it could be told without running setup.py."""
+    """The groups; `told` is False if some entries are known only by running setup.py."""
 
     groups: dict[str, list[Entry]] = field(default_factory=dict)
     lines: dict[str, int] = field(default_factory=dict)
@@ -60,7 +60,7 @@ class EntryPoints:
 
 
 def from_setup_py(setup: SetupPy) -> EntryPoints:
-    """Return what the argument `entry_points` of setup() says."""
+    """Return the entry points in the argument `entry_points` of setup()."""
     found = EntryPoints()
     value = setup.argument("entry_points")
     if isinstance(value, Table):
@@ -77,7 +77,7 @@ def from_setup_py(setup: SetupPy) -> EntryPoints:
 
 
 def from_setup_cfg(cfg: SetupCfg) -> EntryPoints:
-    """Return what the section `[options.entry_points]` says."""
+    """Return the entry points in the section `[options.entry_points]`."""
     found = EntryPoints()
     for group, setting in cfg.sections.get("options.entry_points", {}).items():
         entries = found._open(group, setting.line)
@@ -89,7 +89,7 @@ def from_setup_cfg(cfg: SetupCfg) -> EntryPoints:
 
 
 def _add(found: EntryPoints, entries: list[Entry], value: Value) -> None:
-    if isinstance(value, Text):  # entries in one text, one a line
+    if isinstance(value, Text):  # one string, one entry per line
         for row, line in _rows(value):
             entries.append(Entry(row, "setup.py", line))
     elif isinstance(value, Listing):

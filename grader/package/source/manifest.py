@@ -1,8 +1,8 @@
 """package.xml: its name, its build type and its faults, each with its line.
 
-What colcon-ros accepts is what catkin_pkg accepts (REP 149), so catkin_pkg judges; expat tells
-the lines. A document type is refused before any of them sees it: entities could make a few bytes
-into gigabytes, or name files of the grader's machine.
+colcon-ros accepts what catkin_pkg accepts (REP 149), so catkin_pkg validates; expat gives the
+lines. A document type is refused before catkin_pkg sees it: entities could expand a few bytes to
+gigabytes, or name files of the grader's machine.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Element:
 
 @dataclass(frozen=True)
 class Manifest:
-    """A package.xml that is XML; `fault` says what catkin_pkg holds against it, if anything."""
+    """A package.xml that is XML; `fault` is the reason why catkin_pkg rejects it, if it does."""
 
     elements: tuple[Element, ...]
     fault: str = ""
@@ -66,7 +66,7 @@ class Manifest:
 
     @property
     def depends(self) -> list[Element]:
-        """Every dependency, of whatever kind."""
+        """Every dependency, of any kind."""
         return [e for e in self.elements if DEPENDS.fullmatch(e.tag) and e.within == "package"]
 
 
@@ -84,8 +84,8 @@ def read_manifest(found: bytes) -> Manifest:
 
 
 def _judge(found: bytes, warnings: list[str]) -> str:
-    """Return what catkin_pkg holds against a manifest, in one line; empty if nothing."""
-    # 43 ms of processor time on top of pydantic's: only where a package is really marked
+    """Return why catkin_pkg rejects a manifest, on one line; empty if it does not."""
+    # imported only when a package is graded: 43 ms of CPU time on top of pydantic's
     from catkin_pkg.package import InvalidPackage  # noqa: PLC0415
     from catkin_pkg.package import parse_package_string  # noqa: PLC0415
 
@@ -93,7 +93,7 @@ def _judge(found: bytes, warnings: list[str]) -> str:
         parse_package_string(found, warnings=warnings)
     except InvalidPackage as error:
         return " ".join(re.sub(r"\s*\n-?\s*", " ", str(error)).split())[:500]
-    except Exception as error:  # whatever it raises, colcon would meet it too
+    except Exception as error:  # colcon would meet the same exception
         return f"{type(error).__name__}: {error}"[:500]
     return ""
 
@@ -145,7 +145,7 @@ def _elements(found: bytes) -> tuple[Element, ...]:
         reader.parser.Parse(found, True)
     except expat.ExpatError as error:
         text = expat.ErrorString(error.code) or "not XML"
-        lines = max(1, len(found.splitlines()))  # (the end of the file is a line too many)
+        lines = max(1, len(found.splitlines()))  # (expat counts the end of the file as a line)
         raise ManifestError("xml", text, min(error.lineno, lines)) from None
     except (ValueError, LookupError) as error:  # an encoding that expat or Python does not know
         raise ManifestError("xml", str(error), 1) from None
@@ -153,7 +153,7 @@ def _elements(found: bytes) -> tuple[Element, ...]:
 
 
 def name_in(found: bytes) -> str | None:
-    """Return the text of the first <name>, even of a package.xml that is no longer XML."""
+    """Return the text of the first <name>, even if the package.xml is not valid XML."""
     encoding = "utf-16" if found[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"
     text = _without_comments(found.decode(encoding, "replace"))
     match = re.search(r"<name(?:\s[^<>]{0,200})?>\s{0,50}([^<>]{1,200}?)\s{0,50}</name", text)

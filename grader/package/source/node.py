@@ -1,4 +1,4 @@
-"""What the source of a node says of its class, timers, callbacks, log lines and functions.
+"""The class, timers, callbacks, log lines and functions in a node's source.
 
 Read from the syntax tree (the file is never run); a file that Python cannot read has no facts.
 """
@@ -15,14 +15,14 @@ from grader.package.source.python import PythonFile
 from grader.package.source.python import parse_python
 
 LOG_METHODS = ("debug", "info", "warn", "warning", "error", "fatal")
-LONGEST_NAME = 20  # names, dots and calls; longer ones are looked at by nobody
+LONGEST_NAME = 20  # names, dots and calls; longer ones are ignored
 MOST_BYTES = 20_000
-"""Beyond it a file is nobody's first node, and a hostile one would take seconds to look through."""
+"""A larger file is not a first node, and a hostile one would take seconds to analyse."""
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 def dotted(named: ast.AST) -> str:
-    """Return a name as it is written: `rclpy.spin`, `self.get_logger().info`; "" for others."""
+    """Return a name as written: `rclpy.spin`, `self.get_logger().info`; "" for anything else."""
     node: ast.AST = named
     after = ""
     for _ in range(LONGEST_NAME):
@@ -40,7 +40,7 @@ def dotted(named: ast.AST) -> str:
 
 
 def calls_in(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    """Yield every call in a part of the source, in order, with the name that is called."""
+    """Yield every call in a part of the source, in order, with the called name."""
     for found in sorted(
         (n for n in ast.walk(node) if isinstance(n, ast.Call)),
         key=lambda n: (n.lineno, n.col_offset),
@@ -49,14 +49,14 @@ def calls_in(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
 
 
 def is_log(name: str) -> bool:
-    """Return whether a call of that name writes a line through a logger."""
+    """Return whether a call of that name logs a line."""
     before, _, method = name.rpartition(".")
     return method in LOG_METHODS and ("log" in before.lower() or before.endswith("get_logger()"))
 
 
 @dataclass(frozen=True)
 class Timer:
-    """A call of create_timer: its arguments, and the function and class that it stands in."""
+    """A call of create_timer: its arguments, and the function that contains it."""
 
     call: ast.Call
     period: ast.expr | None
@@ -65,24 +65,24 @@ class Timer:
 
     @property
     def line(self) -> int:
-        """The line on which it stands."""
+        """The line of the call."""
         return self.call.lineno
 
     @property
     def method(self) -> str:
-        """The name of the callback; "" if it is none that can be named."""
+        """The name of the callback; "" if it has none."""
         given = self.callback.func if isinstance(self.callback, ast.Call) else self.callback
         return dotted(given).rpartition(".")[2] if given is not None else ""
 
     @property
     def called(self) -> bool:
-        """Whether the callback is called instead of named."""
+        """Whether the callback is called instead of passed by name."""
         called = isinstance(self.callback, ast.Call) and dotted(self.callback)
         return bool(called) and not str(called).endswith("partial()")
 
     @property
     def seconds(self) -> float | None:
-        """The period, where it is written as a number."""
+        """The period, if it is written as a number."""
         if isinstance(self.period, ast.Constant) and isinstance(self.period.value, int | float):
             return float(self.period.value)
         return None
@@ -113,7 +113,7 @@ class NodeSource:
 
     @cached_property
     def node_class(self) -> ast.ClassDef | None:
-        """The class that is the node, or was meant to be it."""
+        """The class that is the node, or was meant to be."""
         for found in self.classes:
             if any(dotted(base).rpartition(".")[2].endswith("Node") for base in found.bases):
                 return found
@@ -127,16 +127,16 @@ class NodeSource:
 
     @cached_property
     def functions(self) -> dict[str, Function]:
-        """The functions at the file's outermost level."""
+        """The functions at module level."""
         return {node.name: node for node in self.tree.body if isinstance(node, Function)}
 
     @cached_property
     def parents(self) -> dict[ast.AST, ast.AST]:
-        """Which node of the tree stands in which."""
+        """The parent of each node of the tree."""
         return {child: node for node in ast.walk(self.tree) for child in ast.iter_child_nodes(node)}
 
     def function_around(self, node: ast.AST) -> Function | None:
-        """Return the innermost function that a part of the source stands in."""
+        """Return the innermost function that contains a part of the source."""
         around = self.parents.get(node)
         while around is not None and not isinstance(around, Function):
             around = self.parents.get(around)

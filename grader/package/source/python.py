@@ -1,4 +1,4 @@
-"""A Python file as text and syntax tree: decoded and parsed as Python would, and never run."""
+"""A Python file as text and syntax tree: decoded and parsed as Python does, never run."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ SHEBANG = "#!/usr/bin/env python3"
 """The first line that the course asks for."""
 
 MOST_BYTES = 100_000
-"""Beyond it a hostile file takes seconds and hundreds of megabytes to parse."""
+"""A larger hostile file takes seconds and hundreds of megabytes to parse."""
 ENCODINGS = re.compile(
     r"utf-8(-sig)?|ascii|iso8859-\d+|cp\d+|koi8-[rut]|mac-\w+|gbk|gb2312|gb18030|big5(hkscs)?"
     r"|shift_jis\w*|euc[_-](jp|kr)\w*"
 )
-"""The encodings that are read, as Python's codecs are called: none that costs more than its size."""
+"""The accepted encodings, by the names of Python's codecs: only those of linear cost."""
 
 
-class PythonFault(Exception):  # noqa: N818 - it is the student's fault in the file, not an error
-    """Why Python could not read a file: `kind` is `encoding`, `syntax`, `indentation`, `tabs`,
+class PythonFault(Exception):  # noqa: N818 - a fault in the student's file, not an error
+    """Why Python cannot read a file: `kind` is `encoding`, `syntax`, `indentation`, `tabs`,
     `null` or `size`; `line` is counted from 1, `shown` is that line's text.
     """
 
@@ -46,7 +46,7 @@ class PythonFile:
 
 
 def parse_python(found: bytes) -> PythonFile:
-    """Parse a file's bytes; PythonFault if Python (this interpreter's version) cannot."""
+    """Parse a file's bytes; PythonFault if this interpreter's version of Python cannot."""
     if len(found) > MOST_BYTES:
         raise PythonFault("size", say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
     text = decode(found)
@@ -54,7 +54,7 @@ def parse_python(found: bytes) -> PythonFile:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             tree = ast.parse(text)
-            # (what the compiler refuses and the parser does not: a return outside a function)
+            # (the compiler refuses what the parser accepts, e.g. a return outside a function)
             compile(text, "<file>", "exec", dont_inherit=True)
     except SyntaxError as error:
         raise _fault(error, text) from None
@@ -80,18 +80,18 @@ def _fault(error: SyntaxError, text: str) -> PythonFault:
 def decode(found: bytes) -> str:
     """Return the text (PEP 263) with Unix line ends and without a byte order mark."""
     if found[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise PythonFault("encoding", say("the file is UTF-16, Python reads UTF-8"), 1)
+        raise PythonFault("encoding", say("the file is UTF-16, but Python reads UTF-8"), 1)
     if b"\0" in found:
         line = found.count(b"\n", 0, found.index(b"\0")) + 1
-        raise PythonFault("null", say("the file has null bytes in it: it is not text"), line)
+        raise PythonFault("null", say("the file contains null bytes: it is not text"), line)
     try:
         declared, _ = tokenize.detect_encoding(io.BytesIO(found).readline)
         name = codecs.lookup(declared).name
     except (SyntaxError, LookupError) as error:
-        # (it decodes the first two lines on the way, and says so in the same breath)
+        # (detect_encoding also decodes the first two lines, with the same kind of error)
         bad = _first_undecodable(found)
-        said: str = say("the file is not UTF-8 text") if bad else str(error)
-        raise PythonFault("encoding", said, bad or 1) from None
+        reason: str = say("the file is not UTF-8 text") if bad else str(error)
+        raise PythonFault("encoding", reason, bad or 1) from None
     if not ENCODINGS.fullmatch(name):
         raise PythonFault(
             "encoding", say("the file declares the encoding {name}; use UTF-8", name=name), 1
@@ -100,10 +100,10 @@ def decode(found: bytes) -> str:
         text = found.decode(name)
     except UnicodeDecodeError as error:
         line = found.count(b"\n", 0, error.start) + 1
-        said = say("the file is not UTF-8 text")
+        reason = say("the file is not UTF-8 text")
         if not name.startswith("utf-8"):
-            said = say("the file is not text in {name}, which it declares", name=name)
-        raise PythonFault("encoding", said, line) from None
+            reason = say("the file is not valid {name}, the encoding it declares", name=name)
+        raise PythonFault("encoding", reason, line) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

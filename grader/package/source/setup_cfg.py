@@ -10,8 +10,8 @@ from grader.base.i18n.message import say
 MOST_BYTES = 100_000
 
 
-class SetupCfgFault(Exception):  # noqa: N818 - it is the student's fault in the file
-    """Why setuptools could not read a setup.cfg, and on which line."""
+class SetupCfgFault(Exception):  # noqa: N818 - a fault in the student's file, not an error
+    """Why setuptools cannot read a setup.cfg, and on which line."""
 
     def __init__(self, text: str, line: int | None = None) -> None:
         super().__init__(text)
@@ -29,14 +29,14 @@ class Setting:
 
 @dataclass(frozen=True)
 class SetupCfg:
-    """The sections of a setup.cfg, each with its settings; `lines` are those of their headings."""
+    """The sections of a setup.cfg, each with its settings; `lines` are their headings'."""
 
     sections: dict[str, dict[str, Setting]]
     lines: dict[str, int]
     text: str
 
     def line_of(self, words: str, start: int) -> int:
-        """Return the first line from `start` on that holds `words`, else `start`."""
+        """Return the first line from `start` on that contains `words`, else `start`."""
         for number, line in enumerate(self.text.splitlines(), start=1):
             if number >= start and words in line:
                 return number
@@ -44,7 +44,7 @@ class SetupCfg:
 
 
 def read_setup_cfg(found: bytes) -> SetupCfg:
-    """Read a setup.cfg as setuptools does (capitals count, `%` and `$` mean nothing).
+    """Read a setup.cfg as setuptools does (case-sensitive, `%` and `$` mean nothing).
 
     Raises SetupCfgFault.
     """
@@ -59,13 +59,13 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
     try:
         parser.read_string(text)
     except configparser.MissingSectionHeaderError as error:
-        said = say("a line before the first [section]")
+        reason = say("a line before the first [section]")
         if text[:1] == "\ufeff":
-            said = say("a byte order mark before the first [section]")
-        raise SetupCfgFault(said, error.lineno) from None
+            reason = say("a byte order mark before the first [section]")
+        raise SetupCfgFault(reason, error.lineno) from None
     except (configparser.DuplicateOptionError, configparser.DuplicateSectionError) as error:
         twice = getattr(error, "option", None) or f"[{error.section}]"
-        raise SetupCfgFault(say("{twice} is there twice", twice=twice), error.lineno) from None
+        raise SetupCfgFault(say("{twice} appears twice", twice=twice), error.lineno) from None
     except configparser.ParsingError as error:
         line = error.errors[0][0] if error.errors else None
         raise SetupCfgFault(say("a line that is neither a [section] nor key=value"), line) from None

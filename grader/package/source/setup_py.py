@@ -1,4 +1,4 @@
-"""setup.py: what it says of itself without being run."""
+"""setup.py: the arguments of setup(), read without running the file."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from grader.package.source.values import Text
 from grader.package.source.values import Value
 
 INDEX = "share/ament_index/resource_index/packages"
-"""Where `data_files` installs the package's marker."""
+"""The folder into which `data_files` installs the package's marker."""
 
 MOST_COMMENTS = 200
 
 
 @dataclass(frozen=True)
 class SetupPy:
-    """The arguments of the one call of setup(); `told` is False where only running it would tell.
+    """The arguments of the one call of setup(); `told` is False if only running it would give them.
 
-    `line` is that of the call, `comments` the lines that are comments (number, text).
+    `line` is the line of the call, `comments` the comment lines (number, text).
     """
 
     arguments: Table
@@ -34,23 +34,23 @@ class SetupPy:
     comments: tuple[tuple[int, str], ...] = ()
 
     def argument(self, name: str) -> Value | None:
-        """Return an argument's value; None if it is not given, Computed if that is not known."""
+        """Return an argument's value; None if it is not given, Computed if it is unknown."""
         if not self.told:
             return Computed(self.line or 1)
         found = self.arguments.get(name)
         if found is None and not self.arguments.complete:
-            return Computed(self.line or 1)  # setup(**settings) may hold it
+            return Computed(self.line or 1)  # setup(**settings) may contain it
         return found
 
     @property
     def name(self) -> Text | None:
-        """The package's name, if it can be told."""
+        """The package's name, if it is known."""
         found = self.argument("name")
         return found if isinstance(found, Text) else None
 
 
 def read_setup_py(found: bytes) -> SetupPy:
-    """Read a setup.py; PythonFault if Python cannot."""
+    """Read a setup.py; PythonFault if Python cannot read it."""
     file = parse_python(found)
     try:
         return _arguments(file)
@@ -69,7 +69,7 @@ def _arguments(file: PythonFile) -> SetupPy:
     if not calls or not isinstance(calls[0], ast.Call):
         return SetupPy(nothing, told=False, line=None, comments=comments)
     call = calls[0]
-    plain = len(calls) == 1 and call in _always_run(file.tree) and not _is_ours(file.tree)
+    plain = len(calls) == 1 and call in _always_run(file.tree) and not _defines_setup(file.tree)
     if not plain or call.args:
         return SetupPy(nothing, told=False, line=call.lineno, comments=comments)
     evaluator = Evaluator(file.tree, file.text)
@@ -87,7 +87,7 @@ def _arguments(file: PythonFile) -> SetupPy:
 
 
 def literal_name(found: bytes) -> str | None:
-    """Return the package's name in a setup.py, or None if it cannot be told."""
+    """Return the package's name in a setup.py, or None if it is unknown."""
     try:
         name = read_setup_py(found).name
     except PythonFault:
@@ -96,7 +96,7 @@ def literal_name(found: bytes) -> str | None:
 
 
 def is_setup_call(node: ast.AST) -> bool:
-    """Whether this calls a function of the name setup, whatever module it is of."""
+    """Whether this calls a function named setup, of any module."""
     if not isinstance(node, ast.Call):
         return False
     function = node.func
@@ -106,7 +106,7 @@ def is_setup_call(node: ast.AST) -> bool:
 
 
 def _always_run(tree: ast.Module) -> list[ast.expr]:
-    """Return the expressions that are statements of the module, or of its `__main__` guard."""
+    """Return the expression statements of the module and of its `__main__` guard."""
     body: list[ast.stmt] = list(tree.body)
     for statement in tree.body:
         if isinstance(statement, ast.If) and "__name__" in ast.dump(statement.test):
@@ -114,8 +114,8 @@ def _always_run(tree: ast.Module) -> list[ast.expr]:
     return [statement.value for statement in body if isinstance(statement, ast.Expr)]
 
 
-def _is_ours(tree: ast.Module) -> bool:
-    """Whether the file makes a `setup` of its own, of which nothing is known."""
+def _defines_setup(tree: ast.Module) -> bool:
+    """Whether the file defines its own `setup`, about which nothing is known."""
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == "setup":
             return True

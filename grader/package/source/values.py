@@ -1,7 +1,7 @@
-"""What an expression of setup.py is worth, as far as that can be told without running it.
+"""The value of an expression in setup.py, if it is known without running the file.
 
-Texts, lists, tuples and dicts written out, names given a value once, `+`, f-strings, `%`,
-`str.format` and `os.path.join` of such: all else is `Computed`, never guessed.
+Literal strings, lists, tuples and dicts, names assigned once, and `+`, f-strings, `%`,
+`str.format` and `os.path.join` of these: anything else is `Computed`, never guessed.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ LONGEST = 20_000
 
 @dataclass(frozen=True)
 class Text:
-    """A text, the line on which it begins, and the literals that it was written as, if several.
+    """A string, the line on which it begins, and its literals if it has several.
 
-    Adjacent literals are one text in Python: that is what a missing comma makes.
+    Python joins adjacent literals into one string: that is what a missing comma causes.
     """
 
     value: str
@@ -39,7 +39,7 @@ class Listing:
 
 @dataclass(frozen=True)
 class Table:
-    """A dict, in the order in which it was written."""
+    """A dict, in source order."""
 
     pairs: tuple[tuple[Value, Value], ...]
     line: int
@@ -59,7 +59,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Computed:
-    """Anything that only running the code would tell."""
+    """A value that is known only by running the code."""
 
     line: int
 
@@ -77,7 +77,7 @@ class Evaluator:
         self._known = _constants(tree)
 
     def value(self, node: ast.expr) -> Value:
-        """Return what an expression is worth."""
+        """Return the value of an expression."""
         self._steps += 1
         computed = Computed(node.lineno)
         if self._steps > MOST_STEPS:
@@ -157,7 +157,7 @@ class Evaluator:
         return Text(start + "".join(p.value for p in parts if isinstance(p, Text)), line)
 
     def _pieces(self, node: ast.Constant) -> tuple[tuple[str, int], ...]:
-        """Return the adjacent literals that a text was written as, if it is more than one."""
+        """Return the adjacent literals of a string, if there are several."""
         width = (node.end_col_offset or 0) - node.col_offset
         plain = len(str(node.value).encode("utf-8", "surrogatepass"))
         if node.end_lineno == node.lineno and width == plain + 2:
@@ -186,7 +186,7 @@ def _fill(start: Text, place: str, values: list[Value]) -> Value | None:
 
 
 def _constants(tree: ast.Module) -> dict[str, ast.expr]:
-    """Return the names that are given a value once, at the top, and never changed after."""
+    """Return the names that are assigned once, at module level, and never changed later."""
     bound = Counter(name for node in ast.walk(tree) for name in _binds(node))
     found = {}
     for statement in tree.body:
@@ -202,7 +202,7 @@ def _constants(tree: ast.Module) -> dict[str, ast.expr]:
 
 
 def _binds(node: ast.AST) -> list[str]:
-    """Return the names to which a node gives a value, or whose value it changes."""
+    """Return the names that a node assigns, or whose value it changes."""
     if isinstance(node, ast.Name):
         return [] if isinstance(node.ctx, ast.Load) else [node.id]
     if isinstance(node, ast.arg):
