@@ -125,7 +125,7 @@ def test_all_faults_are_told_at_once_in_the_order_of_their_lines(tmp_path: Path)
         ("title:", "title: a: ", 3, "needs quotes"),
         ("title:", "titel: &a x\nmore: *a\ntitle:", 3, "alias"),
         ("title:", "title: !!python/name:os.system", 3, "not YAML"),
-        ("limits:", "limits: !!set", 12, "not used here"),
+        ("limits:", "limits: !!set", 12, "is not allowed"),
         ("limits:", "? [a]\n: 1\nlimits:", 12, "a key must be text"),
         ("schema: 1", "---\nschema: 1\n---", 3, "not YAML"),
         ("schema: 1", "schema: 1\nsha256: 00", 2, "unknown key 'sha256'"),

@@ -1,1 +1,1 @@
-"""base"""
+"""What every other part uses: errors, folders, texts and their translation."""

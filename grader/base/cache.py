@@ -1,4 +1,4 @@
-"""Where the grader keeps what it makes once, and how a folder is made there: whole or not at all."""
+"""The grader's cache, in which a folder is made once: completely or not at all."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ REMOVE = msg("Remove that folder, then run the command again.")
 def cache_root() -> Path:
     """Return the cache folder: $GRADER_CACHE, else $XDG_CACHE_HOME/ros2_teaching_lab.
 
-    Root's is in /var/cache, since the other users of a sandbox must be able to read it.
+    Root's is in /var/cache, since other users in a sandbox must be able to read it.
     """
     own = os.environ.get("GRADER_CACHE")
     if own:
@@ -42,7 +42,7 @@ def cache_root() -> Path:
 
 @contextmanager
 def locked(path: Path, *, say: Say) -> Iterator[None]:
-    """Hold an exclusive lock on `path` (the kernel lets go of it however the holder ends)."""
+    """Hold an exclusive lock on `path` (the kernel releases it however the holder ends)."""
     with path.open("a") as handle:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -53,10 +53,10 @@ def locked(path: Path, *, say: Say) -> Iterator[None]:
 
 
 def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
-    """Make `folder` by `make(staging)` unless it is there; return whether it was made now.
+    """Make `folder` with `make(staging)` unless it exists; return whether it was made now.
 
-    Two at once make one: the second waits for the first. What is killed half-way leaves a staging
-    folder that the next one clears away; `folder` appears by one rename, complete.
+    Of two callers at once, the second waits for the first. A killed one leaves a staging folder
+    that the next one removes; `folder` appears by one rename, complete.
     """
     if folder.is_dir():
         return False
@@ -78,7 +78,7 @@ def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
     except OSError as error:
         raise SurroundingsError(
             Message(
-                msg("cannot make {path}: {reason}"),
+                msg("cannot create {path}: {reason}"),
                 {"path": str(folder), "reason": str(error.strerror or error)},
             ),
             remedy=Message(MORE_SPACE),

@@ -1,8 +1,8 @@
-"""The errors that a user of the grader can meet, each with the exit status of the contract."""
+"""The errors that a user of the grader can meet, each with its exit status."""
 
 
 class GraderError(Exception):
-    """A fault that is told in one message and never as a traceback.
+    """An error that is shown as one message and never as a traceback.
 
     `message` says what is wrong, `remedy` what to do next.
     """

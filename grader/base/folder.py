@@ -1,7 +1,7 @@
-"""A folder held open, in which no link is followed and each file is replaced as a whole.
+"""An open folder in which no link is followed and each file is replaced as a whole.
 
-Names are resolved against the open folder and never as a path from the root: what somebody puts in
-the place of a folder or file meanwhile leads nowhere else.
+Names are resolved against the open folder, never as a path from the root, so replacing a folder or
+file with a link at the same time does not redirect access.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from types import TracebackType
 FOLDER_MODE = 0o700
 FILE_MODE = 0o600
 OPEN_FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC
-TEMPORARY = ".unfinished-"  # what begins so was left by a writer that was killed
+TEMPORARY = ".unfinished-"  # a killed writer leaves files with this prefix
 
 
 class Folder:
     """An open folder; close it (or use it as a context manager). Its methods raise OSError.
 
-    A file that was replaced in it is on the disk when that returns, unless it is not `durable`:
-    then whoever writes many sees to it once, at the end.
+    `replace` returns when the file is on the disk, unless the folder is not `durable`: then a
+    caller that writes many files syncs once, at the end.
     """
 
     def __init__(self, fd: int, path: Path, *, durable: bool = True) -> None:
@@ -35,7 +35,7 @@ class Folder:
 
     @classmethod
     def open(cls, path: Path, *, durable: bool = True) -> Folder:
-        """Open a folder that a user named: here a link is followed, the user meant it."""
+        """Open a folder that a user named; a link is followed here, since the user chose it."""
         return cls(os.open(path, OPEN_FOLDER), path, durable=durable)
 
     def __enter__(self) -> Folder:
@@ -50,7 +50,7 @@ class Folder:
         os.close(self._fd)
 
     def lock(self) -> bool:
-        """Wait until nobody else holds the lock, and hold it until it is closed.
+        """Wait for the lock, and hold it until the folder is closed.
 
         Return whether there is a lock: some network file systems have none.
         """
@@ -70,7 +70,7 @@ class Folder:
         return kinds.get(stat.S_IFMT(mode), "other")
 
     def names(self) -> list[str]:
-        """Return what is in the folder, sorted."""
+        """Return the names in the folder, sorted."""
         return sorted(os.listdir(self._fd))  # noqa: PTH208 - it is a descriptor
 
     def sub(self, name: str) -> Folder:
@@ -79,7 +79,7 @@ class Folder:
         return Folder(fd, self.path / name, durable=self._durable)
 
     def private(self, name: str) -> Folder:
-        """Open a folder in this one for its owner only, made if it is not there."""
+        """Open a folder in this one for its owner only; it is created if it is missing."""
         with contextlib.suppress(FileExistsError):
             os.mkdir(name, FOLDER_MODE, dir_fd=self._fd)
         folder = self.sub(name)
@@ -91,7 +91,7 @@ class Folder:
         return folder
 
     def close_to_others(self) -> None:
-        """Take every right from group and others, where the file system knows of rights."""
+        """Remove all permissions of group and others, if the file system has permissions."""
         found = os.fstat(self._fd)
         if stat.S_IMODE(found.st_mode) == FOLDER_MODE:
             return
@@ -112,14 +112,14 @@ class Folder:
             return file.read() if stat.S_ISREG(os.fstat(fd).st_mode) else None
 
     def remove(self, name: str) -> None:
-        """Remove a file, if it is there; of a link it is the link that goes."""
+        """Remove a file, if it exists; of a link, the link itself."""
         with contextlib.suppress(FileNotFoundError):
             os.unlink(name, dir_fd=self._fd)
 
     def replace(self, name: str, content: bytes) -> None:
-        """Put a file in the place of `name`: at each moment there is the old one or the new one.
+        """Replace the file `name`: at each moment it is the old one or the new one.
 
-        It is readable by its owner only.
+        Only its owner can read it.
         """
         temporary = f"{TEMPORARY}{secrets.token_hex(8)}"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
@@ -138,7 +138,7 @@ class Folder:
         self._sync()
 
     def sweep(self) -> None:
-        """Remove what writers left that were killed; only for who holds the lock."""
+        """Remove the files of killed writers; call it only while holding the lock."""
         for name in self.names():
             if name.startswith(TEMPORARY):
                 with contextlib.suppress(OSError):
@@ -150,5 +150,6 @@ class Folder:
         try:
             os.fsync(self._fd)
         except OSError as error:
-            if error.errno not in (errno.EINVAL, errno.EBADF, errno.ENOTSUP):  # not for folders
+            # some file systems cannot sync a folder
+            if error.errno not in (errno.EINVAL, errno.EBADF, errno.ENOTSUP):
                 raise

@@ -1,4 +1,4 @@
-"""Did you mean: the nearest name, and where two texts differ."""
+"""The nearest name ("did you mean"), and where two texts differ."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from grader.base.i18n.message import joined
 from grader.base.i18n.message import say
 from grader.base.shown import shown
 
-LONGEST = 100  # characters of a text that is marked; a line of a terminal holds as many
-LONGEST_RUN = 12  # characters in a row that are another word, and no slip of the pen
-ALIKE = 0.6  # of 1; less than that, and marks under the one say nothing about the other
+LONGEST = 100  # characters of a marked text; a terminal line has as many
+LONGEST_RUN = 12  # characters; a longer difference is another word, not a typo
+ALIKE = 0.6  # of 1; below this ratio, marks are of no use
 
 
 def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
-    """Return the word that comes nearest, capitals aside; empty if none does."""
+    """Return the nearest word, ignoring case; empty if none is near."""
     folded: dict[str, list[str]] = {}
     for other in words:
         if other != word:
@@ -28,14 +28,14 @@ def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
 
 
 def meant(word: str) -> str:
-    """Return ` (did you mean 'word'?)`, or nothing for an empty word."""
+    """Return ` (did you mean 'word'?)`, or an empty text for an empty word."""
     return joined(" ", say("(did you mean '{word}'?)", word=shown(word)), by="") if word else ""
 
 
 def marks(found: str, wanted: str) -> str:
-    """Return a line of ^ for what is wrong in `found`; empty if the two are not alike.
+    """Return a line of ^ below what is wrong in `found`; empty if the two are not alike.
 
-    Where something is missing, the mark is below the character before which it belongs.
+    If something is missing, the mark is below the character before which it belongs.
     """
     if found == wanted or max(len(found), len(wanted)) > LONGEST or not found.isprintable():
         return ""
@@ -59,7 +59,7 @@ def marks(found: str, wanted: str) -> str:
 
 
 def compared(found: str, wanted: str) -> str:
-    """Return three lines: what was found, the marks below it, what was meant; or nothing."""
+    """Return three lines: what was found, the marks below it, what is expected; or nothing."""
     found, wanted = shown(found), shown(wanted)
     line = marks(found, wanted)
     return f"{found}\n{line}\n{wanted}" if line else ""

@@ -1,8 +1,8 @@
-r"""Text of unknown origin made fit to be shown: no control characters, a bounded length.
+r"""Text of unknown origin made safe to show: no control characters, a bounded length.
 
-A submission decides what stands in its log lines, file names and error messages. Shown raw, they
-could move the cursor, change the clipboard, turn the reading direction or fake lines of a report.
-What cannot be seen is written as Python writes it in a string: `\x1b`, `\u202e`, `\xa0`.
+A submission controls its log lines, file names and error messages. Shown raw, they could move the
+cursor, change the clipboard, reverse the reading direction or fake lines of a report. Invisible
+characters are escaped as in a Python string: `\x1b`, `\u202e`, `\xa0`.
 """
 
 from __future__ import annotations
@@ -12,30 +12,30 @@ MOST_LINES, LONGEST_LINE = 5_000, 5_000  # of a text, and characters: nobody rea
 
 
 def visible(text: str) -> str:
-    """Return `text` with everything but printable characters, newlines and blanks spelled out.
+    """Return `text` with everything but printable characters, newlines and spaces escaped.
 
-    Printable is what `str.isprintable` says: no control (C0, C1), format (bidi overrides, zero
-    width), surrogate or unassigned character, no separator but the blank.
+    Printable is as in `str.isprintable`: no control (C0, C1), format (bidi overrides, zero
+    width), surrogate or unassigned character, no separator but the space.
     """
     text = text.replace("\r\n", "\n")
     if "\t" in text:
         text = text.expandtabs(TAB)
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() or c == "\n" else _spelled(c) for c in text)
+    return "".join(c if c.isprintable() or c == "\n" else _escaped(c) for c in text)
 
 
-def _spelled(character: str) -> str:
+def _escaped(character: str) -> str:
     return character.encode("unicode_escape").decode("ascii")
 
 
 def one_line(text: str, *, most: int = 300) -> str:
-    """Return `text` on one line (newlines spelled out), cut in the middle to `most` characters."""
+    """Return `text` on one line (newlines escaped), cut in the middle to `most` characters."""
     return visible(shorten(text, most=most)).replace("\n", "\\n")
 
 
 def first_lines(text: str, *, lines: int, most: int = 500) -> list[str]:
-    """Return at most `lines` lines of at most `most` characters; the middle is what is left out."""
+    """Return at most `lines` lines of at most `most` characters; the middle is left out."""
     found = _split(text)
     if len(found) > lines:
         head = (lines + 1) // 2
@@ -48,7 +48,7 @@ def first_lines(text: str, *, lines: int, most: int = 500) -> list[str]:
 def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], int]:
     """Return the last `lines` lines of at most `most` characters, and how many there are in all.
 
-    If Python's last traceback begins not far before them, all of it is kept.
+    If Python's last traceback begins shortly before them, all of it is kept.
     """
     found = _split(text)
     start = max(len(found) - lines, 0)
@@ -80,7 +80,7 @@ def points(value: float) -> str:
 
 
 def encodable(text: str, encoding: str | None) -> str:
-    """Return `text` with what the encoding does not have spelled out."""
+    """Return `text` with the characters that the encoding lacks escaped."""
     name = encoding or "utf-8"
     return text.encode(name, "backslashreplace").decode(name)
 

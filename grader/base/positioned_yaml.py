@@ -1,7 +1,7 @@
-"""YAML whose every value knows its line, so that an error can name file and line.
+"""YAML with the line of every value, so that an error can name file and line.
 
-Read with PyYAML's safe loader. Refused, because a definition that is data has no use for them:
-aliases (they can multiply), other tags than YAML's plain ones, several documents, double keys.
+Read with PyYAML's safe loader. Refused, because a definition that is data does not need them:
+aliases (they can multiply), tags other than YAML's plain ones, several documents, duplicate keys.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ MOST_BYTES = 1_000_000
 MOST_LEVELS = 50
 
 Loc = tuple["str | int", ...]
-"""The way from the root to a value: keys and positions."""
+"""The path from the root to a value: keys and indexes."""
 
 
 @dataclass(frozen=True)
@@ -32,27 +32,27 @@ class Document:
     lines: dict[Loc, int]
 
     def line(self, loc: Loc) -> int:
-        """Return the line of a value, or of the nearest parent that is there."""
+        """Return the line of a value, or of the nearest parent that exists."""
         for end in range(len(loc), -1, -1):
             if loc[:end] in self.lines:
                 return self.lines[loc[:end]]
         return 1
 
     def error(self, loc: Loc, text: str) -> AssignmentError:
-        """Return the error that says `text` of the value at `loc`."""
+        """Return an error about the value at `loc`."""
         return fault(self.path, self.line(loc), text)
 
 
 def fault(path: Path, line: int, text: str) -> AssignmentError:
-    """Return an error with its place in the form that editors open: `file:line: text`."""
+    """Return an error in the form that editors open: `file:line: text`."""
     return AssignmentError(f"{path}:{line}: {text}")
 
 
 def read_yaml(path: Path) -> Document:
     """Read one YAML file.
 
-    Raises AssignmentError, with file and line, for one that is missing, cannot be read, is not
-    UTF-8, is not YAML or uses what is refused here.
+    Raises AssignmentError, with file and line, if it is missing, cannot be read, is not UTF-8, is
+    not YAML or uses what is refused here.
     """
     text = _decode(path, _read(path))
     try:
@@ -129,7 +129,7 @@ class _Builder:
             return tuple(self.build(child, (*loc, i)) for i, child in enumerate(node.value))
         if isinstance(node, yaml.ScalarNode):
             return self._loader.construct_object(node)
-        raise fault(self._path, line, f"the tag {node.tag} is not used here")
+        raise fault(self._path, line, f"the tag {node.tag} is not allowed")
 
     def _mapping(self, node: yaml.MappingNode, loc: Loc) -> dict[str, Any]:
         found: dict[str, Any] = {}
@@ -142,7 +142,7 @@ class _Builder:
             if key in found:
                 first = self._lines[place]
                 raise fault(
-                    self._path, line, f"the key '{key}' is there twice (first: line {first})"
+                    self._path, line, f"the key '{key}' appears twice (first: line {first})"
                 )
             self._lines[place] = line
             found[key] = self.build(value_node, place)

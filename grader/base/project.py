@@ -1,4 +1,4 @@
-"""Where the project's own files are: in a checkout, or installed as a ROS package."""
+"""The folders of the project's own files: in a checkout, or installed as a ROS package."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 """The folder of the Python package `grader`."""
 
 CHECKOUT = PACKAGE.parent
-"""The folder that holds it: the checkout, or `site-packages`."""
+"""The parent folder: the checkout, or `site-packages`."""
 
 SHARES = [parent / "share" / "ros2_teaching_lab" for parent in PACKAGE.parents]
-"""Where the installed package's data files may be (`share` of the prefix that holds it)."""
+"""Where the installed package's data files may be (`share` of its prefix)."""

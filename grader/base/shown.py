@@ -1,4 +1,4 @@
-"""What intake leaves out, gathered so that ten thousand files of one kind are one line."""
+"""A student's text made safe for one line, and what intake leaves out, grouped by reason."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ LONGEST = 120
 
 
 def shown(text: str) -> str:
-    """Return a text of the student's as it may be shown anywhere: one line, plain, not endless.
+    """Return a student's text on one line: printable characters only, at most 120.
 
-    (Bytes of a file name that are not UTF-8 come as the surrogates U+DC80 to U+DCFF, PEP 383.)
+    (Bytes of a file name that are not UTF-8 appear as the surrogates U+DC80 to U+DCFF, PEP 383.)
     """
     plain = "".join(c if c.isprintable() else _escaped(ord(c)) for c in text[: LONGEST + 1])
     return plain if len(plain) <= LONGEST else plain[: LONGEST - 1] + "…"
@@ -25,7 +25,7 @@ def _escaped(code: int) -> str:
 
 
 class LeftOut:
-    """Reasons, and the first few places that each applies to."""
+    """Reasons, each with its first few places: ten thousand files of one kind are one line."""
 
     def __init__(self) -> None:
         self._places: dict[str, list[str]] = {}

@@ -1,4 +1,4 @@
-"""What a text stream is: a terminal or not, how wide, and whether it takes colours."""
+"""Properties of a text stream: whether it is a terminal, its width, whether it takes colours."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import os
 from typing import TextIO
 
 DUMB = ("", "dumb", "unknown")
-WIDTH = 80  # columns, where nobody says
+WIDTH = 80  # columns, if nothing gives a width
 
 
 def is_terminal(file: TextIO) -> bool:
-    """Return whether `file` is a terminal on which a line can be written anew."""
+    """Return whether `file` is a terminal on which a line can be rewritten."""
     try:
         return file.isatty() and os.environ.get("TERM", "") not in DUMB
     except ValueError:  # it is closed
@@ -18,7 +18,7 @@ def is_terminal(file: TextIO) -> bool:
 
 
 def takes_styles(file: TextIO) -> bool:
-    """Return whether colours are welcome: a terminal, and no NO_COLOR (https://no-color.org)."""
+    """Return whether to use colours: a terminal, and no NO_COLOR (https://no-color.org)."""
     return is_terminal(file) and not os.environ.get("NO_COLOR")
 
 
@@ -29,5 +29,5 @@ def width_of(file: TextIO) -> int:
             return columns
     except (OSError, ValueError):  # not a real file, or it is closed
         pass
-    columns_said = os.environ.get("COLUMNS", "")
-    return int(columns_said) if columns_said.isdecimal() and int(columns_said) > 0 else WIDTH
+    columns_set = os.environ.get("COLUMNS", "")
+    return int(columns_set) if columns_set.isdecimal() and int(columns_set) > 0 else WIDTH

@@ -1,4 +1,4 @@
 """Texts in the reader's language: marked with `say` and `msg`, translated by a `Translator`.
 
-`grader.cli.update_translations` gathers what is marked into `ko/LC_MESSAGES/grader.po`.
+`grader.cli.update_translations` collects the marked texts into `ko/LC_MESSAGES/grader.po`.
 """

@@ -1,8 +1,8 @@
-"""A text that is English and can still be said in another language.
+"""English text that can still be translated.
 
-Who makes a text does not know who will read it. `say` keeps what it was made of; a `Translator`
-(grader.base.i18n.translator) says it again in the reader's language. Read as a plain string it is
-English, so it may go wherever a string goes.
+The code that makes a text does not know its reader. `say` keeps the template and its parameters; a
+`Translator` (grader.base.i18n.translator) renders them in the reader's language. As a plain string
+it is English, so it can be used like any string.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ Value = str | int | float
 
 
 class Message(str):
-    """A template (gettext's msgid, in the form of `str.format`) and what fills it."""
+    """A template (gettext's msgid, in the form of `str.format`) and its parameters."""
 
     __slots__ = ("params", "template")
 
@@ -39,13 +39,13 @@ class Message(str):
         return joined(other, self, by="")
 
     def translated(self, translate: Translate) -> str:
-        """Return the text in another language; what fills it is translated as well."""
-        values = {name: _told(value, translate) for name, value in self.params.items()}
+        """Return the text in another language; its parameters are translated too."""
+        values = {name: _translated(value, translate) for name, value in self.params.items()}
         return translate(self.template).format(**values)
 
 
 class Joined(Message):
-    """Texts one after the other, each to be translated by itself."""
+    """A sequence of texts, each translated by itself."""
 
     __slots__ = ("by", "parts")
 
@@ -64,10 +64,10 @@ class Joined(Message):
 
     def translated(self, translate: Translate) -> str:
         """Return the parts in another language, joined in the same way."""
-        return self.by.join(str(_told(part, translate)) for part in self.parts)
+        return self.by.join(str(_translated(part, translate)) for part in self.parts)
 
 
-def _told(value: Value, translate: Translate) -> Value:
+def _translated(value: Value, translate: Translate) -> Value:
     return value.translated(translate) if isinstance(value, Message) else value
 
 
@@ -77,10 +77,10 @@ def say(template: str, **params: Value) -> Message:
 
 
 def msg(template: str) -> str:
-    """Mark a template that is filled later: it is gathered for translation, and no more."""
+    """Mark a template for translation; it is filled later."""
     return template
 
 
 def joined(*parts: str, by: str = " ") -> Message:
-    """Return the texts that are not empty, one after the other."""
+    """Join the texts that are not empty."""
     return Joined(tuple(part for part in parts if part), by)

@@ -1,4 +1,4 @@
-"""Which language a reader wants, and texts said in it."""
+"""The reader's language, and texts translated into it."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ DOMAIN = "grader"
 FOLDER = Path(__file__).resolve().parent
 LANGUAGES = ("en", "ko")
 SOURCE = "en"  # the language of the templates
-OWN = "GRADER_LANG"  # names the language where the locale cannot: a container has only C.UTF-8
+OWN = "GRADER_LANG"  # for a locale that has no language: a container has only C.UTF-8
 
 
 class Translator:
-    """Says texts in one language; what has no translation is said in English."""
+    """Translates texts into one language; a text without a translation stays English."""
 
     def __init__(self, lang: str) -> None:
         self.lang = lang if lang in LANGUAGES else SOURCE
 
     def __call__(self, text: str) -> str:
-        """Return a text in the language; what is no `Message` (a name, code) stays as it is."""
+        """Return a text in the language; a string that is not a `Message` is returned unchanged."""
         if not isinstance(text, Message):
             return text
         return text.translated(self._translate) if self.lang != SOURCE else str(text)
@@ -37,14 +37,14 @@ class Translator:
 
 
 def translated(template: str, lang: str) -> str:
-    """Return a template in a language, not filled; English where it has no translation."""
-    # (the empty msgid is the catalogue's own head)
+    """Return a template in a language, not filled; English if it has no translation."""
+    # (the empty msgid is the catalogue's header)
     return _catalogue(lang).gettext(template) if template else ""
 
 
 @functools.lru_cache(maxsize=len(LANGUAGES))
 def _catalogue(lang: str) -> gettext.NullTranslations:
-    """Return a language's translations, looked for once: a class has thousands of texts."""
+    """Return a language's translations, loaded once: a class has thousands of texts."""
     if lang == SOURCE:
         return gettext.NullTranslations()
     return gettext.translation(DOMAIN, FOLDER, [lang], fallback=True)
@@ -52,7 +52,7 @@ def _catalogue(lang: str) -> gettext.NullTranslations:
 
 @contextlib.contextmanager
 def errors_in(lang: str | None) -> Iterator[None]:
-    """Let errors that a user can cause leave with their texts in a language."""
+    """Translate the texts of errors that a user can cause."""
     try:
         yield
     except GraderError as error:
@@ -64,7 +64,7 @@ def errors_in(lang: str | None) -> Iterator[None]:
 def chosen_language(environment: Mapping[str, str]) -> str:
     """Return the language that the environment asks for: GRADER_LANG, else as GNU gettext reads it.
 
-    LC_ALL, LC_MESSAGES and LANG in this order say the locale; unless that is C, LANGUAGE names
+    LC_ALL, LC_MESSAGES and LANG in this order give the locale; unless that is C, LANGUAGE lists
     the languages in order of preference (GNU gettext manual, "The LANGUAGE variable").
     """
     if _language(environment.get(OWN, "")) in LANGUAGES:
