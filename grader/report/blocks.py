@@ -1,4 +1,4 @@
-"""The parts of a page about checks: the table, the block of a failed check, who blocked whom."""
+"""The parts of a page about checks: a table row, the block of a failed check, causes of skips."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ WORDS = {
     "failed": say("failed"),
     "skipped": say("skipped"),
     "inconclusive": say("inconclusive"),
-    "error": say("could not be asked"),
+    "error": say("could not be checked"),
 }
 UNSEEN = say("a hidden check")
-# what a node says when it is stopped tells nothing of these
+# what a node prints when it is stopped does not concern these
 BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
 
 
 def row(check: CheckResult) -> Row:
-    """Return the check's line of the table; points that nobody knows are a dash."""
+    """Return the check's row of the table; unknown points are a dash."""
     mark, style = MARKS[check.status]
     open_ = check.status in ("inconclusive", "error")
     return Row(
@@ -62,8 +62,8 @@ def all_of(names: Sequence[str]) -> str:
 def roots(check: CheckResult, checks: Sequence[CheckResult]) -> list[CheckResult]:
     """Return the checks because of which this one was skipped.
 
-    What it says itself, else those of its dependencies that did not pass; one that was skipped as
-    well is followed to its cause.
+    The one that it names, else its dependencies that did not pass; a dependency that was skipped
+    too is followed to its cause.
     """
     by_id = {other.id: other for other in checks}
     if check.blocked_by in by_id:
@@ -84,7 +84,7 @@ def roots(check: CheckResult, checks: Sequence[CheckResult]) -> list[CheckResult
 
 
 def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
-    """Write all that is known of a check that did not pass: what, where, why, and the fix."""
+    """Write all that is known about a check that did not pass: what, where, why, and the fix."""
     mark, style = MARKS[check.status]
     head = joined(mark, one_line(check.id, most=60))
     page.line((head, style), joined(": ", one_line(check.title), on, by=""))
@@ -95,10 +95,10 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
         page.code(say("where"), [one_line(check.where.file) + line])
     _field(page, say("why"), check.rationale, lines)
     if check.status == "inconclusive":
-        busy = say("None taken, none given. Grade again when the machine is less busy.")
+        busy = say("No points given or taken. Grade again when the machine is less busy.")
         page.field(say("points"), busy)
     elif check.status == "error":
-        ours = say("None taken, none given: the fault is the grader's. Please report it.")
+        ours = say("No points given or taken: this is a fault of the grader. Please report it.")
         page.field(say("points"), ours)
     _field(page, say("fix"), check.fix, lines, style="bold")
     if check.patch.strip():
@@ -114,7 +114,7 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
 
 
 def _found(page: Page, text: str, lines: int) -> None:
-    """Write what was found; where a line of marks is in it, its columns are kept."""
+    """Write what was found; if it contains a line of marks, keep its columns."""
     shown = first_lines(text, lines=lines, most=1_000) if text.strip() else []
     marks = any(line.strip() and not line.strip("^ ") for line in shown)
     if marks:
@@ -129,7 +129,7 @@ def _field(page: Page, label: str, text: str, lines: int, *, style: str = "") ->
 
 
 def evidence_of(check: CheckResult, evidence: Evidence) -> tuple[str, str]:
-    """Return the text that shows why a check failed, and what it is; ("", "") if none does."""
+    """Return the text that shows why a check failed, and its title; ("", "") if none does."""
     stage = check.id.partition(".")[0]
     if check.status != "failed" or stage in ("package", "source"):
         return "", ""
@@ -142,7 +142,7 @@ def evidence_of(check: CheckResult, evidence: Evidence) -> tuple[str, str]:
 
 
 def quotation(page: Page, text: str, title: str, *, lines: int) -> None:
-    """Write the end of what a program printed."""
+    """Write the end of a program's output."""
     shown, count = last_lines(text, lines=lines)
     head = say("What {title}:", title=title)
     if len(shown) != count:

@@ -1,7 +1,7 @@
-"""What the runner says while it works; whoever wants to know (live terminal, ledger, …) listens.
+"""The events of the runner, for listeners (live terminal, ledger, …).
 
-The runner calls one `Listener` with each event, in order, in the thread in which it works; a
-listener returns at once and raises nothing. Durations are seconds of wall time.
+The runner calls one `Listener` with each event, in order, in its own thread; a listener returns at
+once and raises nothing. Durations are seconds of wall time.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class StageStarted:
 
 @dataclass(frozen=True)
 class StageFinished:
-    """A stage is over, however it went, after `seconds`."""
+    """A stage ended, with or without success, after `seconds`."""
 
     stage: str
     seconds: float
@@ -36,7 +36,7 @@ class StageFinished:
 
 @dataclass(frozen=True)
 class CheckStarted:
-    """A check is asked now. Who shows events to a student leaves out those that are not visible."""
+    """A check begins. A listener for students leaves out those that are not visible."""
 
     id: str
     title: str
@@ -45,16 +45,16 @@ class CheckStarted:
 
 @dataclass(frozen=True)
 class CheckFinished:
-    """A check has its result, which does not change any more in this attempt."""
+    """A check has its result, which is final for this attempt."""
 
     result: CheckResult
 
 
 @dataclass(frozen=True)
 class TickSeen:
-    """A line of the count has come: its number (None if it has none), its text, its ROS time (s).
+    """A line of the count: its number (None if it has none), its text, its ROS time (s).
 
-    `text` was written by the submission: it may hold anything, control sequences too.
+    `text` comes from the submission: it may contain anything, including control sequences.
     """
 
     n: int | None
@@ -64,7 +64,7 @@ class TickSeen:
 
 @dataclass(frozen=True)
 class Note:
-    """Something worth knowing that is no verdict, e.g. why there is a second attempt."""
+    """Information that is not a verdict, e.g. why there is a second attempt."""
 
     text: str
 
@@ -74,10 +74,10 @@ Listener: TypeAlias = Callable[[Event], None]
 
 
 def to_all(listeners: Sequence[Listener]) -> Listener:
-    """Return one listener that hands each event to all of these, in their order."""
+    """Return one listener that passes each event to all of these, in their order."""
 
-    def tell(event: Event) -> None:
+    def notify(event: Event) -> None:
         for listener in listeners:
             listener(event)
 
-    return tell
+    return notify

@@ -1,7 +1,7 @@
 """Where reports are kept: `<out>/<student>/<distro>/report.json` and `<out>/<student>/matrix.json`.
 
-Two submissions never share a folder: whose it is, is told by the reports in it. The second one's
-is `<student>-<8 hex digits of its path's SHA-256>`, the same at each run.
+Two submissions never share a folder: the reports in it name the submission. The second one's is
+`<student>-<8 hex digits of its path's SHA-256>`, the same in each run.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ def report_json(report: Report) -> str:
 
 
 def write_report(report: Report, out: Path, student: str, *, durable: bool = True) -> Path:
-    """Write a report below `out` (made if it is not there) and return the path of its file.
+    """Write a report below `out` (created if it is missing) and return the path of its file.
 
-    Killed at any moment, the file is the old report or the new one. It can be read by its owner
-    only; a link in its place or in that of its folders is not followed. ValueError for a name
-    that is no file name; SurroundingsError if it cannot be written. `durable` as for a Folder.
+    If the grader is killed, the file is the old report or the new one. Only its owner can read
+    it; a link in its place or in that of its folders is not followed. ValueError if a name is not
+    a file name; SurroundingsError if it cannot be written. `durable` as for a Folder.
     """
     distro = _file_name(report.environment.distro)
     path = report.submission.path
@@ -53,7 +53,7 @@ def write_report(report: Report, out: Path, student: str, *, durable: bool = Tru
 def write_matrix(reports: Sequence[Report], out: Path, student: str) -> Path:
     """Write the comparison of one submission's reports on several distros beside them.
 
-    All else as `write_report`; ValueError as well for reports that do not belong together.
+    Otherwise like `write_report`; also ValueError for reports that do not belong together.
     """
     matrix = matrix_of(reports)
     with _student_folder(out, student, matrix.submission.path) as (folder, locked):
@@ -80,7 +80,7 @@ def _student_folder(
 
 
 def _open_out(out: Path, *, durable: bool) -> Folder:
-    """Open the folder of all reports; one that we make is for its owner and ignored by git."""
+    """Open the folder of all reports; if it is created here, it is private and ignored by git."""
     out.parent.mkdir(parents=True, exist_ok=True)
     try:
         out.mkdir(mode=0o700)
@@ -103,7 +103,7 @@ def _folder_names(student: str, submission: str) -> list[str]:
 
 
 def _choose(top: Folder, names: Sequence[str], submission: str) -> str:
-    """Return the first name whose folder is this submission's already, else the first free one."""
+    """Return the first name whose folder is already this submission's, else the first free one."""
     own = os.path.realpath(submission)
     free = []
     for name in names:
@@ -118,10 +118,10 @@ def _choose(top: Folder, names: Sequence[str], submission: str) -> str:
 
 
 def _owner(top: Folder, name: str, own: str) -> str | None:
-    """Return the path of the submission whose folder it is; None if it is nobody's.
+    """Return the path of the submission to which a folder belongs; None if the name is free.
 
-    What is no folder (a link, a file), holds reports that cannot be read, or is the submission
-    itself, is somebody else's: "".
+    Return "" if it is not a folder (a link, a file), contains reports that cannot be read or are
+    of several submissions, or is the submission itself.
     """
     kind = top.kind(name)
     if kind != "folder":
@@ -155,18 +155,20 @@ def _file_name(name: str) -> str:
 
 
 def could_not_write(error: OSError, out: Path, *, what: str = "the report") -> SurroundingsError:
-    """Return the error to show where something could not be written below `out`."""
+    """Return the error to show if something could not be written below `out`."""
     where = error.filename if isinstance(error.filename, str) else str(out)
     reason = error.strerror or str(error)
     if error.errno in FULL:
-        remedy = "The disk is full (or a quota is). Make room, or name another folder with --out."
+        remedy = (
+            "The disk (or a quota) is full. Free some space, or choose another folder with --out."
+        )
     elif error.errno in FORBIDDEN:
-        remedy = "This folder is not yours to write to. Name another one with --out."
+        remedy = "You have no write permission for this folder. Choose another one with --out."
     elif error.errno in IN_THE_WAY:
-        remedy = "A link or file stands where a folder belongs. Look at it and remove it, or name "
+        remedy = "A link or file is in the place of a folder. Check and remove it, or choose "
         remedy += "another folder with --out."
     else:
-        remedy = "Name another folder with --out."
+        remedy = "Choose another folder with --out."
     return SurroundingsError(
         f"{what} could not be written below {out}: {where}: {reason}", remedy=remedy
     )

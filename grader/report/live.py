@@ -1,4 +1,4 @@
-"""What is going on, while it goes on: a live line on a terminal, a line a stage elsewhere."""
+"""Progress during the work: a live line on a terminal, one line per stage elsewhere."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ SPINNER = "|/-\\"
 class LiveProgress:
     """A listener that shows stage, check and elapsed time on a terminal (standard error).
 
-    Used as a context manager; the line is gone when it ends, and the cursor is back. Where `file`
-    is no terminal, or `TERM=dumb`, each stage is one plain line and nothing else is printed. A
-    terminal that has gone away never disturbs the work: what cannot be written is dropped.
+    Used as a context manager; at the end the line is removed and the cursor is visible. If `file`
+    is not a terminal, or `TERM=dumb`, each stage and note is one plain line and nothing else is
+    printed. A closed terminal never disturbs the work: what cannot be written is dropped.
     """
 
     def __init__(
@@ -50,9 +50,9 @@ class LiveProgress:
         self._file = gate(file or sys.stderr)
         self._show_hidden = show_hidden
         self._live: Live | None = None
-        self._speak = Translator(lang)
-        self._stage = self._speak(say("Starting"))
-        self._hidden = self._speak(say("a hidden check"))
+        self._translate = Translator(lang)
+        self._stage = self._translate(say("Starting"))
+        self._hidden = self._translate(say("a hidden check"))
         self._check = ""
         self._tick = ""
         self._begin = time.monotonic()
@@ -74,7 +74,7 @@ class LiveProgress:
             self._live = None
 
     def __call__(self, event: Event) -> None:
-        """Take one event of the runner."""
+        """Handle one event of the runner."""
         match event:
             case StageStarted(title=title):
                 self._stage, self._check, self._tick = one_line(title, most=80), "", ""
@@ -91,19 +91,19 @@ class LiveProgress:
             case TickSeen(text=text):
                 self._tick = one_line(text, most=60)
             case Note(text=text):
-                told = one_line(self._speak(text), most=500)
+                note = one_line(self._translate(text), most=500)
                 if self._live is not None:
-                    self._live.console.print(told, soft_wrap=True)
+                    self._live.console.print(note, soft_wrap=True)
                 else:
-                    self._print(f"{told}\n")
+                    self._print(f"{note}\n")
 
     def _print(self, text: str) -> None:
-        stream = _Sturdy(self._file)
+        stream = _LossyStream(self._file)
         stream.write(text)
         stream.flush()
 
     def _line(self) -> Text:
-        """Return the line as it is now: rich asks for it at each refresh, in its own thread."""
+        """Return the current line; rich calls this at each refresh, in its own thread."""
         from rich.text import Text  # noqa: PLC0415
 
         now = time.monotonic()
@@ -117,13 +117,13 @@ class LiveProgress:
         return line
 
     def _start(self) -> Live:
-        from rich.live import Live  # noqa: PLC0415 - only if there is a terminal
+        from rich.live import Live  # noqa: PLC0415 - only needed on a terminal
 
         from grader.base.gated_console import GatedConsole  # noqa: PLC0415
 
         styled = takes_styles(self._file)
         console = GatedConsole(
-            cast("TextIO", _Sturdy(behind(self._file))),
+            cast("TextIO", _LossyStream(behind(self._file))),
             force_terminal=True,
             force_jupyter=False,
             color_system="standard" if styled else None,
@@ -138,11 +138,11 @@ class LiveProgress:
             redirect_stderr=False,
         )
         live.start()
-        console.show_cursor(True)  # killed now, the terminal is still usable
+        console.show_cursor(True)  # if killed now, the terminal is still usable
         return live
 
 
-class _Sturdy(io.TextIOBase):
+class _LossyStream(io.TextIOBase):
     """A stream that never raises: what it cannot write is dropped."""
 
     def __init__(self, file: TextIO) -> None:

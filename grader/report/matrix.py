@@ -1,7 +1,7 @@
-"""The reports of one submission on several distros beside each other: `matrix.json`, schema 1.
+"""The reports of one submission on several distros side by side: `matrix.json`, schema 1.
 
-It holds what can differ between distros; everything else is in the reports, whose paths relative
-to `matrix.json` it names.
+It contains what can differ between distros; everything else is in the reports, whose paths it
+gives relative to `matrix.json`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class _Part(BaseModel):
 
 
 class Cell(_Part):
-    """What one check said on one distro."""
+    """The result of one check on one distro."""
 
     status: CheckStatus
     score: float
@@ -48,7 +48,7 @@ class CheckAcross(_Part):
 
 
 class Total(_Part):
-    """The sum on one distro, and where its report is."""
+    """The total on one distro, and the path of its report."""
 
     status: Literal["graded", "error"]
     message: str
@@ -69,9 +69,9 @@ class Matrix(_Part):
 
 
 def matrix_of(reports: Sequence[Report]) -> Matrix:
-    """Put the reports of one submission beside each other, in their order.
+    """Combine the reports of one submission, in their order.
 
-    ValueError if there is none, if they are of different submissions, or two of one distro.
+    ValueError if there is none, if they are of different submissions, or two are of one distro.
     """
     if not reports:
         raise ValueError("a matrix needs at least one report")
@@ -79,7 +79,7 @@ def matrix_of(reports: Sequence[Report]) -> Matrix:
         raise ValueError("a matrix is of one submission, these reports are of several")
     by_distro = {report.environment.distro: report for report in reports}
     if len(by_distro) < len(reports):
-        raise ValueError("a matrix has one report of each distro, here is more than one")
+        raise ValueError("a matrix has one report of each distro, these reports repeat one")
     return Matrix(
         assignment=reports[0].assignment,
         submission=reports[0].submission,

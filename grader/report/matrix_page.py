@@ -1,4 +1,4 @@
-"""The page of one submission on several distros: the checks by the distros, what differs, why."""
+"""The page of one submission on several distros: checks by distro, differences and reasons."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from grader.report.model import CheckResult
     from grader.report.model import Report
 
-LINES = 12  # of one text
+LINES = 12  # per text
 
 
 def matrix_page(
@@ -103,12 +103,12 @@ def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcr
     visible = {check.id for check in shown}
     groups: dict[tuple[str, ...], list[str]] = {}
     for check in differing:
-        said: dict[str, list[str]] = {}
+        by_reason: dict[str, list[str]] = {}
         for report in reports:
             distro = one_line(report.environment.distro, most=40)
-            said.setdefault(_reason(report, check.id, visible), []).append(distro)
+            by_reason.setdefault(_reason(report, check.id, visible), []).append(distro)
         lines: tuple[str, ...] = tuple(
-            joined(", ".join(distros), reason, by=": ") for reason, distros in said.items()
+            joined(", ".join(distros), reason, by=": ") for reason, distros in by_reason.items()
         )
         groups.setdefault(lines, []).append(one_line(check.id, most=60))
     for lines, ids in groups.items():
@@ -120,7 +120,7 @@ def _differences(page: Page, reports: Sequence[Report], shown: Sequence[CheckAcr
 def _reason(report: Report, check_id: str, shown: set[str]) -> str:
     check = next((check for check in report.checks if check.id == check_id), None)
     if check is None:
-        return say("not asked there")
+        return say("not checked there")
     if check.status == "skipped":
         names = dict.fromkeys(
             one_line(other.id, most=60) if other.id in shown else UNSEEN
@@ -130,12 +130,12 @@ def _reason(report: Report, check_id: str, shown: set[str]) -> str:
         because = say("skipped because {checks} did not pass", checks=both)
         return because if names else WORDS["skipped"]
     actual = one_line(check.actual.strip().partition("\n")[0], most=200)
-    said = WORDS[check.status]
-    return joined(said, actual, by=": ") if actual and check.status != "passed" else said
+    status = WORDS[check.status]
+    return joined(status, actual, by=": ") if actual and check.status != "passed" else status
 
 
 def _blocks(page: Page, reports: Sequence[Report], shown: set[str]) -> None:
-    """Write each block once, with the distros on which it says the same."""
+    """Write each block once, with the distros on which it is the same."""
     groups: dict[str, tuple[CheckResult, list[str]]] = {}
     for report in reports:
         for check in report.checks:

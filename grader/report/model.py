@@ -26,7 +26,7 @@ class _Part(BaseModel):
 
 
 class Mistake(_Part):
-    """A mistake of the catalogue: a stable id and what fills its text."""
+    """A mistake of the catalogue: a stable id and the parameters of its text."""
 
     id: str
     params: dict[str, str | int | float] = Field(default_factory=dict)
@@ -58,14 +58,14 @@ class CheckResult(_Part):
     where: Where | None = None
     depends: list[str] = Field(default_factory=list)
     consequence_of: str = Field(
-        default="", description="the check that failed before for the same mistake"
+        default="", description="an earlier check that failed because of the same mistake"
     )
     blocked_by: str = Field(default="", description="the check because of which it was skipped")
     seconds: float = 0
 
 
 class AssignmentInfo(_Part):
-    """Which assignment was marked; `sha256` of its definition, so that versions can be told apart."""
+    """The assignment; `sha256` of its definition distinguishes versions."""
 
     id: str
     title: str
@@ -73,7 +73,7 @@ class AssignmentInfo(_Part):
 
 
 class SubmissionInfo(_Part):
-    """Whose package was marked, where it was found and what is known of it."""
+    """The submission: whose package it is, its path, and what is known about it."""
 
     name: str
     student_id: str | None = None
@@ -86,7 +86,7 @@ class SubmissionInfo(_Part):
 
 
 class LimitInfo(_Part):
-    """A limit: its number, and what holds it here (`cgroup`, `rlimit`, `grader`, `tmpfs` or `none`)."""
+    """A limit; `held_by` enforces it (`cgroup`, `rlimit`, `grader`, `tmpfs` or `none`)."""
 
     value: float
     unit: str
@@ -94,7 +94,7 @@ class LimitInfo(_Part):
 
 
 class Environment(_Part):
-    """The world in which the commands ran."""
+    """The environment in which the commands ran."""
 
     distro: str
     ros: Literal["image", "wheels", "system"]
@@ -110,7 +110,7 @@ class Environment(_Part):
 
 
 class Tick(_Part):
-    """One line of the count: its number, its text, and when it came."""
+    """One line of the count: its number, its text, and its times."""
 
     n: int | None
     text: str
@@ -127,10 +127,10 @@ class Exit(_Part):
 
 
 class Observed(_Part):
-    """What the run showed.
+    """What was observed during the run.
 
-    `period` is what the assignment asks for, in seconds; `due` the instants (virtual) at which the
-    clock stood still to wait for a line, empty on the wall clock.
+    `period` is the assignment's, in seconds; `due` the instants (virtual) at which the clock
+    stopped to wait for a line, empty on the wall clock.
     """
 
     command: str = ""
@@ -143,14 +143,14 @@ class Observed(_Part):
 
 
 class Evidence(_Part):
-    """The texts that the verdict rests on, cut to a bounded length in the middle."""
+    """The texts on which the verdict is based, cut in the middle to a bounded length."""
 
     build_log: str = ""
     transcript: str = ""
 
 
 class Timing(_Part):
-    """Seconds of wall time of each stage."""
+    """Wall time of each stage, in seconds."""
 
     setup: float = 0
     intake: float = 0
@@ -189,7 +189,7 @@ class Report(_Part):
 
     @property
     def inconclusive(self) -> float:
-        """The points that could be neither given nor taken."""
+        """The points that are neither given nor lost."""
         return sum(c.max_score for c in self.checks if c.status in ("inconclusive", "error"))
 
     @property

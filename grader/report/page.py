@@ -1,7 +1,7 @@
 """A page of text for a terminal, made with rich and returned as one string.
 
-It knows nothing of reports, and what it makes depends on its arguments alone: neither on the
-environment nor on the terminal that this process happens to have.
+It does not depend on reports, and its output depends on its arguments alone, not on the
+environment or the terminal of this process.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rich.text import Text
 
 from grader.base.gated_console import GatedConsole
 
-NARROW = 60  # columns; below, what stands side by side comes one below the other
+NARROW = 60  # columns; on a narrower page, columns are stacked
 WIDEST = 100  # columns; longer lines are hard to read
 LABEL = 12  # columns
 QUOTED, CONTINUED = "  | ", "  |   "
@@ -27,7 +27,7 @@ QUOTED, CONTINUED = "  | ", "  |   "
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """A line of the table of checks, each cell fit to be shown."""
+    """A row of the table of checks; each cell is safe to show."""
 
     mark: str
     style: str
@@ -37,15 +37,15 @@ class Row:
 
 
 class Page:
-    """A page of `width` columns; without `styled` it has no control sequence at all.
+    """A page of `width` columns; without `styled` it has no control sequences.
 
-    Every string that it is given must be fit to be shown (see `grader.base.plain_text`); markup is
-    never interpreted. What is a `Message` is said by `speak`, in the reader's language.
+    Every string must be safe to show (see `grader.base.plain_text`); markup is never interpreted.
+    `translate` renders a `Message` in the reader's language.
     """
 
     def __init__(self, *, width: int, styled: bool, translate: Callable[[str], str] = str) -> None:
         self._out = io.StringIO()
-        self._speak = translate
+        self._translate = translate
         self._styled = styled
         self._width = max(20, min(width, WIDEST))
         self._console = GatedConsole(
@@ -61,7 +61,7 @@ class Page:
 
     @property
     def narrow(self) -> bool:
-        """Whether there is no room for columns."""
+        """Whether the page is too narrow for columns."""
         return self._width < NARROW
 
     def __str__(self) -> str:
@@ -71,56 +71,56 @@ class Page:
         return "".join(f"{line.rstrip()}\n" for line in text.splitlines())
 
     def gap(self) -> None:
-        """Leave a line free."""
+        """Write an empty line."""
         self._console.print()
 
     def line(self, *parts: str | tuple[str, str], indent: int = 0) -> None:
         """Write a paragraph of strings and (string, style) pairs, wrapped at words.
 
-        Only its first line begins at `indent`: what it quotes cannot begin a line of ours.
+        Only its first line begins at `indent`, so quoted text cannot imitate a line of ours.
         """
-        said = [self._said(part) for part in parts]
-        self._hang(Text.assemble(*said), " " * indent, " " * (indent + 2))
+        translated = [self._translated(part) for part in parts]
+        self._hang(Text.assemble(*translated), " " * indent, " " * (indent + 2))
 
-    def _said(self, part: str | tuple[str, str]) -> str | tuple[str, str]:
+    def _translated(self, part: str | tuple[str, str]) -> str | tuple[str, str]:
         if isinstance(part, str):
-            return self._speak(part)
-        return self._speak(part[0]), part[1]
+            return self._translate(part)
+        return self._translate(part[0]), part[1]
 
     def field(self, label: str, text: str | Sequence[str], style: str = "") -> None:
-        """Write `text` (lines, each wrapped at words) beside its label."""
-        lines = self._speak(text).split("\n") if isinstance(text, str) else text
+        """Write `text` (lines, each wrapped at words) next to its label."""
+        lines = self._translate(text).split("\n") if isinstance(text, str) else text
         first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             self._hang(Text(line, style=style), first if number == 0 else rest, rest)
 
     def code(self, label: str, lines: Sequence[str]) -> None:
-        """Write lines as they are: the terminal wraps what is too long, so they can be copied."""
+        """Write lines unwrapped: the terminal wraps long ones, so they can be copied."""
         first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             lead = first if number == 0 else rest
             self._verbatim(Text.assemble((lead, "bold"), (line, _diff_style(line))))
 
     def _lead(self, label: str, lines: Sequence[str]) -> tuple[str, str]:
-        """Return what stands before the first line and before the others."""
-        label = self._speak(label)
+        """Return the prefixes of the first line and of the others."""
+        label = self._translate(label)
         if not self.narrow:
-            room = max(LABEL, cell_len(label) + 4)
-            return set_cell_size(f"  {label}", room), " " * room
+            width = max(LABEL, cell_len(label) + 4)
+            return set_cell_size(f"  {label}", width), " " * width
         if len(lines) == 1 and cell_len(f"  {label}  {lines[0]}") <= self._width:
             return f"  {label}  ", "    "
         self._verbatim(Text(f"  {label}", style="bold"))
         return "    ", "    "
 
     def quote(self, lines: Sequence[str]) -> None:
-        """Write what a program printed, with a bar before each line: nobody takes it for ours."""
+        """Write a program's output, with a bar before each line to distinguish it from ours."""
         for line in lines:
             pieces = chop_cells(line, self._width - len(CONTINUED)) or [""]
             for number, piece in enumerate(pieces):
                 self._verbatim(Text(f"{CONTINUED if number else QUOTED}{piece}"))
 
     def table(self, rows: Sequence[Row]) -> None:
-        """Write the rows in columns; on a narrow page the text stands below the name."""
+        """Write the rows in columns; on a narrow page the text is below the name."""
         table = Table.grid(padding=(0, 2, 0, 0), expand=False)
         table.add_column(no_wrap=True)
         if not self.narrow:
@@ -128,7 +128,7 @@ class Page:
         table.add_column(overflow="fold")
         table.add_column(justify="right", no_wrap=True)
         for row in rows:
-            mark, score = Text(self._speak(row.mark), style=row.style), Text(row.score)
+            mark, score = Text(self._translate(row.mark), style=row.style), Text(row.score)
             if self.narrow:
                 table.add_row(mark, Text(f"{row.name}\n{row.text}"), score)
             else:
@@ -136,11 +136,11 @@ class Page:
         self._console.print(table)
 
     def grid(self, heads: Sequence[str], rows: Sequence[Sequence[tuple[str, str]]]) -> None:
-        """Write a table with heads; the first column holds names, a cell is (string, style).
+        """Write a table with headings; the first column has names, a cell is (string, style).
 
-        Columns that have no room go into another table below.
+        Columns that do not fit go into another table below.
         """
-        rows = [[(self._speak(text), style) for text, style in cells] for cells in rows]
+        rows = [[(self._translate(text), style) for text, style in cells] for cells in rows]
         others = [
             max(cell_len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
             for n in range(1, len(heads))
@@ -149,9 +149,9 @@ class Page:
         names = min(names, max(self._width - max(others), 12))
         start = 1
         while start < len(heads):
-            end, room = start + 1, self._width - names - others[start - 1]
-            while end < len(heads) and others[end - 1] <= room:
-                room -= others[end - 1]
+            end, free = start + 1, self._width - names - others[start - 1]
+            while end < len(heads) and others[end - 1] <= free:
+                free -= others[end - 1]
                 end += 1
             if start > 1:
                 self.gap()
@@ -176,8 +176,8 @@ class Page:
         self._console.print(table)
 
     def _hang(self, text: Text, first: str, rest: str) -> None:
-        room = max(self._width - max(len(first), len(rest)), 10)
-        for number, line in enumerate(text.wrap(self._console, room, overflow="fold")):
+        width = max(self._width - max(len(first), len(rest)), 10)
+        for number, line in enumerate(text.wrap(self._console, width, overflow="fold")):
             lead = Text(first if number == 0 else rest, style="bold" if number == 0 else "")
             line.rstrip()
             self._verbatim(Text.assemble(lead, line))

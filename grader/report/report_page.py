@@ -1,4 +1,4 @@
-"""The page of one report, from the head to what to do next."""
+"""The page of one report, from the heading to the next step."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from grader.report.model import CheckResult
     from grader.report.model import Report
 
-LINES, LINES_VERBOSE = 12, 200  # of one text
+LINES, LINES_VERBOSE = 12, 200  # per text
 CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
 
 
@@ -70,7 +70,7 @@ def _head(page: Page, report: Report) -> None:
 
 
 def ran_on(report: Report) -> str:
-    """Return in what the package ran: the ROS, the sandbox, the clock."""
+    """Return what the package ran on: the ROS distro, the sandbox, the clock."""
     env = report.environment
     sandbox = say("sandbox {sandbox}", sandbox=env.sandbox)
     sandbox = say("no sandbox") if env.sandbox == "none" else sandbox
@@ -80,8 +80,8 @@ def ran_on(report: Report) -> str:
 
 def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     if report.status == "error":
-        said = "\n".join(first_lines(report.message, lines=8))
-        page.line((say("Not graded: "), "bold magenta"), said)
+        message = "\n".join(first_lines(report.message, lines=8))
+        page.line((say("Not graded: "), "bold magenta"), message)
         page.line(say("This is a fault of the grader or its machine, not of the submission."))
         page.gap()
     if checks:
@@ -108,14 +108,14 @@ def _counts(checks: Sequence[CheckResult]) -> str:
     if checks and all(check.status == "passed" for check in checks):
         return joined("  (", say("every check passed"), ")", by="")
     count = {word: sum(c.status == status for c in checks) for status, word in WORDS.items()}
-    said = [say("{count} {word}", count=n, word=word) for word, n in count.items() if n]
-    return joined("  (", joined(*said, by=", "), ")", by="") if said else ""
+    parts = [say("{count} {word}", count=n, word=word) for word, n in count.items() if n]
+    return joined("  (", joined(*parts, by=", "), ")", by="") if parts else ""
 
 
 def _blocks(
     page: Page, report: Report, checks: Sequence[CheckResult], lines: int
 ) -> frozenset[str]:
-    """Write the block of each check that did not pass; return the texts quoted on the way."""
+    """Write the block of each check that did not pass; return the titles of the quoted texts."""
     quoted: set[str] = set()
     for check in checks:
         if check.status in ("passed", "skipped"):
@@ -172,7 +172,7 @@ def _details(
             page.field(name, one_line(str(value)))
     for name, limit in env.limits.items():
         value = one_line(f"{name} {limit.value:,.10g} {limit.unit}")
-        held = say("{limit}, held by {holder}", limit=value, holder=one_line(limit.held_by))
+        held = say("{limit}, enforced by {holder}", limit=value, holder=one_line(limit.held_by))
         page.field(say("limit"), held)
     spent = [f"{name} {seconds:.2f} s" for name, seconds in timing.model_dump().items()]
     page.field(say("time"), ", ".join(spent))

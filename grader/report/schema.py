@@ -1,7 +1,7 @@
-"""The JSON Schema of the report, made from the model: `python -m grader.report.schema` writes it.
+"""The JSON Schema of the report; `python -m grader.report.schema` writes it from the model.
 
-It describes what is written: every field is there in every report, and there may be more fields
-than it knows ("fields may be added, never changed"), so that an old schema accepts a new report.
+It describes what is written: every field is present in every report, and unknown fields are
+accepted ("fields may be added, never changed"), so that an old schema accepts a new report.
 """
 
 from __future__ import annotations
@@ -18,34 +18,34 @@ from grader.report.model import Report
 PATH = Path(__file__).with_name("report.schema.json")
 ID = "urn:ros2-teaching-lab:report:1"
 
-# What the class descriptions leave open, by definition ("" is the report itself) and field.
+# What the class descriptions do not cover, by definition ("" is the report itself) and field.
 DESCRIPTIONS = {
     "": {
         "schema": "The version of this form. Fields may be added to it, never changed.",
         "status": "`error`: the grader could not do its work; `message` says why.",
-        "message": "What is to be said of the whole; empty if there is nothing.",
+        "message": "A message about the whole report; empty if there is none.",
         "score": "The points given: the sum over the checks.",
-        "max_score": "The points that could be had: the sum over the checks.",
+        "max_score": "The points available: the sum over the checks.",
         "lang": "The language of all texts. Ids, statuses and params do not depend on it.",
-        "attempts": "How often the run was tried before this verdict.",
-        "checks": "The checks in the order in which they were asked.",
+        "attempts": "How many runs were attempted for this verdict.",
+        "checks": "The checks in the order in which they ran.",
         "started": "When the grading began (ISO 8601).",
     },
     "CheckResult": {
         "id": "Stable and independent of the language, e.g. `entry_point.mapping`.",
-        "title": "What the check asks, in one line.",
-        "status": "`skipped`: not asked, a check that it depends on did not pass. `inconclusive`: "
-        "our side or the machine's load kept us from knowing. `error`: the check itself failed.",
-        "visibility": "Who may see it; not whether it counts, which it always does.",
+        "title": "What the check tests, in one line.",
+        "status": "`skipped`: not run, a check that it depends on did not pass. `inconclusive`: "
+        "the grader or the machine's load prevented a verdict. `error`: the check itself failed.",
+        "visibility": "Who may see it; it always counts.",
         "rationale": "Why it matters.",
         "expected": "What was expected.",
         "actual": "What was found.",
         "fix": "The one change that fixes it.",
-        "patch": "The same change as a diff, where there is one.",
+        "patch": "The same change as a diff, if there is one.",
         "advice": "What could be better and costs no points.",
-        "mistakes": "The entries of the catalogue that were recognised.",
+        "mistakes": "The mistakes of the catalogue that were recognised.",
         "where": "The place to look at.",
-        "depends": "The ids of the checks without which this one is not asked.",
+        "depends": "The ids of the checks that must pass before this one runs.",
         "seconds": "How long it took.",
     },
     "SubmissionInfo": {
@@ -60,7 +60,7 @@ DESCRIPTIONS = {
 
 
 class _Written(GenerateJsonSchema):
-    """The schema of what is dumped, where fields with a default are present as well."""
+    """The schema of a dumped report, in which fields with a default are present too."""
 
     def field_is_required(
         self,

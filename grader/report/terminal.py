@@ -1,7 +1,7 @@
-"""The renderer for a terminal: the live line while work goes on, and the report afterwards.
+"""The renderer for a terminal: the live line during the work, and the report afterwards.
 
-What is printed is a pure function of the report, of the width and of whether the file is a
-terminal that takes styles. rich is imported when the first page is made, not before.
+The output is a pure function of the report, of the width and of whether the file is a terminal
+that takes styles. rich is imported when the first page is rendered, not before.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ def render_report(
     show_hidden: bool = False,
     path: Path | None = None,
 ) -> str:
-    """Return the page of a report, `width` columns wide; plain ASCII beside the report's own text.
+    """Return the page of a report, `width` columns wide; ASCII except for the report's own text.
 
     `verbose` adds versions, limits, times and the whole evidence. Checks that are not `visible`
-    are counted only, unless `show_hidden`. `path` is where the report was written.
+    are only counted, unless `show_hidden`. `path` is where the report was written.
     """
     from grader.report.report_page import report_page  # noqa: PLC0415 - rich costs 35 ms
 
@@ -53,7 +53,7 @@ def render_matrix(
     show_hidden: bool = False,
     path: Path | None = None,
 ) -> str:
-    """Return the page of one submission on several distros: checks by distros, what differs, why.
+    """Return the page of one submission on several distros: checks by distro, and differences.
 
     ValueError if there is no report, or if they are of several submissions.
     """
@@ -70,7 +70,7 @@ def print_report(
     show_hidden: bool = False,
     path: Path | None = None,
 ) -> None:
-    """Print a report (see `render_report`) to `file`, standard output if there is none given."""
+    """Print a report (see `render_report`) to `file`, by default standard output."""
     file = file or sys.stdout
     text = render_report(
         report,

@@ -58,7 +58,7 @@ def test_a_planted_link_for_the_distros_folder_is_told(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "out" / "anna").mkdir(parents=True)
     (tmp_path / "out" / "anna" / "jazzy").symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(SurroundingsError, match="link or file stands where a folder belongs"):
+    with pytest.raises(SurroundingsError, match="link or file is in the place of a folder"):
         write_report(of("/s/anna"), tmp_path / "out", "anna")
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
@@ -142,7 +142,7 @@ def test_a_folder_that_cannot_be_written_to_is_told_with_a_remedy(
 
 def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:
     (tmp_path / "reports").write_text("mine")
-    with pytest.raises(SurroundingsError, match="link or file stands where a folder belongs"):
+    with pytest.raises(SurroundingsError, match="link or file is in the place of a folder"):
         write_report(report(), tmp_path / "reports", "anna")
     assert (tmp_path / "reports").read_text() == "mine"
 
@@ -153,7 +153,7 @@ def test_when_there_is_no_room_the_old_report_stays_and_nothing_is_left(tmp_path
     former = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     try:
         resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # no file may be longer
-        with pytest.raises(SurroundingsError, match="Make room") as told:
+        with pytest.raises(SurroundingsError, match="Free some space") as told:
             write_report(report(message="new" * 9_000), tmp_path, "anna")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
@@ -172,7 +172,7 @@ def test_a_disk_that_is_full_when_it_is_synchronised_is_told(
 
     written = write_report(report(message="old"), tmp_path, "anna")
     monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(SurroundingsError, match="disk is full"):
+    with pytest.raises(SurroundingsError, match=r"disk \(or a quota\) is full"):
         write_report(report(message="new"), tmp_path, "anna")
     assert json.loads(written.read_text())["message"] == "old"
     assert [path.name for path in written.parent.iterdir()] == ["report.json"]

@@ -100,7 +100,7 @@ def test_a_distro_that_could_not_be_marked_is_named_with_its_reason() -> None:
     broken = report(status="error", message="no image for it", checks=[], score=0)
     page = words(render_matrix([on("humble"), on("rolling", marked=broken)]))
     assert "Not graded on rolling: no image for it" in page
-    assert "rolling: not asked there" in page
+    assert "rolling: not checked there" in page
 
 
 def test_hidden_checks_are_counted_and_say_nothing() -> None:
