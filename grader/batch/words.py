@@ -25,7 +25,7 @@ STATES: dict[EntryStatus, str] = {
     "ungradable": say("ungradable"),
     "error": say("not marked, a fault of the grader"),
     "missing": say("nothing handed in"),
-    "elsewhere": say("handed in elsewhere"),
+    "elsewhere": say("submitted elsewhere"),
     "pending": say("not marked yet"),
 }
 SYSTEMS: dict[System, str] = {

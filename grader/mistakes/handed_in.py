@@ -8,7 +8,7 @@ from grader.mistakes.kind import Kind
 
 UNIT = msg("A package is the unit that ROS builds and runs; colcon knows one by its package.xml.")
 AGAIN = msg(
-    "Pack the package's folder anew, with nothing else in it: "
+    "Pack the package's folder again, with nothing else in it: "
     "cd ~/ros2_ws/src && tar -czf my_package.tar.gz my_package (with your package's name)."
 )
 ONLY_YOURS = msg("Hand in only what you wrote: no recordings, data sets or virtual environments.")
@@ -41,7 +41,7 @@ KINDS = (
                msg("Hand in your package: the folder with package.xml and setup.py in it.")),
     _handed_in("only_build", msg("Only build, install and log were handed in"),
                msg("Hand in the package from the workspace's src folder: build, install and log "
-                   "are made from it and cannot stand for it.")),
+                   "are generated from it and do not replace it.")),
     _handed_in("only_node", msg("Only the node's file was handed in"),
                msg("Hand in the whole folder of the package, with package.xml, setup.py, "
                    "setup.cfg and resource/.")),
@@ -55,7 +55,7 @@ KINDS = (
         title=msg("Two packages have the same name"),
         why=msg("colcon refuses to build two packages of one name, for nobody could say which of "
                 "them ros2 run would start."),
-        fix=msg("Keep one of them. A backup copy belongs outside the workspace (or put an empty "
+        fix=msg("Keep one of them. Move a backup copy out of the workspace (or put an empty "
                 "file COLCON_IGNORE into it)."),
         link=links.COLCON_IGNORE,
         seen=r"Duplicate package names not supported",

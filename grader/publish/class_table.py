@@ -139,7 +139,7 @@ def _totals(entries: Sequence[Entry]) -> str:
     full = sum(1 for e in entries if e.report is not None and e.report.all_passed)
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
     words = {"ungradable": "cannot be marked", "missing": "handed in nothing"}
-    words["elsewhere"] = "handed in elsewhere"
+    words["elsewhere"] = "submitted elsewhere"
     words["error"] = "not marked, a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]

@@ -129,8 +129,8 @@ def _fields(check: CheckResult) -> list[Field]:
         if check.where.line is not None:
             where = say("{file}, line {line}", file=where, line=check.where.line)
     open_ = {
-        "inconclusive": say("None taken, none given. Grade again when the machine is less busy."),
-        "error": say("None taken, none given: the fault is the grader's. Please report it."),
+        "inconclusive": say("No points given or taken. Grade again when the machine is less busy."),
+        "error": say("No points given or taken: this is a fault of the grader. Please report it."),
     }
     return [
         Field(say("Expected"), _cut(check.expected), code=True),

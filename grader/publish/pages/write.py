@@ -171,7 +171,7 @@ def _cards(entries: Sequence[Entry]) -> list[tuple[str, int]]:
     ]
     rare = {
         "a fault of the grader": count("error"),
-        "handed in elsewhere": count("elsewhere"),
+        "submitted elsewhere": count("elsewhere"),
         "not marked yet": count("pending"),
     }
     return [*cards, *((name, number) for name, number in rare.items() if number)]
