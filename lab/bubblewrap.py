@@ -12,30 +12,20 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
-from grader.ros.prefix import Ros
-from grader.ros.prefix import base_interpreter
+from grader.ros.prefix import Ros, base_interpreter
 from grader.sandbox.base import HOME
-from grader.sandbox.bubblewrap import FILES
-from grader.sandbox.bubblewrap import Bubblewrap
-from grader.sandbox.bubblewrap import memory_file
+from grader.sandbox.bubblewrap import FILES, Bubblewrap, memory_file, system_mounts
 from grader.sandbox.bubblewrap import parents_of as parents
-from grader.sandbox.bubblewrap import system_mounts
 from grader.sandbox.limits import Limits
 from grader.sandbox.local import need
 from grader.sandbox.processes import kill_with_children
-from lab.terminal import foreground_again
-from lab.terminal import ignoring_interrupts
-from lab.visit import BASHRC
-from lab.visit import ROOM
-from lab.visit import WORKSPACE
-from lab.visit import Visit
-from lab.visit import accounts
+from lab.terminal import foreground_again, ignoring_interrupts
+from lab.visit import BASHRC, ROOM, WORKSPACE, Visit, accounts
 
 ROOT = Path(__file__).resolve().parent.parent
 CACHE = f"{ROOM}/cache"

@@ -7,10 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from grader.base.cache import Say
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.errors import SurroundingsError, UsageError
+from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
 from lab.visit import Visit
 
@@ -44,8 +42,7 @@ def choose(kind: str, distro: Distro, *, tell: Say) -> Enter:
 
 def _docker(distro: Distro) -> tuple[Enter, str]:
     # each kind is loaded only when it is wanted: the one must not need the other's libraries
-    from grader.ros.images import connect  # noqa: PLC0415
-    from grader.ros.images import find_image  # noqa: PLC0415
+    from grader.ros.images import connect, find_image  # noqa: PLC0415
     from lab.container import ContainerLab  # noqa: PLC0415
 
     client = connect()

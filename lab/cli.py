@@ -12,9 +12,7 @@ import click
 
 import grader
 from grader.base.i18n.message import msg
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import chosen_language
-from grader.base.i18n.translator import errors_in
+from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
 

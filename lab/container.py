@@ -17,10 +17,7 @@ from urllib.parse import urlsplit
 
 import docker
 import requests
-from docker.errors import APIError
-from docker.errors import DockerException
-from docker.errors import ImageNotFound
-from docker.errors import NotFound
+from docker.errors import APIError, DockerException, ImageNotFound, NotFound
 from docker.models.containers import Container
 from docker.models.images import Image
 from docker.types import Mount
@@ -29,13 +26,8 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.sandbox.base import HOME
 from lab.exec_stream import ExecStream
-from lab.keeper import LAST
-from lab.keeper import READY
-from lab.keeper import VARIABLE
-from lab.visit import ROOM
-from lab.visit import WORKSPACE
-from lab.visit import Visit
-from lab.visit import accounts
+from lab.keeper import LAST, READY, VARIABLE
+from lab.visit import ROOM, WORKSPACE, Visit, accounts
 from lab.workspace import Student
 
 LABEL = "ros2-teaching-lab.lab"

@@ -18,12 +18,8 @@ import docker
 from docker.errors import APIError
 
 from grader.base.errors import SurroundingsError
-from grader.sandbox.execs import Frames
-from grader.sandbox.execs import already_read
-from grader.sandbox.execs import socket_of
-from lab.terminal import TERMINAL
-from lab.terminal import on_new_size
-from lab.terminal import raw
+from grader.sandbox.execs import Frames, already_read, socket_of
+from lab.terminal import TERMINAL, on_new_size, raw
 
 STDOUT, STDERR = 1, 2
 CHUNK = 65536

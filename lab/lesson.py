@@ -7,12 +7,7 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
-from grader.course.find import COURSE
-from grader.course.find import FILE
-from grader.course.find import LESSON
-from grader.course.find import assignment_file
-from grader.course.find import is_file
-from grader.course.find import own_course
+from grader.course.find import COURSE, FILE, LESSON, assignment_file, is_file, own_course
 
 INSIDE = "/opt/ros2_teaching_lab/course"
 

@@ -7,8 +7,7 @@ import os
 import signal
 import termios
 import tty
-from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import FrameType
 
 TERMINAL = 0  # standard input

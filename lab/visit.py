@@ -6,14 +6,11 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.base.i18n.translator import OWN
-from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.translator import OWN, SOURCE
 from grader.ros.distro import Distro
-from grader.sandbox.base import HOME
-from grader.sandbox.base import PATH
+from grader.sandbox.base import HOME, PATH
 from lab.lesson import OpenedLesson
-from lab.workspace import Student
-from lab.workspace import Workspace
+from lab.workspace import Student, Workspace
 
 WORKSPACE = f"{HOME}/ros2_ws"
 ROOM = "/opt/ros2_teaching_lab"

@@ -17,27 +17,23 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.course.assignment import load_assignment
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.package.submission import Submission, take_in
 from grader.ros import images
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.run.probe_link import ProbeLink
-from grader.run.run import observe
-from grader.run.run import ros2_run
+from grader.run.run import observe, ros2_run
 from grader.run.terminal import Terminal
 from grader.run.workspace import build
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
-from tests import engine
-from tests import stage
+from tests import engine, stage
 
 COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
 SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"

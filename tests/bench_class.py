@@ -18,11 +18,7 @@ from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.sandbox.proof import proven_ros
 from tests.batch import classes
-from tests.bench import ASSIGNMENT
-from tests.bench import at_least
-from tests.bench import bound
-from tests.bench import machine_cpu
-from tests.bench import plain_grader
+from tests.bench import ASSIGNMENT, at_least, bound, machine_cpu, plain_grader
 
 
 def main() -> int:

@@ -13,8 +13,7 @@ import time
 from pathlib import Path
 
 from tests import stage
-from tests.bench import at_least
-from tests.bench import bound
+from tests.bench import at_least, bound
 
 MOST_SECONDS = 600.0
 LEAST_MUTANTS = 120

@@ -23,12 +23,10 @@ from pathlib import Path
 from docker import DockerClient
 
 from grader.base.cache import cache_root
-from grader.base.errors import GraderError
-from grader.base.errors import SurroundingsError
+from grader.base.errors import GraderError, SurroundingsError
 from grader.ros import images
 from grader.ros.distro import find_distro
-from grader.ros.image_build import Network
-from grader.ros.image_build import build_image
+from grader.ros.image_build import Network, build_image
 
 ROOT = Path(__file__).resolve().parent.parent
 REPOSITORY = "ros2-teaching-lab-tests"

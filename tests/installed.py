@@ -10,8 +10,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from grader.base.cache import cache_root
-from grader.base.cache import make_once
+from grader.base.cache import cache_root, make_once
 
 FILES = ("package.json", "package-lock.json")
 

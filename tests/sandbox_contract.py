@@ -10,10 +10,8 @@ from pathlib import Path
 import pytest
 
 from grader.run.terminal import Terminal
-from grader.sandbox.base import Role
-from grader.sandbox.base import Sandbox
-from grader.sandbox.limits import MEGABYTE
-from grader.sandbox.limits import Limits
+from grader.sandbox.base import Role, Sandbox
+from grader.sandbox.limits import MEGABYTE, Limits
 from tests import stage
 
 Make = Callable[[Limits], Sandbox]

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from grader.course.assignment import Assignment
-from grader.course.assignment import load_assignment
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.course.assignment import Assignment, load_assignment
+from grader.package.submission import Submission, take_in
 from grader.run.workspace import Build
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.diagnose import Diagnosis
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Failed, Passed
 from grader.verdict.registry import Check
 
 if TYPE_CHECKING:

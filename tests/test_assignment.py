@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.course.assignment import Assignment
-from grader.course.assignment import load_assignment
+from grader.course.assignment import Assignment, load_assignment
 from grader.course.check_ids import known_ids
 
 REAL = Path(__file__).resolve().parent.parent / "lab/course/hello_time/assignment.yaml"

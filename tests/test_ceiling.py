@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
@@ -12,31 +11,20 @@ from typing import cast
 import pytest
 
 from grader.batch.trial import Trial
-from grader.batch.work import TRIES
-from grader.batch.work import Answer
-from grader.batch.work import Task
-from grader.report.model import CheckResult
-from grader.report.model import Mistake
+from grader.batch.work import TRIES, Answer, Task
+from grader.report.model import CheckResult, Mistake
 from grader.run import session
-from grader.run.observer import Event
-from grader.run.observer import Watch
-from grader.run.probe_link import ProbeError
-from grader.run.probe_link import ProbeLink
-from grader.run.run import Run
-from grader.run.run import observe
-from grader.run.session import Session
-from grader.run.session import Unobserved
-from grader.sandbox.base import Outcome
-from grader.sandbox.base import Sandbox
+from grader.run.observer import Event, Watch
+from grader.run.probe_link import ProbeError, ProbeLink
+from grader.run.run import Run, observe
+from grader.run.session import Session, Unobserved
+from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT
-from tests.batch.works import tasks
+from tests.batch.works import ASSIGNMENT, tasks
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
-from tests.report.samples import check
-from tests.report.samples import report
-from tests.test_verdicts import mark
-from tests.test_verdicts import verdict_is
+from tests.report.samples import check, report
+from tests.test_verdicts import mark, verdict_is
 
 LIMITS = Limits()
 LONG = Event("Hello time: 0", 0.0, 1.0, "logger", 0, None)

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import pytest
 
 from grader.course.assignment import load_assignment
 from grader.run.clock import VirtualClock
-from grader.run.observer import SECOND
-from grader.run.observer import Observer
-from grader.run.observer import Watch
-from grader.run.probe_link import Answer
-from grader.run.probe_link import LogRecord
-from grader.run.probe_link import ProbeLink
+from grader.run.observer import SECOND, Observer, Watch
+from grader.run.probe_link import Answer, LogRecord, ProbeLink
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
 from tests.test_observer import COURSE

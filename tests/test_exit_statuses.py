@@ -7,14 +7,10 @@ from textwrap import indent
 
 import pytest
 
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Replace, Write
 from tests.corpus.build import write
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
-from tests.corpus.model import Package
-from tests.test_verdicts import mark
-from tests.test_verdicts import told
+from tests.corpus.model import NODE, SETUP, Package
+from tests.test_verdicts import mark, told
 
 IMPORT = "from setuptools import setup\n"
 INSTALLING = """

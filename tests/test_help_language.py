@@ -10,8 +10,7 @@ import sys
 import click
 import pytest
 
-from grader.cli.localized import language_of
-from grader.cli.localized import said_in
+from grader.cli.localized import language_of, said_in
 from grader.cli.main import commands
 from tests import stage
 

@@ -9,14 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from .handed_in import NODE
-from .handed_in import NODE_PATH
-from .handed_in import PACKAGE
-from .handed_in import make
-from .handed_in import notes
-from .handed_in import paths
-from .handed_in import take
-from .handed_in import write
+from .handed_in import NODE, NODE_PATH, PACKAGE, make, notes, paths, take, write
 
 
 def test_links_that_lead_out_are_left_out_and_inner_ones_kept(tmp_path: Path) -> None:

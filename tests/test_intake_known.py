@@ -10,18 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from grader.package.intake.modes import git_ignores_modes
-from grader.package.intake.modes import git_modes
-from grader.package.intake.modes import keeps_modes
-from grader.package.intake.naming import sanitise
-from grader.package.intake.naming import submission_name
+from grader.package.intake.modes import git_ignores_modes, git_modes, keeps_modes
+from grader.package.intake.naming import sanitise, submission_name
 
-from .handed_in import NODE
-from .handed_in import NODE_PATH
-from .handed_in import PACKAGE
-from .handed_in import make
-from .handed_in import paths
-from .handed_in import take
+from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take
 
 
 def test_the_hash_follows_content_and_exec_bit_and_not_place_or_time(tmp_path: Path) -> None:

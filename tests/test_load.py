@@ -13,8 +13,7 @@ import pytest
 from grader.report.model import Report
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
-from tests.test_verdicts import mark
-from tests.test_verdicts import told
+from tests.test_verdicts import mark, told
 
 TIMES = 30
 

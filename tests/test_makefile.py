@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from grader.validate.tree import Replace
-from tests import stage
-from tests import weather
+from tests import stage, weather
 from tests.test_cli import solution
 
 HOSTILE = [

@@ -8,9 +8,7 @@ import pytest
 
 from grader.course.assignment import load_assignment
 from grader.package.submission import take_in
-from grader.run.observer import Event
-from grader.run.observer import Source
-from grader.run.observer import Watch
+from grader.run.observer import Event, Source, Watch
 from grader.run.run import Run
 from grader.verdict.checks.counting import logger
 from grader.verdict.evidence import Evidence

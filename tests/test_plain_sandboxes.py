@@ -11,11 +11,9 @@ from pathlib import Path
 import pytest
 
 from grader.base.cache import cache_root
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.ros.distro import find_distro
-from grader.ros.prefix import Ros
-from grader.ros.prefix import prefix_path
+from grader.ros.prefix import Ros, prefix_path
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits

@@ -12,12 +12,9 @@ from pathlib import Path
 import pytest
 
 from grader.base import cache
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
-from grader.ros.distro import distros
-from grader.ros.distro import find_distro
-from grader.ros.prefix import Ros
-from grader.ros.prefix import prefix_path
+from grader.base.errors import SurroundingsError, UsageError
+from grader.ros.distro import distros, find_distro
+from grader.ros.prefix import Ros, prefix_path
 from grader.sandbox.proof import proven_ros
 from tests import stage
 

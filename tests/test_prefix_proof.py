@@ -4,24 +4,19 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from grader.base.errors import SurroundingsError
 from grader.ros import prefix
-from grader.ros.distro import Distro
-from grader.ros.distro import find_distro
-from grader.ros.prefix import BrokenRosError
-from grader.ros.prefix import Ros
-from grader.ros.prefix import base_interpreter
+from grader.ros.distro import Distro, find_distro
+from grader.ros.prefix import BrokenRosError, Ros, base_interpreter
 from grader.sandbox import proof
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
-from grader.sandbox.proof import prove_again
-from grader.sandbox.proof import prove_ros
+from grader.sandbox.proof import prove_again, prove_ros
 from tests import stage
 from tests.test_cli import solution
 

@@ -12,9 +12,7 @@ from pathlib import Path
 import pytest
 
 from grader.ros.prefix import base_interpreter
-from grader.ros.scripts import HEADER
-from grader.ros.scripts import use_own_python
-from grader.ros.scripts import without_header
+from grader.ros.scripts import HEADER, use_own_python, without_header
 
 CODE = "def main():\n    import sys\n    print([sys.executable, *sys.argv])\n"
 SCRIPT = "import sys\nprint([sys.executable, *sys.argv])\n"

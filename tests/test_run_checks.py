@@ -7,20 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from grader.run.observer import Event
-from grader.run.observer import Watch
+from grader.run.observer import Event, Watch
 from grader.run.run import Run
 from grader.verdict.checks.starting import interrupt
 from grader.verdict.checks.timing import period
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 from grader.verdict.registry import Check
 from tests.corpus.build import SOLUTION
-from tests.static_bench import BUILT
-from tests.static_bench import NODE
-from tests.static_bench import Bench
+from tests.static_bench import BUILT, NODE, Bench
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
 STEP = "self.counter_ += 1"

@@ -6,16 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.verdict.checks import package
-from grader.verdict.checks import source
+from grader.verdict.checks import package, source
 
-from .static_bench import ASSIGNMENT
-from .static_bench import FILES
-from .static_bench import MARKER
-from .static_bench import NAME
-from .static_bench import Bench
-from .static_bench import line
-from .static_bench import mistake
+from .static_bench import ASSIGNMENT, FILES, MARKER, NAME, Bench, line, mistake
 
 
 @pytest.fixture

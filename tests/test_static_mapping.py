@@ -8,13 +8,7 @@ import pytest
 
 from grader.verdict.checks import package
 
-from .static_bench import ENTRY
-from .static_bench import FILES
-from .static_bench import NAME
-from .static_bench import NODE
-from .static_bench import Bench
-from .static_bench import line
-from .static_bench import mistake
+from .static_bench import ENTRY, FILES, NAME, NODE, Bench, line, mistake
 
 
 @pytest.fixture

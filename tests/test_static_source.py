@@ -10,12 +10,7 @@ import pytest
 from grader.verdict.checks import source
 from grader.verdict.outcome import Blocked
 
-from .static_bench import ASSIGNMENT
-from .static_bench import NAME
-from .static_bench import NODE
-from .static_bench import Bench
-from .static_bench import line
-from .static_bench import mistake
+from .static_bench import ASSIGNMENT, NAME, NODE, Bench, line, mistake
 
 
 @pytest.fixture

@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import cast
 
 import pytest
 
 from grader.base.errors import SurroundingsError
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.package.submission import Submission, take_in
 from grader.run.run import Run
 from grader.run.session import Unobserved
-from grader.run.workspace import BUILD
-from grader.run.workspace import build
-from grader.sandbox.base import Outcome
-from grader.sandbox.base import Sandbox
+from grader.run.workspace import BUILD, build
+from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
 from tests.batch.works import ASSIGNMENT
-from tests.corpus.build import SOLUTION
-from tests.corpus.build import write
+from tests.corpus.build import SOLUTION, write
 from tests.corpus.hostile import HOSTILE
-from tests.test_ceiling import Clock
-from tests.test_ceiling import begun
-from tests.test_ceiling import unheard
+from tests.test_ceiling import Clock, begun, unheard
 
 LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
 

@@ -9,13 +9,7 @@ import pytest
 
 from grader.base.errors import UsageError
 
-from .handed_in import NODE
-from .handed_in import NODE_PATH
-from .handed_in import PACKAGE
-from .handed_in import make
-from .handed_in import paths
-from .handed_in import take
-from .handed_in import write
+from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take, write
 
 
 @pytest.mark.parametrize("place", [".", PACKAGE, f"src/{PACKAGE}", f"week 1/ros2/ä/{PACKAGE}"])

@@ -6,8 +6,7 @@ import time
 
 import pytest
 
-from grader.run.terminal import Line
-from grader.run.terminal import Terminal
+from grader.run.terminal import Line, Terminal
 from grader.sandbox.base import Console
 
 RECORD = "[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0"

@@ -18,8 +18,7 @@ from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
-from grader.verdict.mark import Order
-from grader.verdict.mark import grade
+from grader.verdict.mark import Order, grade
 from tests import stage
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write

@@ -21,24 +21,16 @@ from grader.mistakes.recognise import filled
 from grader.mistakes.wanted import words_of
 from grader.report.model import CheckResult
 from grader.ros.distro import find_distro
-from grader.run.observer import Event
-from grader.run.observer import Watch
+from grader.run.observer import Event, Watch
 from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
 from grader.run.workspace import Build
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
+from grader.validate.tree import Delete, Edit, Replace
 from grader.verdict.ask import ask_in_order
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
-from tests import stage
-from tests import weather
-from tests.weather import LOG
-from tests.weather import NODE
-from tests.weather import SETUP
-from tests.weather import STEP
-from tests.weather import TIMER
+from tests import stage, weather
+from tests.weather import LOG, NODE, SETUP, STEP, TIMER
 
 LANGUAGES = ["en", "ko"]
 OURS = re.compile(

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.course.assignment import Assignment
-from grader.course.assignment import load_assignment
-from grader.package.submission import Submission
-from grader.package.submission import take_in
-from grader.validate.tree import Edit
-from grader.validate.tree import Entry
-from grader.validate.tree import apply_all
-from grader.validate.tree import write_tree
+from grader.course.assignment import Assignment, load_assignment
+from grader.package.submission import Submission, take_in
+from grader.validate.tree import Edit, Entry, apply_all, write_tree
 
 NAME = "weather_station"
 NODE = f"{NAME}/station.py"

@@ -6,14 +6,12 @@ import fcntl
 import os
 import shutil
 import tempfile
-from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Message, msg
 
 Say = Callable[[str], None]
 WAITING = msg("another grader is making the same prefix: waiting for it")

@@ -12,12 +12,9 @@ import contextlib
 import io
 import sys
 from collections.abc import Iterator
-from typing import BinaryIO
-from typing import TextIO
-from typing import cast
+from typing import BinaryIO, TextIO, cast
 
-from grader.base.plain_text import bounded
-from grader.base.plain_text import encodable
+from grader.base.plain_text import bounded, encodable
 
 
 class Gate(io.TextIOBase):

@@ -6,12 +6,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
-from typing import TextIO
+from typing import Any, TextIO
 
-from rich.console import Console
-from rich.console import ConsoleOptions
-from rich.console import RenderableType
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 
 from grader.base.gate import behind

@@ -6,9 +6,7 @@ import difflib
 import unicodedata
 from collections.abc import Iterable
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
 
 LONGEST = 100  # characters of a marked text; a terminal line has as many

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 
 SHOWN = 3
 LONGEST = 120

@@ -12,14 +12,12 @@ Beyond that nobody's grade goes down (`lower`).
 from __future__ import annotations
 
 import difflib
-from collections.abc import Collection
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
-from grader.batch.model import ClassFolder
-from grader.batch.model import OnRoster
+from grader.batch.model import ClassFolder, OnRoster
 from grader.course.policy import Policy
 
 if TYPE_CHECKING:

@@ -5,22 +5,16 @@ Whatever can be found wrong with them is told here, while it costs nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Collection
-from dataclasses import dataclass
-from dataclasses import replace
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.plain_text import one_line
-from grader.batch.accept import counted
-from grader.batch.accept import refuse_poor_join
+from grader.batch.accept import counted, refuse_poor_join
 from grader.batch.discover import discover
-from grader.batch.gradebook_before import Before
-from grader.batch.gradebook_before import read_before
+from grader.batch.gradebook_before import Before, read_before
 from grader.batch.model import ClassFolder
-from grader.batch.sheets import OpenSheets
-from grader.batch.sheets import Sheets
-from grader.batch.sheets import open_sheets
+from grader.batch.sheets import OpenSheets, Sheets, open_sheets
 from grader.course.assignment import Assignment
 
 UNPACKED = "unpacked"

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import re
 
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
+from grader.base.plain_text import one_line, points
 
 STARTS = "=+\\-@＝＋－＠"
 FORMULA = re.compile(rf"^([\s\"']*)([{STARTS}])")

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import one_line
+from grader.base.plain_text import first_lines, one_line
 from grader.batch.points import Mark
-from grader.report.blocks import UNSEEN
-from grader.report.blocks import WORDS
-from grader.report.blocks import all_of
-from grader.report.blocks import block
-from grader.report.blocks import roots
+from grader.report.blocks import UNSEEN, WORDS, all_of, block, roots
 from grader.report.model import Report
 from grader.report.page import Page
 

@@ -12,34 +12,20 @@ import contextlib
 import json
 import logging
 import time
-from collections import Counter
-from collections import deque
-from collections.abc import Callable
-from collections.abc import Generator
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Mapping
+from collections import Counter, deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from grader.base.errors import GraderError
-from grader.base.errors import SurroundingsError
+from grader.base.errors import GraderError, SurroundingsError
 from grader.base.project import PACKAGE
-from grader.batch.cluster_worker import Checked
-from grader.batch.cluster_worker import check_here
-from grader.batch.cluster_worker import mark_here
-from grader.batch.keys import NOT_MARKING
-from grader.batch.keys import source_digest
+from grader.batch.cluster_worker import Checked, check_here, mark_here
+from grader.batch.keys import NOT_MARKING, source_digest
 from grader.batch.trial import Trial
-from grader.batch.work import Answer
-from grader.batch.work import Done
-from grader.batch.work import Job
-from grader.batch.work import Task
+from grader.batch.work import Answer, Done, Job, Task
 
 if TYPE_CHECKING:
-    from distributed import Client
-    from distributed import Future
+    from distributed import Client, Future
 
 CONNECT_SECONDS = 20.0
 CHECK_SECONDS = 600.0  # a worker may have to make its ROS prefix first

@@ -7,13 +7,9 @@ from dataclasses import dataclass
 
 from grader.base.errors import GraderError
 from grader.base.project import PACKAGE
-from grader.batch.keys import NOT_MARKING
-from grader.batch.keys import source_digest
-from grader.batch.keys import surroundings_key
+from grader.batch.keys import NOT_MARKING, source_digest, surroundings_key
 from grader.batch.proof import try_out
-from grader.batch.work import Job
-from grader.batch.work import Task
-from grader.batch.work import answer
+from grader.batch.work import Job, Task, answer
 from grader.ros.distro import find_distro
 from grader.sandbox.choose import open_sandbox
 

@@ -3,40 +3,32 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.batch.join import join
-from grader.batch.model import ClassFolder
-from grader.batch.model import HandedIn
-from grader.batch.model import System
-from grader.batch.roster import Roster
-from grader.batch.roster import read_roster
+from grader.batch.model import ClassFolder, HandedIn, System
+from grader.batch.roster import Roster, read_roster
 from grader.batch.systems import plain
 from grader.batch.systems.exec_bits import nobody_has_one
 from grader.batch.systems.gathered import Gatherer
-from grader.batch.systems.known import LAYOUTS
-from grader.batch.systems.known import NAMED_BY_HAND
-from grader.batch.systems.known import READERS
-from grader.batch.systems.known import WORDS
-from grader.batch.systems.known import check_system
-from grader.batch.systems.known import is_named_as_in
-from grader.batch.systems.known import recognised
-from grader.batch.systems.layout import Layout
-from grader.batch.systems.layout import Reading
-from grader.batch.systems.layout import look_at
-from grader.batch.systems.layout import seen
-from grader.batch.systems.one import is_class
-from grader.batch.systems.one import one_package
+from grader.batch.systems.known import (
+    LAYOUTS,
+    NAMED_BY_HAND,
+    READERS,
+    WORDS,
+    check_system,
+    is_named_as_in,
+    recognised,
+)
+from grader.batch.systems.layout import Layout, Reading, look_at, seen
+from grader.batch.systems.one import is_class, one_package
 from grader.batch.systems.words import Notes
 from grader.batch.systems.words import plain as plainly
-from grader.batch.unpack import Unpacked
-from grader.batch.unpack import unpack_class
+from grader.batch.unpack import Unpacked, unpack_class
 from grader.batch.unpack_members import NOT_UNPACKED
 from grader.package.intake.given import resolved
 

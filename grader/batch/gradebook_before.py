@@ -5,23 +5,16 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.decoded import decoded
-from grader.batch.lowered import Lowered
-from grader.batch.lowered import as_number
-from grader.batch.lowered import lowered
-from grader.batch.model import ClassResult
-from grader.batch.model import Elsewhere
-from grader.batch.model import Student
-from grader.package.intake.reading import MEGABYTE
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import read_bytes
+from grader.batch.lowered import Lowered, as_number, lowered
+from grader.batch.model import ClassResult, Elsewhere, Student
+from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 NAME = "the gradebook that is there already"
 LARGEST = 100 * MEGABYTE

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from grader.base.errors import UsageError
@@ -14,8 +12,7 @@ from grader.batch.keys import verdict_key
 from grader.batch.model import HandedIn
 from grader.batch.work import Task
 from grader.course.assignment import Assignment
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.package.submission import Submission, take_in
 
 
 @dataclass(frozen=True)

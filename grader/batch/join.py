@@ -2,30 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Mapping
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 
 from grader.base.plain_text import one_line
-from grader.batch.groups import Groups
-from grader.batch.groups import find_groups
-from grader.batch.groups import group_column
-from grader.batch.match import Match
-from grader.batch.match import folded
-from grader.batch.match import is_same_name
-from grader.batch.match import match_more
-from grader.batch.match import other_ways
-from grader.batch.match import sure_ways
-from grader.batch.model import Elsewhere
-from grader.batch.model import HandedIn
-from grader.batch.model import OnRoster
-from grader.batch.model import Student
-from grader.batch.model import System
+from grader.batch.groups import Groups, find_groups, group_column
+from grader.batch.match import Match, folded, is_same_name, match_more, other_ways, sure_ways
+from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student, System
 from grader.batch.roster import Roster
 
 STRANGER = "this student is on no line of the roster"

@@ -9,22 +9,16 @@ from __future__ import annotations
 import contextlib
 import sqlite3
 import zlib
-from collections.abc import Iterable
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import astuple
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 from pathlib import Path
 from types import TracebackType
 
 from grader.base.errors import SurroundingsError
 from grader.batch.ledger_file import LedgerFile
-from grader.batch.ledger_rows import AlreadyMarkedError
-from grader.batch.ledger_rows import HandedInRow
-from grader.batch.ledger_rows import Regrade
-from grader.batch.ledger_rows import VerdictRow
-from grader.batch.model import Override
-from grader.batch.model import Student
+from grader.batch.ledger_rows import AlreadyMarkedError, HandedInRow, Regrade, VerdictRow
+from grader.batch.model import Override, Student
 from grader.report.model import Report
 
 MOST_KEPT = 250  # reports in memory: up to 0.1 MB each

@@ -9,14 +9,12 @@ import contextlib
 import fcntl
 import os
 import sqlite3
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.batch.ledger_schema import bring_up_to_date
 
 BUSY_SECONDS = 20.0

@@ -14,22 +14,15 @@ import sys
 import tempfile
 import time
 from collections import deque
-from collections.abc import Callable
-from collections.abc import Generator
-from collections.abc import Iterable
-from collections.abc import Iterator
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Callable, Generator, Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import IO
 
 from grader.base.project import CHECKOUT
 from grader.batch.idleness import Idleness
 from grader.batch.proof import prove
 from grader.batch.trial import Trial
-from grader.batch.work import Answer
-from grader.batch.work import Done
-from grader.batch.work import Job
-from grader.batch.work import Task
+from grader.batch.work import Answer, Done, Job, Task
 
 END_SECONDS = 10.0  # in which a worker that is asked to ends, with its sandbox
 CHUNK = 1 << 20

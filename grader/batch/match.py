@@ -5,15 +5,10 @@ from __future__ import annotations
 import itertools
 import unicodedata
 from collections import Counter
-from collections.abc import Callable
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 
-from grader.batch.model import Student
-from grader.batch.model import System
+from grader.batch.model import Student, System
 from grader.batch.roster import Roster
 
 MOST_PARTS = 5  # of a name that is written as one word

@@ -7,14 +7,11 @@ of the folder or archive.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
-from typing import Literal
-from typing import overload
+from typing import Literal, overload
 
 from grader.report.model import Report
 

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import difflib
 import getpass
-from collections.abc import Callable
-from collections.abc import Sequence
-from datetime import datetime
-from datetime import timezone
+from collections.abc import Callable, Sequence
+from datetime import datetime, timezone
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
+from grader.base.plain_text import one_line, points
 from grader.batch.ledger import Ledger
-from grader.batch.model import Override
-from grader.batch.model import Student
+from grader.batch.model import Override, Student
 from grader.batch.students import find_student
 from grader.course.assignment import Assignment
 

@@ -7,19 +7,12 @@ between the sum of the checks and the final points: a corrected total, points ta
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
-from grader.report.model import CheckResult
-from grader.report.model import Report
+from grader.base.i18n.message import Message, joined, say
+from grader.base.plain_text import one_line, points
+from grader.batch.model import Entry, Override, Student
+from grader.report.model import CheckResult, Report
 
 DIGITS = 4  # of points, so that sums of decimals stay readable
 OPEN = ("inconclusive", "error")

@@ -8,20 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import datetime
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.batch.model import Elsewhere
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
-from grader.batch.points import marks
-from grader.batch.points import rounded
-from grader.course.policy import Policy
-from grader.course.policy import amount
+from grader.base.i18n.message import joined, say
+from grader.batch.model import Elsewhere, Entry, Override, Student
+from grader.batch.points import marks, rounded
+from grader.course.policy import Policy, amount
 from grader.report.model import Report
 
 DAY, HOUR = 86_400.0, 3_600.0

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 from types import TracebackType
-from typing import TYPE_CHECKING
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from grader.base.gate import gate
 from grader.base.plain_text import one_line
@@ -14,8 +13,7 @@ from grader.batch.run import Listener
 from grader.batch.work import Done
 
 if TYPE_CHECKING:
-    from rich.progress import Progress
-    from rich.progress import TaskID
+    from rich.progress import Progress, TaskID
 
 QUIET_SECONDS = 10.0  # between two plain lines
 MANY = 500  # attempts, after which taking them in takes long enough to be told
@@ -107,10 +105,7 @@ def rough(seconds: float) -> str:
 
 def _bar(file: TextIO) -> Progress:
     # rich costs 35 ms, and nobody needs it where nothing is to be marked
-    from rich.progress import BarColumn  # noqa: PLC0415
-    from rich.progress import MofNCompleteColumn  # noqa: PLC0415
-    from rich.progress import Progress  # noqa: PLC0415
-    from rich.progress import TextColumn  # noqa: PLC0415
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn  # noqa: PLC0415
 
     from grader.base.gated_console import GatedConsole  # noqa: PLC0415
 

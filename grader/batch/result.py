@@ -3,29 +3,17 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Mapping
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 
 from grader.batch.handed_in_before import HandedInBefore
 from grader.batch.intake import Item
 from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import HandedInRow
-from grader.batch.ledger_rows import VerdictRow
-from grader.batch.ledger_rows import path_text
-from grader.batch.model import ClassFolder
-from grader.batch.model import ClassResult
-from grader.batch.model import Elsewhere
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
-from grader.batch.policy import Attempt
-from grader.batch.policy import standing
+from grader.batch.ledger_rows import HandedInRow, VerdictRow, path_text
+from grader.batch.model import ClassFolder, ClassResult, Elsewhere, Entry, Override, Student
+from grader.batch.policy import Attempt, standing
 from grader.batch.similar import groups
 from grader.course.assignment import Assignment
 from grader.report.model import Report

@@ -4,32 +4,22 @@ from __future__ import annotations
 
 import difflib
 import unicodedata
-from collections.abc import Callable
-from collections.abc import Iterator
-from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.base.shown import shown
-from grader.batch.decoded import AS_CSV
-from grader.batch.decoded import decoded
+from grader.batch.decoded import AS_CSV, decoded
 from grader.batch.model import Student
-from grader.batch.roster_columns import KNOWN
-from grader.batch.roster_columns import Columns
-from grader.batch.roster_columns import Kind
-from grader.batch.roster_columns import columns_of
-from grader.batch.roster_columns import participant
+from grader.batch.roster_columns import KNOWN, Columns, Kind, columns_of, participant
 from grader.batch.roster_guess import EMAIL
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
 from grader.batch.systems.moodle.words import says_submitted
-from grader.package.intake.reading import MEGABYTE
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import read_bytes
+from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 LARGEST = 20 * MEGABYTE
 LONGEST = 300  # characters of a cell

@@ -6,17 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from grader.batch.roster_guess import PARTICIPANT
-from grader.batch.roster_guess import PEEKED
-from grader.batch.roster_guess import guessed
+from grader.batch.roster_guess import PARTICIPANT, PEEKED, guessed
 from grader.batch.sheet import Sheet
-from grader.batch.systems.moodle.words import FEEDBACK
-from grader.batch.systems.moodle.words import GRADE
-from grader.batch.systems.moodle.words import IDENTIFIER
-from grader.batch.systems.moodle.words import MAXIMUM
-from grader.batch.systems.moodle.words import STATUS
-from grader.batch.systems.moodle.words import SUBMITTED_ON
-from grader.batch.systems.moodle.words import TEAM
+from grader.batch.systems.moodle.words import (
+    FEEDBACK,
+    GRADE,
+    IDENTIFIER,
+    MAXIMUM,
+    STATUS,
+    SUBMITTED_ON,
+    TEAM,
+)
 
 Kind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
 

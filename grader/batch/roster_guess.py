@@ -6,9 +6,7 @@ Only columns whose name is unknown are looked at, and only for what no known col
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from collections.abc import Collection
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from grader.batch.sheet import Sheet
 

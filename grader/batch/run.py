@@ -4,35 +4,20 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable
-from collections.abc import Iterator
-from collections.abc import Mapping
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
-from datetime import datetime
-from datetime import timezone
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime, timezone
 
 from grader.base.errors import SurroundingsError
 from grader.batch.handed_in_before import HandedInBefore
-from grader.batch.intake import Item
-from grader.batch.intake import take_in_class
-from grader.batch.intake import tasks
+from grader.batch.intake import Item, take_in_class, tasks
 from grader.batch.keys import surroundings_key
 from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import HandedInRow
-from grader.batch.ledger_rows import Regrade
-from grader.batch.ledger_rows import path_text
-from grader.batch.model import ClassFolder
-from grader.batch.model import Student
-from grader.batch.shared import Pair
-from grader.batch.shared import give_known
-from grader.batch.shared import reports_of
-from grader.batch.shared import together
+from grader.batch.ledger_rows import HandedInRow, Regrade, path_text
+from grader.batch.model import ClassFolder, Student
+from grader.batch.shared import Pair, give_known, reports_of, together
 from grader.batch.similar import fingerprint
-from grader.batch.work import Done
-from grader.batch.work import Job
-from grader.batch.work import Pool
+from grader.batch.work import Done, Job, Pool
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.ros.distro import Distro

@@ -8,13 +8,11 @@ UTF-8 becomes UTF-8: that is what the courses' systems read.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from grader.base.errors import UsageError
-from grader.batch.decoded import BOM
-from grader.batch.decoded import decoded
+from grader.batch.decoded import BOM, decoded
 
 DELIMITERS = (",", ";", "\t")
 DECIMAL_COMMA = re.compile(r"\s*-?\d+,\d+\s*")

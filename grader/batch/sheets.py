@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
-from grader.batch.model import ClassResult
-from grader.batch.model import Elsewhere
-from grader.batch.model import OnRoster
-from grader.batch.model import Student
-from grader.batch.model import System
+from grader.batch.model import ClassResult, Elsewhere, OnRoster, Student, System
 from grader.course.assignment import Assignment
 
 if TYPE_CHECKING:

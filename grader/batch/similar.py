@@ -12,11 +12,9 @@ import io
 import re
 import tokenize
 from collections import defaultdict
-from collections.abc import Iterator
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
-from grader.package.submission import SourceFile
-from grader.package.submission import Submission
+from grader.package.submission import SourceFile, Submission
 
 LAYOUT = (tokenize.COMMENT, tokenize.NL, tokenize.ENCODING)
 BLOCK = (tokenize.INDENT, tokenize.DEDENT, tokenize.NEWLINE)

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import base64
 import json
-from dataclasses import asdict
-from dataclasses import fields
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from grader.package.intake.model import Candidate
-from grader.package.intake.model import SourceFile
-from grader.package.intake.model import Submission
+from grader.package.intake.model import Candidate, SourceFile, Submission
 
 TUPLES = ("notes", "hints", "node_files", "links_out")
 

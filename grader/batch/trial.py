@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grader.batch.work import TRIES
-from grader.batch.work import Answer
-from grader.batch.work import Done
-from grader.batch.work import Task
+from grader.batch.work import TRIES, Answer, Done, Task
 
 
 @dataclass(eq=False)

@@ -18,19 +18,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.base.shown import shown
-from grader.batch.unpack_members import CLASS_LIMITS
-from grader.batch.unpack_members import Writing
-from grader.package.intake.archive import members_of
-from grader.package.intake.archive import parsing
-from grader.package.intake.archive_kind import HEAD
-from grader.package.intake.archive_kind import kind_of
+from grader.batch.unpack_members import CLASS_LIMITS, Writing
+from grader.package.intake.archive import members_of, parsing
+from grader.package.intake.archive_kind import HEAD, kind_of
 from grader.package.intake.archive_limits import Spent
 from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import open_file
+from grader.package.intake.reading import Unread, open_file
 
 FORM = 1  # of what is written beside the files; another number is unpacked anew
 CHUNK = 1_000_000

@@ -12,11 +12,8 @@ from typing import IO
 from grader.base.shown import shown
 from grader.package.intake.archive import TWICE
 from grader.package.intake.archive_limits import ArchiveLimits
-from grader.package.intake.archive_member import Member
-from grader.package.intake.archive_member import inside
-from grader.package.intake.archive_problems import ENCRYPTED
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import too_large
+from grader.package.intake.archive_member import Member, inside
+from grader.package.intake.archive_problems import ENCRYPTED, ArchiveError, too_large
 from grader.package.intake.reading import MEGABYTE
 
 MOST_REMARKS = 2_000

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import msg
-from grader.base.i18n.message import say
-from grader.batch.model import EntryStatus
-from grader.batch.model import System
+from grader.base.i18n.message import Message, joined, msg, say
+from grader.batch.model import EntryStatus, System
 
 MINUTE, HOUR, DAY = 60, 3_600, 86_400  # seconds
 UNITS = (

@@ -9,26 +9,21 @@ from __future__ import annotations
 import json
 import time
 import traceback
-from collections.abc import Callable
-from collections.abc import Generator
-from collections.abc import Iterable
-from dataclasses import asdict
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Iterable
+from dataclasses import asdict, dataclass
 from typing import Protocol
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import joined
 from grader.base.i18n.translator import Translator
-from grader.batch.submission_text import from_text
-from grader.batch.submission_text import to_text
+from grader.batch.submission_text import from_text, to_text
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.report.events import Event
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
-from grader.verdict.mark import Order
-from grader.verdict.mark import mark
+from grader.verdict.mark import Order, mark
 
 TRIES = 3  # how often a submission is marked where our own side fails
 MARGIN_SECONDS = 60.0  # beyond a verdict's ceiling, before its worker counts as hung

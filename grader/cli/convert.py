@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.base.gate import bytes_of
 from grader.base.i18n.translator import chosen_language
 from grader.cli import options

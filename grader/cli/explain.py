@@ -10,8 +10,7 @@ import click
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import msg
-from grader.base.i18n.translator import chosen_language
-from grader.base.i18n.translator import errors_in
+from grader.base.i18n.translator import chosen_language, errors_in
 from grader.cli import options
 
 if TYPE_CHECKING:
@@ -37,8 +36,7 @@ def explain(
 ) -> int:
     """Explain an entry of the catalogue, or a terminal's text."""
     from grader.mistakes import explanation as texts  # noqa: PLC0415
-    from grader.ros.distro import find_distro  # noqa: PLC0415
-    from grader.ros.distro import sourced  # noqa: PLC0415
+    from grader.ros.distro import find_distro, sourced  # noqa: PLC0415
 
     lang = lang or chosen_language(os.environ)
     with errors_in(lang):

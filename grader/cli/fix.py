@@ -7,8 +7,7 @@ from pathlib import Path
 import click
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import msg
-from grader.base.i18n.message import say
+from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
 
@@ -49,10 +48,8 @@ def fix(
     lang: str | None,
 ) -> int:
     """Fix a student's own package."""
-    from grader.cli.fix_package import Wish  # noqa: PLC0415
-    from grader.cli.fix_package import fix_package  # noqa: PLC0415
-    from grader.verdict.order import make_orders  # noqa: PLC0415
-    from grader.verdict.order import own_place  # noqa: PLC0415
+    from grader.cli.fix_package import Wish, fix_package  # noqa: PLC0415
+    from grader.verdict.order import make_orders, own_place  # noqa: PLC0415
 
     with errors_in(lang):
         place = path or own_place()

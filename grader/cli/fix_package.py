@@ -5,32 +5,25 @@ from __future__ import annotations
 import sys
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.cli.fix_show import show_diff
 from grader.course.assignment import Assignment
-from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.case import finding_of
+from grader.mistakes.fixes.case import Finding, finding_of
 from grader.mistakes.fixes.table import STATIC
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.package.submission import Submission, take_in
 from grader.report.events import Event
 from grader.report.model import CheckResult
-from grader.verdict.fix import Plan
-from grader.verdict.fix import fix_all
-from grader.verdict.fix import fix_files
-from grader.verdict.mark import Order
-from grader.verdict.mark import grade
+from grader.verdict.fix import Plan, fix_all, fix_files
+from grader.verdict.mark import Order, grade
 from grader.verdict.static import decided
 
 Tell = Callable[[str], None]

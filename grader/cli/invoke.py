@@ -13,11 +13,9 @@ import click
 from grader.base.errors import GraderError
 from grader.base.gate import gated_output
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import chosen_language
+from grader.base.i18n.translator import Translator, chosen_language
 from grader.base.plain_text import first_lines
-from grader.cli.localized import language_of
-from grader.cli.localized import said_in
+from grader.cli.localized import language_of, said_in
 
 MOST_LINES = 60  # of an error's message
 

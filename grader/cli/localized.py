@@ -9,19 +9,20 @@ from __future__ import annotations
 import gettext
 import inspect
 import os
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import click
 
 from grader.base.i18n.message import msg
-from grader.base.i18n.translator import DOMAIN
-from grader.base.i18n.translator import FOLDER
-from grader.base.i18n.translator import LANGUAGES
-from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import chosen_language
-from grader.base.i18n.translator import translated
+from grader.base.i18n.translator import (
+    DOMAIN,
+    FOLDER,
+    LANGUAGES,
+    SOURCE,
+    chosen_language,
+    translated,
+)
 
 NAME = "LANGUAGE"  # of the variable that gettext looks at first
 CLICK = (  # what a student meets of click's own texts

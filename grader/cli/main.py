@@ -12,10 +12,8 @@ from typing import TYPE_CHECKING
 import click
 
 import grader
-from grader.base.i18n.message import msg
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import errors_in
+from grader.base.i18n.message import msg, say
+from grader.base.i18n.translator import Translator, errors_in
 from grader.cli import options
 from grader.cli.convert import COMMANDS as GRADEBOOK_COMMANDS
 from grader.cli.explain import COMMANDS as MISTAKE_COMMANDS
@@ -118,8 +116,7 @@ def check(
     verbose: bool,
 ) -> int:
     """Mark a student's own package, without the hidden checks."""
-    from grader.verdict.order import make_orders  # noqa: PLC0415
-    from grader.verdict.order import own_place  # noqa: PLC0415
+    from grader.verdict.order import make_orders, own_place  # noqa: PLC0415
 
     with errors_in(lang):
         place = path or own_place()
@@ -172,10 +169,8 @@ def images(
     HTTP_PROXY, HTTPS_PROXY and NO_PROXY are passed on to the build.
     """
     from grader.ros.distro import find_distro  # noqa: PLC0415
-    from grader.ros.image_build import Network  # noqa: PLC0415
-    from grader.ros.image_build import build_image  # noqa: PLC0415
-    from grader.ros.images import connect  # noqa: PLC0415
-    from grader.ros.images import table  # noqa: PLC0415
+    from grader.ros.image_build import Network, build_image  # noqa: PLC0415
+    from grader.ros.images import connect, table  # noqa: PLC0415
 
     wanted = [find_distro(word.strip()) for word in (distro or "").split(",") if word.strip()]
     network = Network(apt_mirror=apt_mirror, pip_index=pip_index, extra_ca=extra_ca)
@@ -219,8 +214,7 @@ def _hidden(count: int) -> str:
 
 
 def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:
-    from grader.report import files  # noqa: PLC0415
-    from grader.report import terminal  # noqa: PLC0415
+    from grader.report import files, terminal  # noqa: PLC0415
     from grader.verdict.mark import grade as mark  # noqa: PLC0415
 
     translate = Translator(orders[0].lang)

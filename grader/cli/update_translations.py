@@ -12,25 +12,18 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Collection
-from collections.abc import Iterator
-from collections.abc import Mapping
-from datetime import datetime
-from datetime import timezone
+from collections.abc import Collection, Iterator, Mapping
+from datetime import datetime, timezone
 from pathlib import Path
 
 import click
 from babel.messages.catalog import Catalog
 from babel.messages.extract import extract_from_file
 from babel.messages.mofile import write_mo
-from babel.messages.pofile import read_po
-from babel.messages.pofile import write_po
+from babel.messages.pofile import read_po, write_po
 
 from grader.base.errors import UsageError
-from grader.base.i18n.translator import DOMAIN
-from grader.base.i18n.translator import FOLDER
-from grader.base.i18n.translator import LANGUAGES
-from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.translator import DOMAIN, FOLDER, LANGUAGES, SOURCE
 from grader.base.project import CHECKOUT
 from grader.cli.localized import CLICK_COUNTED
 from grader.verdict.checks.all import CHECKS

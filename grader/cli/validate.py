@@ -42,8 +42,7 @@ def validate(
 
     Exit status: 0 everything is as expected, 1 something is not.
     """
-    from grader.course.find import assignment_file  # noqa: PLC0415
-    from grader.course.find import own_keys  # noqa: PLC0415
+    from grader.course.find import assignment_file, own_keys  # noqa: PLC0415
     from grader.validate import matrix  # noqa: PLC0415
     from grader.validate import validation as command  # noqa: PLC0415
     from grader.verdict.order import make_orders  # noqa: PLC0415

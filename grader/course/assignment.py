@@ -8,9 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
 
-from pydantic import BaseModel
-from pydantic import ConfigDict
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from grader.course.policy import Policy
 from grader.report.model import Visibility
@@ -89,8 +87,7 @@ def load_assignment(
     """
     from grader.base.positioned_yaml import read_yaml  # noqa: PLC0415
     from grader.course.check_ids import known_ids  # noqa: PLC0415
-    from grader.course.rules import check_content  # noqa: PLC0415 - it imports this module
-    from grader.course.rules import merge_hidden  # noqa: PLC0415
+    from grader.course.rules import check_content, merge_hidden  # noqa: PLC0415
 
     ids = tuple(known_ids() if known_checks is None else known_checks)
     limits = None if known_limits is None else tuple(known_limits)

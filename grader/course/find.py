@@ -10,9 +10,7 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
-from grader.base.project import CHECKOUT
-from grader.base.project import PACKAGE
-from grader.base.project import SHARES
+from grader.base.project import CHECKOUT, PACKAGE, SHARES
 
 COURSE = "GRADER_COURSE"  # names another course folder than our own
 LESSON = "GRADER_ASSIGNMENT"  # names the lesson that is meant; a lab sets it for what is in it

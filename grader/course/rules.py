@@ -6,24 +6,15 @@ import difflib
 import keyword
 import math
 import re
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from pydantic import BaseModel
-from pydantic import ConfigDict
-from pydantic import ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from grader.base.errors import AssignmentError
-from grader.base.positioned_yaml import Document
-from grader.base.positioned_yaml import Loc
-from grader.course.assignment import Assignment
-from grader.course.assignment import CheckUse
-from grader.course.assignment import Output
-from grader.course.policy import Late
-from grader.course.policy import Policy
-from grader.course.policy import policy_faults
+from grader.base.positioned_yaml import Document, Loc
+from grader.course.assignment import Assignment, CheckUse, Output
+from grader.course.policy import Late, Policy, policy_faults
 
 Complaint = tuple[Loc, str]
 Pair = tuple[str, str]

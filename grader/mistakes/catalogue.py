@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from grader.mistakes import building
-from grader.mistakes import entries
-from grader.mistakes import files
-from grader.mistakes import handed_in
-from grader.mistakes import package
-from grader.mistakes import running
-from grader.mistakes import starting
-from grader.mistakes import terminal
-from grader.mistakes import ticking
+from grader.mistakes import (
+    building,
+    entries,
+    files,
+    handed_in,
+    package,
+    running,
+    starting,
+    terminal,
+    ticking,
+)
 from grader.mistakes.kind import Kind
 
 # the order is the rank: of several mistakes that are recognised, the first is the root

@@ -8,24 +8,17 @@ from typing import TextIO
 
 from grader.base.errors import UsageError
 from grader.base.gate import show
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import Value
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import errors_in
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
+from grader.base.i18n.message import Message, Value, say
+from grader.base.i18n.translator import Translator, errors_in
+from grader.base.nearest import meant, nearest
 from grader.base.shown import shown
-from grader.base.stream import takes_styles
-from grader.base.stream import width_of
+from grader.base.stream import takes_styles, width_of
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
-from grader.mistakes.recognise import filled
-from grader.mistakes.recognise import seen_in
-from grader.mistakes.wanted import EXAMPLE
-from grader.mistakes.wanted import words_of
+from grader.mistakes.recognise import filled, seen_in
+from grader.mistakes.wanted import EXAMPLE, words_of
 from grader.report.page import Page
 from grader.ros.distro import Distro
 

@@ -9,14 +9,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
-from grader.mistakes.from_counter import constant
-from grader.mistakes.from_counter import wrong_start
-from grader.mistakes.from_counter import wrong_step
+from grader.mistakes.from_counter import constant, wrong_start, wrong_step
 from grader.mistakes.kind import Finding
 from grader.mistakes.suspect import Suspect
-from grader.package.source.node import NodeSource
-from grader.package.source.node import calls_in
-from grader.package.source.node import dotted
+from grader.package.source.node import NodeSource, calls_in, dotted
 
 SLEEPS = ("time.sleep", "sleep")
 WAITS = ("input", *SLEEPS)

@@ -14,8 +14,7 @@ from grader.mistakes import from_call
 from grader.mistakes.kind import Finding
 from grader.mistakes.raised import Raised
 from grader.mistakes.wanted import CLASS
-from grader.package.source.node import LOG_METHODS
-from grader.package.source.node import dotted
+from grader.package.source.node import LOG_METHODS, dotted
 
 MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
 NODE_METHODS = (

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import ast
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.nearest import compared
-from grader.base.nearest import nearest
+from grader.base.i18n.message import Message, joined, say
+from grader.base.nearest import compared, nearest
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.source.node import NodeSource
-from grader.package.source.node import dotted
+from grader.package.source.node import NodeSource, dotted
 
 GUARD = "__main__"
 

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import Value
-from grader.report.model import Mistake
-from grader.report.model import Where
+from grader.base.i18n.message import Message, Value
+from grader.report.model import Mistake, Where
 
 Stage = Literal[
     "terminal",

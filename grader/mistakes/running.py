@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Family
-from grader.mistakes.kind import Kind
+from grader.mistakes.kind import Family, Kind
 
 SPIN = msg(
     "rclpy.spin(node) is what keeps a node alive: it waits, and calls your callbacks when due."

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grader.course.assignment import Assignment
-from grader.course.assignment import Output
+from grader.course.assignment import Assignment, Output
 from grader.mistakes.kind import Finding
 from grader.mistakes.wanted import words_of
-from grader.package.source.node import Function
-from grader.package.source.node import NodeSource
+from grader.package.source.node import Function, NodeSource
 from grader.report.model import Where
 
 

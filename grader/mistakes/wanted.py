@@ -9,11 +9,8 @@ import ast
 from collections.abc import Mapping
 
 from grader.base.i18n.message import Value
-from grader.course.assignment import Assignment
-from grader.course.assignment import Output
-from grader.package.source.node import Function
-from grader.package.source.node import NodeSource
-from grader.package.source.node import dotted
+from grader.course.assignment import Assignment, Output
+from grader.package.source.node import Function, NodeSource, dotted
 
 CALLBACK = "callback"  # names for what the student's source does not have yet
 COUNTER = "self.counter"

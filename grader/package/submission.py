@@ -9,30 +9,18 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.package.intake.archive_kind import without_ending
-from grader.package.intake.archive_limits import ArchiveLimits
-from grader.package.intake.archive_limits import Spent
+from grader.package.intake.archive_limits import ArchiveLimits, Spent
 from grader.package.intake.archive_nested import look_inside
 from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.choose import Choice
-from grader.package.intake.choose import choose
-from grader.package.intake.choose import find_candidates
-from grader.package.intake.contents import TooLargeError
-from grader.package.intake.contents import read_package
-from grader.package.intake.given import digest_of_file
-from grader.package.intake.given import open_place
-from grader.package.intake.given import resolved
-from grader.package.intake.model import Candidate
-from grader.package.intake.model import SourceFile
-from grader.package.intake.model import Submission
-from grader.package.intake.naming import sanitise
-from grader.package.intake.naming import submission_name
-from grader.package.intake.problems import Problem
-from grader.package.intake.problems import too_large
+from grader.package.intake.choose import Choice, choose, find_candidates
+from grader.package.intake.contents import TooLargeError, read_package
+from grader.package.intake.given import digest_of_file, open_place, resolved
+from grader.package.intake.model import Candidate, SourceFile, Submission
+from grader.package.intake.naming import sanitise, submission_name
+from grader.package.intake.problems import Problem, too_large
 from grader.package.intake.recorded import with_modes
-from grader.package.intake.tree import Tree
-from grader.package.intake.tree import ancestors
-from grader.report.model import Modes
-from grader.report.model import Origin
+from grader.package.intake.tree import Tree, ancestors
+from grader.report.model import Modes, Origin
 
 __all__ = ["Candidate", "SourceFile", "Submission", "take_in"]
 

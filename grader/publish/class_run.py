@@ -4,41 +4,29 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Iterator
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
-from datetime import datetime
-from datetime import timezone
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime, timezone
 from functools import partial
 from pathlib import Path
 from typing import TextIO
 
 from grader.base.errors import SurroundingsError
-from grader.base.gate import gate
-from grader.base.gate import show
+from grader.base.gate import gate, show
 from grader.base.plain_text import one_line
-from grader.base.stream import takes_styles
-from grader.base.stream import width_of
+from grader.base.stream import takes_styles, width_of
 from grader.batch import run
-from grader.batch.beforehand import GRADEBOOK
-from grader.batch.beforehand import look_beforehand
+from grader.batch.beforehand import GRADEBOOK, look_beforehand
 from grader.batch.ledger import Ledger
 from grader.batch.local_pool import LocalPool
-from grader.batch.model import ClassFolder
-from grader.batch.model import ClassResult
+from grader.batch.model import ClassFolder, ClassResult
 from grader.batch.progress import ClassProgress
 from grader.batch.result import class_result
 from grader.batch.sheets import Sheets
 from grader.batch.students import find_student
-from grader.batch.work import Job
-from grader.batch.work import Pool
-from grader.publish.class_table import changes_of
-from grader.publish.class_table import class_page
-from grader.publish.class_table import regrade_page
-from grader.publish.outputs import INDEX
-from grader.publish.outputs import Outcome
-from grader.publish.outputs import Outputs
+from grader.batch.work import Job, Pool
+from grader.publish.class_table import changes_of, class_page, regrade_page
+from grader.publish.outputs import INDEX, Outcome, Outputs
 from grader.publish.written import raise_failures
 from grader.verdict.mark import Order
 

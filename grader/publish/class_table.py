@@ -6,12 +6,10 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
+from grader.base.plain_text import one_line, points
 from grader.batch.ledger import Ledger
 from grader.batch.ledger_rows import Regrade
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
+from grader.batch.model import ClassResult, Entry
 from grader.batch.points import marks
 from grader.report.model import Report
 from grader.report.page import Page

@@ -9,22 +9,15 @@ import functools
 import html
 from dataclasses import replace
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import LANGUAGES
-from grader.base.i18n.translator import Translator
+from grader.base.i18n.message import joined, say
+from grader.base.i18n.translator import LANGUAGES, Translator
 from grader.base.plain_text import one_line
 from grader.batch.cells import number
 from grader.batch.model import Entry
 from grader.batch.words import STATES
 from grader.publish.pages.render import Renderer
-from grader.publish.pages.student import FOLDER
-from grader.publish.pages.student import KEY
-from grader.publish.pages.student import CheckView
-from grader.publish.pages.student import StudentView
-from grader.publish.pages.student import student_view
-from grader.report.blocks import WORDS
-from grader.report.blocks import all_of
+from grader.publish.pages.student import FOLDER, KEY, CheckView, StudentView, student_view
+from grader.report.blocks import WORDS, all_of
 from grader.report.report_page import hidden_checks
 
 # the instructor's folder and key of a submission are not shown to the student

@@ -5,13 +5,11 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 
 from grader.base.plain_text import points
 from grader.batch import cells
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
+from grader.batch.model import ClassResult, Entry
 from grader.batch.points import marks
 
 BEFORE = (

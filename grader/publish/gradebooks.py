@@ -5,21 +5,17 @@ One that cannot be made or written does not keep the others from being written.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
 from grader.base.folder import Folder
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
+from grader.batch.model import ClassResult, Entry
 from grader.batch.sheet import Filled
-from grader.batch.systems.canvas.write import CanvasGradebook
-from grader.batch.systems.canvas.write import new_gradebook
+from grader.batch.systems.canvas.write import CanvasGradebook, new_gradebook
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.moodle.worksheet import Worksheet
-from grader.publish.feedback import html_page
-from grader.publish.feedback import short_html
+from grader.publish.feedback import html_page, short_html
 from grader.publish.gradebook_csv import gradebook_csv
 from grader.publish.junit import class_xml
 from grader.publish.markdown import markdown

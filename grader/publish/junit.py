@@ -12,17 +12,10 @@ from collections.abc import Sequence
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
-from grader.batch.check_text import check_text
-from grader.batch.check_text import headline
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
-from grader.batch.points import Mark
-from grader.batch.points import marks
-from grader.batch.points import single
-from grader.batch.points import steps
+from grader.base.plain_text import first_lines, one_line, points
+from grader.batch.check_text import check_text, headline
+from grader.batch.model import ClassResult, Entry
+from grader.batch.points import Mark, marks, single, steps
 from grader.report.model import Report
 
 SUBMISSION = "submission"  # the test case of a submission that could not be marked

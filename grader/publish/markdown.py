@@ -6,14 +6,9 @@ import re
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import last_lines
-from grader.base.plain_text import one_line
+from grader.base.plain_text import first_lines, last_lines, one_line
 from grader.batch.model import Entry
-from grader.publish.feedback import feedback_view
-from grader.publish.feedback import headline
-from grader.publish.feedback import hidden_words
-from grader.publish.feedback import mark_of
+from grader.publish.feedback import feedback_view, headline, hidden_words, mark_of
 from grader.publish.pages.student import CheckView
 
 # CommonMark: a backslash before ASCII punctuation makes it a literal character

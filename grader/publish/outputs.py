@@ -5,16 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Callable
-from collections.abc import Collection
-from dataclasses import asdict
-from dataclasses import dataclass
-from dataclasses import replace
-from datetime import datetime
-from datetime import timezone
+from collections.abc import Callable, Collection
+from dataclasses import asdict, dataclass, replace
+from datetime import datetime, timezone
 from pathlib import Path
-from typing import Any
-from typing import Literal
+from typing import Any, Literal
 
 from grader.base.errors import UsageError
 from grader.base.project import PACKAGE
@@ -22,8 +17,7 @@ from grader.batch.accept import refuse_lower
 from grader.batch.beforehand import Beforehand
 from grader.batch.keys import source_digest
 from grader.batch.ledger import Ledger
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
+from grader.batch.model import ClassResult, Entry
 from grader.batch.sheets import Sheets
 
 INDEX = "index.html"

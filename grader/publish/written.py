@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.base.errors import GraderError
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import GraderError, SurroundingsError, UsageError
 
 
 @dataclass

@@ -5,17 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import last_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
+from grader.base.i18n.message import joined, say
+from grader.base.plain_text import first_lines, last_lines, one_line, points
 from grader.report.page import Row
 
 if TYPE_CHECKING:
-    from grader.report.model import CheckResult
-    from grader.report.model import Evidence
+    from grader.report.model import CheckResult, Evidence
     from grader.report.page import Page
 
 MARKS = {

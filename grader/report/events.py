@@ -6,16 +6,14 @@ once and raises nothing. Durations are seconds of wall time.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from typing import TypeAlias
 
-    from grader.report.model import CheckResult
-    from grader.report.model import Visibility
+    from grader.report.model import CheckResult, Visibility
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ import errno
 import hashlib
 import json
 import os
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError

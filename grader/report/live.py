@@ -7,26 +7,22 @@ import io
 import sys
 import time
 from types import TracebackType
-from typing import TYPE_CHECKING
-from typing import TextIO
-from typing import cast
+from typing import TYPE_CHECKING, TextIO, cast
 
-from grader.base.gate import behind
-from grader.base.gate import gate
+from grader.base.gate import behind, gate
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import encodable
-from grader.base.plain_text import one_line
-from grader.base.stream import is_terminal
-from grader.base.stream import takes_styles
-from grader.base.stream import width_of
-from grader.report.events import CheckFinished
-from grader.report.events import CheckStarted
-from grader.report.events import Event
-from grader.report.events import Note
-from grader.report.events import StageFinished
-from grader.report.events import StageStarted
-from grader.report.events import TickSeen
+from grader.base.plain_text import encodable, one_line
+from grader.base.stream import is_terminal, takes_styles, width_of
+from grader.report.events import (
+    CheckFinished,
+    CheckStarted,
+    Event,
+    Note,
+    StageFinished,
+    StageStarted,
+    TickSeen,
+)
 
 if TYPE_CHECKING:
     from rich.live import Live

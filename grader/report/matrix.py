@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from pydantic import BaseModel
-from pydantic import ConfigDict
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field
 
-from grader.report.model import AssignmentInfo
-from grader.report.model import CheckStatus
-from grader.report.model import Mistake
-from grader.report.model import Report
-from grader.report.model import SubmissionInfo
-from grader.report.model import Visibility
+from grader.report.model import (
+    AssignmentInfo,
+    CheckStatus,
+    Mistake,
+    Report,
+    SubmissionInfo,
+    Visibility,
+)
 
 
 class _Part(BaseModel):

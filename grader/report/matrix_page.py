@@ -5,28 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
-from grader.report.blocks import MARKS
-from grader.report.blocks import UNSEEN
-from grader.report.blocks import WORDS
-from grader.report.blocks import block
-from grader.report.blocks import roots
-from grader.report.matrix import CheckAcross
-from grader.report.matrix import Matrix
-from grader.report.matrix import matrix_of
+from grader.base.plain_text import first_lines, one_line, points
+from grader.report.blocks import MARKS, UNSEEN, WORDS, block, roots
+from grader.report.matrix import CheckAcross, Matrix, matrix_of
 from grader.report.page import Page
 from grader.report.report_page import hidden_checks
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from grader.report.model import CheckResult
-    from grader.report.model import Report
+    from grader.report.model import CheckResult, Report
 
 LINES = 12  # per text
 

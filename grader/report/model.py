@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import BaseModel
-from pydantic import ConfigDict
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field
 
 CheckStatus = Literal["passed", "failed", "skipped", "inconclusive", "error"]
 Visibility = Literal["visible", "hidden", "after_due_date"]

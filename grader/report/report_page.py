@@ -5,26 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
-from grader.report.blocks import UNSEEN
-from grader.report.blocks import WORDS
-from grader.report.blocks import block
-from grader.report.blocks import evidence_of
-from grader.report.blocks import quotation
-from grader.report.blocks import roots
-from grader.report.blocks import row
+from grader.base.plain_text import first_lines, one_line, points
+from grader.report.blocks import UNSEEN, WORDS, block, evidence_of, quotation, roots, row
 from grader.report.page import Page
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from grader.report.model import CheckResult
-    from grader.report.model import Report
+    from grader.report.model import CheckResult, Report
 
 LINES, LINES_VERBOSE = 12, 200  # per text
 CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}

@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from grader.base.gate import show
-from grader.base.stream import takes_styles
-from grader.base.stream import width_of
+from grader.base.stream import takes_styles, width_of
 from grader.report.live import LiveProgress
 
 if TYPE_CHECKING:

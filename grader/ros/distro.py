@@ -10,8 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 
 if sys.version_info >= (3, 11):
     import tomllib

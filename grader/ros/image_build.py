@@ -11,19 +11,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
-from typing import IO
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 import grader
 from grader.base.cache import Say
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
-from grader.base.project import CHECKOUT
-from grader.base.project import SHARES
+from grader.base.errors import SurroundingsError, UsageError
+from grader.base.project import CHECKOUT, SHARES
 from grader.ros.distro import Distro
-from grader.ros.images import Base
-from grader.ros.images import Stage
-from grader.ros.images import image_name
+from grader.ros.images import Base, Stage, image_name
 
 if TYPE_CHECKING:
     from docker import DockerClient

@@ -9,8 +9,7 @@ import json
 import sys
 
 from grader.base.project import CHECKOUT
-from grader.ros.distro import Distro
-from grader.ros.distro import distros
+from grader.ros.distro import Distro, distros
 from grader.ros.images import REPOSITORY
 
 BAKE = CHECKOUT / "docker" / "docker-bake.json"

@@ -7,16 +7,12 @@ import json
 import os
 import tarfile
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-from typing import Literal
-from typing import get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 from grader.base.cache import cache_root
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.ros.distro import Distro
-from grader.ros.distro import distros
+from grader.base.i18n.message import joined, say
+from grader.ros.distro import Distro, distros
 
 if TYPE_CHECKING:
     from docker import DockerClient

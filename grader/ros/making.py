@@ -16,10 +16,8 @@ from grader.base.cache import Say
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
-from grader.ros.distro import HERE
-from grader.ros.distro import Distro
-from grader.ros.scripts import HEADER
-from grader.ros.scripts import use_own_python
+from grader.ros.distro import HERE, Distro
+from grader.ros.scripts import HEADER, use_own_python
 
 COMMAND = HERE / "ros2_command"  # our `ros2`, installed as the module below
 COMMAND_MODULE = "wheels_ros2"

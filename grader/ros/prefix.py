@@ -21,18 +21,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.base.cache import Say
-from grader.base.cache import cache_root
-from grader.base.cache import discard
-from grader.base.cache import make_once
+from grader.base.cache import Say, cache_root, discard, make_once
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
-from grader.ros.distro import HERE
-from grader.ros.distro import Distro
-from grader.ros.making import COMMAND
-from grader.ros.making import SUPPLY
-from grader.ros.making import make_prefix
+from grader.ros.distro import HERE, Distro
+from grader.ros.making import COMMAND, SUPPLY, make_prefix
 
 FORMAT = 2  # raise it when what `making` does changes
 PYTHONS = ("3.10", "3.11", "3.12", "3.13")  # those that PyPI has ROS wheels for

@@ -14,10 +14,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Output
-from grader.run.observer import SECOND
-from grader.run.observer import Event
-from grader.run.observer import Observer
-from grader.run.observer import Watch
+from grader.run.observer import SECOND, Event, Observer, Watch
 
 MILLISECOND = 1_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier

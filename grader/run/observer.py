@@ -4,21 +4,13 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from grader.course.assignment import Output
-from grader.run.probe_link import Answer
-from grader.run.probe_link import LogRecord
-from grader.run.probe_link import NodeSeen
-from grader.run.probe_link import ProbeLink
-from grader.run.terminal import Line
-from grader.run.terminal import Terminal
+from grader.run.probe_link import Answer, LogRecord, NodeSeen, ProbeLink
+from grader.run.terminal import Line, Terminal
 
 SECOND = 1_000_000_000
 GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal

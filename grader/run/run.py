@@ -6,23 +6,15 @@ import math
 import shlex
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.run.clock import ForeignClock
-from grader.run.clock import VirtualClock
-from grader.run.clock import watch_wall
-from grader.run.observer import Event
-from grader.run.observer import Observer
-from grader.run.observer import Watch
-from grader.run.probe_link import NodeSeen
-from grader.run.probe_link import ProbeError
-from grader.run.probe_link import ProbeLink
+from grader.run.clock import ForeignClock, VirtualClock, watch_wall
+from grader.run.observer import Event, Observer, Watch
+from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
 from grader.run.terminal import Terminal
-from grader.sandbox.base import UNRUNNABLE
-from grader.sandbox.base import Sandbox
+from grader.sandbox.base import UNRUNNABLE, Sandbox
 
 UNSEEN_SECONDS = 5.0  # wall time after its first line in which a node is on the graph, if it is one
 COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen

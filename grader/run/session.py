@@ -10,12 +10,9 @@ from types import TracebackType
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.run.observer import Event
-from grader.run.probe_link import ProbeError
-from grader.run.probe_link import ProbeLink
-from grader.run.run import Run
-from grader.run.run import observe
-from grader.run.workspace import Build
-from grader.run.workspace import build
+from grader.run.probe_link import ProbeError, ProbeLink
+from grader.run.run import Run, observe
+from grader.run.workspace import Build, build
 from grader.sandbox.base import Sandbox
 from grader.sandbox.proof import prove_again
 

@@ -10,16 +10,12 @@ import io
 import re
 import tarfile
 import time
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.package.submission import Submission
-from grader.sandbox.base import UNRUNNABLE
-from grader.sandbox.base import Outcome
-from grader.sandbox.base import Sandbox
+from grader.sandbox.base import UNRUNNABLE, Outcome, Sandbox
 
 BUILD = "colcon build --symlink-install"
 SUMMARY = "\nSummary: "  # colcon's last words, however the packages fared

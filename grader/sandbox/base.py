@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from abc import ABC
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from grader.report.model import LimitInfo
 from grader.ros.prefix import Ros
-from grader.sandbox.limits import UNITS
-from grader.sandbox.limits import Limits
+from grader.sandbox.limits import UNITS, Limits
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -18,26 +18,18 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import IO
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.ros.prefix import Ros
-from grader.sandbox.base import DISCOVERY_PROFILE
-from grader.sandbox.base import HOME
-from grader.sandbox.base import WORKSPACE
-from grader.sandbox.base import Role
-from grader.sandbox.cgroups import Group
-from grader.sandbox.cgroups import open_group
+from grader.sandbox.base import DISCOVERY_PROFILE, HOME, WORKSPACE, Role
+from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import Limits
-from grader.sandbox.local import LocalSandbox
-from grader.sandbox.local import need
-from grader.sandbox.processes import adopt_orphans
-from grader.sandbox.processes import children_of
-from grader.sandbox.processes import collect_orphans
+from grader.sandbox.local import LocalSandbox, need
+from grader.sandbox.processes import adopt_orphans, children_of, collect_orphans
 
 PROFILE = "/etc/grader/fastdds.xml"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")

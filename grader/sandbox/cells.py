@@ -10,22 +10,16 @@ from __future__ import annotations
 import contextlib
 import select
 import time
-from collections.abc import Mapping
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
-from typing import TYPE_CHECKING
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import docker.errors
 from docker.types import LogConfig
 
 from grader.base.errors import SurroundingsError
 from grader.sandbox.base import HOME
-from grader.sandbox.execs import Exec
-from grader.sandbox.execs import Frames
-from grader.sandbox.execs import converse
-from grader.sandbox.execs import socket_of
+from grader.sandbox.execs import Exec, Frames, converse, socket_of
 from grader.sandbox.limits import Limits
 
 if TYPE_CHECKING:

@@ -8,10 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from grader.base.cache import Say
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.errors import SurroundingsError, UsageError
+from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError
 from grader.sandbox.base import Sandbox
@@ -93,8 +91,7 @@ def _containers(distro: Distro, limits: Limits, say: Say, *, asked: bool) -> San
     """
     if not asked and not os.environ.get("DOCKER_HOST") and not DOCKER_SOCKET.exists():
         return None
-    from grader.ros import image_build  # noqa: PLC0415
-    from grader.ros import images  # noqa: PLC0415
+    from grader.ros import image_build, images  # noqa: PLC0415
     from grader.sandbox.containers import Containers  # noqa: PLC0415
 
     try:

@@ -9,13 +9,11 @@ mounted. See `cells` for how a container ends with the grader.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import Future
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import docker.errors
 
@@ -24,24 +22,9 @@ from grader.ros import images
 from grader.ros.distro import Distro
 from grader.ros.prefix import Ros
 from grader.sandbox import orphans
-from grader.sandbox.base import DISCOVERY_PROFILE
-from grader.sandbox.base import WORKSPACE
-from grader.sandbox.base import Console
-from grader.sandbox.base import Outcome
-from grader.sandbox.base import Pipe
-from grader.sandbox.base import Role
-from grader.sandbox.base import Sandbox
-from grader.sandbox.cells import PROBE
-from grader.sandbox.cells import PROFILE
-from grader.sandbox.cells import STUDENT
-from grader.sandbox.cells import Cell
-from grader.sandbox.cells import Plan
-from grader.sandbox.execs import STATUS_SECONDS
-from grader.sandbox.execs import End
-from grader.sandbox.execs import ExecConsole
-from grader.sandbox.execs import ExecPipe
-from grader.sandbox.execs import converse
-from grader.sandbox.execs import docker_errors
+from grader.sandbox.base import DISCOVERY_PROFILE, WORKSPACE, Console, Outcome, Pipe, Role, Sandbox
+from grader.sandbox.cells import PROBE, PROFILE, STUDENT, Cell, Plan
+from grader.sandbox.execs import STATUS_SECONDS, End, ExecConsole, ExecPipe, converse, docker_errors
 from grader.sandbox.limits import Limits
 
 if TYPE_CHECKING:

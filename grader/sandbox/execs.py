@@ -6,24 +6,16 @@ import select
 import socket
 import struct
 import time
-from collections.abc import Callable
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
-from typing import Any
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import docker.errors
 import requests.exceptions
 from pexpect.socket_pexpect import SocketSpawn
 
 from grader.base.errors import SurroundingsError
-from grader.sandbox.base import COLUMNS
-from grader.sandbox.base import ROWS
-from grader.sandbox.base import Console
-from grader.sandbox.base import Outcome
-from grader.sandbox.base import Pipe
+from grader.sandbox.base import COLUMNS, ROWS, Console, Outcome, Pipe
 
 if TYPE_CHECKING:
     from docker import APIClient

@@ -8,13 +8,10 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import fields
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 
 MEGABYTE = 1_000_000
 RUNS = 2  # for which a verdict has time: a run, and a second opinion on it

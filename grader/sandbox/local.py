@@ -13,22 +13,14 @@ import signal
 import subprocess
 import time
 from abc import abstractmethod
-from collections.abc import Mapping
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pexpect
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
-from grader.sandbox.base import COLUMNS
-from grader.sandbox.base import PATH
-from grader.sandbox.base import ROWS
-from grader.sandbox.base import Console
-from grader.sandbox.base import Outcome
-from grader.sandbox.base import Pipe
-from grader.sandbox.base import Role
-from grader.sandbox.base import Sandbox
+from grader.sandbox.base import COLUMNS, PATH, ROWS, Console, Outcome, Pipe, Role, Sandbox
 
 END_SECONDS = 2.0  # in which a command that was killed is gone
 KILL_SECONDS = 5.0

@@ -21,24 +21,16 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
 from grader.ros.prefix import Ros
-from grader.sandbox.base import DISCOVERY_PROFILE
-from grader.sandbox.base import Role
-from grader.sandbox.cgroups import Group
-from grader.sandbox.cgroups import open_group
+from grader.sandbox.base import DISCOVERY_PROFILE, Role
+from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import Limits
-from grader.sandbox.local import LocalSandbox
-from grader.sandbox.local import need
-from grader.sandbox.processes import adopt_orphans
-from grader.sandbox.processes import descendants
-from grader.sandbox.processes import processes
-from grader.sandbox.processes import reap
-from grader.sandbox.processes import stat_fields
+from grader.sandbox.local import LocalSandbox, need
+from grader.sandbox.processes import adopt_orphans, descendants, processes, reap, stat_fields
 
 MARK = "GRADER_RUN"
 # there is no network namespace here: the profile itself keeps the nodes on this machine

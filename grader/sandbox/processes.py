@@ -9,8 +9,7 @@ import contextlib
 import ctypes
 import os
 import signal
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 PR_SET_CHILD_SUBREAPER = 36

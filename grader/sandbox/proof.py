@@ -6,16 +6,12 @@ ros2 ended as a program does that could not be started, before that is called th
 
 from __future__ import annotations
 
-from grader.base.cache import Say
-from grader.base.cache import discard
+from grader.base.cache import Say, discard
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
 from grader.ros.distro import Distro
-from grader.ros.prefix import BrokenRosError
-from grader.ros.prefix import Ros
-from grader.ros.prefix import find_ros
-from grader.ros.prefix import is_in_cache
+from grader.ros.prefix import BrokenRosError, Ros, find_ros, is_in_cache
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
 

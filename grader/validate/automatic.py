@@ -8,15 +8,10 @@ from collections.abc import Iterator
 
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
-from grader.validate import in_files
-from grader.validate import in_setup
-from grader.validate import in_source
+from grader.validate import in_files, in_setup, in_source
 from grader.validate.mutant import Mutant
 from grader.validate.spots import Code
-from grader.validate.tree import Edit
-from grader.validate.tree import Tree
-from grader.validate.tree import Write
-from grader.validate.tree import text_of
+from grader.validate.tree import Edit, Tree, Write, text_of
 
 
 def generate(original: Tree, assignment: Assignment) -> Iterator[Mutant]:

@@ -10,16 +10,7 @@ from collections.abc import Iterator
 
 from grader.course.assignment import Assignment
 from grader.validate.spots import misspelt
-from grader.validate.tree import Chmod
-from grader.validate.tree import Copy
-from grader.validate.tree import Crlf
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Move
-from grader.validate.tree import Nest
-from grader.validate.tree import Tree
-from grader.validate.tree import Write
-from grader.validate.tree import text_of
+from grader.validate.tree import Chmod, Copy, Crlf, Delete, Edit, Move, Nest, Tree, Write, text_of
 
 Made = tuple[str, tuple[Edit, ...], tuple[str, ...]]
 ANY = ("package.", "source.", "build.", "entry_point.", "run.")

@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
 from grader.validate.in_source import Made
-from grader.validate.spots import Code
-from grader.validate.spots import misspelt
+from grader.validate.spots import Code, misspelt
 
 ANY = ("package.", "source.", "build.", "entry_point.", "run.")
 ENTRY = ("entry_point.mapping", "build.colcon")

@@ -10,8 +10,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from grader.course.assignment import Assignment
-from grader.validate.spots import Code
-from grader.validate.spots import misspelt
+from grader.validate.spots import Code, misspelt
 
 Made = tuple[str, str, tuple[str, ...]]
 ANY = ("run.", "source.", "entry_point.")

@@ -5,25 +5,17 @@ from __future__ import annotations
 import contextlib
 import itertools
 import tempfile
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.batch.local_pool import LocalPool
-from grader.batch.run import cores_here
-from grader.batch.run import prove
-from grader.batch.work import Done
-from grader.batch.work import Task
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.batch.run import cores_here, prove
+from grader.batch.work import Done, Task
+from grader.package.submission import Submission, take_in
 from grader.publish.class_run import MOST_A_CORE
-from grader.report.model import CheckResult
-from grader.report.model import CheckStatus
-from grader.validate.tree import Tree
-from grader.validate.tree import write_tree
+from grader.report.model import CheckResult, CheckStatus
+from grader.validate.tree import Tree, write_tree
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.mark import Order
 from grader.verdict.static import ask_files

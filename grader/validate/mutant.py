@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from grader.base.errors import AssignmentError
-from grader.validate.tree import Edit
-from grader.validate.tree import EditError
-from grader.validate.tree import Tree
-from grader.validate.tree import apply_all
+from grader.validate.tree import Edit, EditError, Tree, apply_all
 
 STATIC = ("package.", "source.")
 

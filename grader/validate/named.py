@@ -19,18 +19,13 @@ from __future__ import annotations
 import base64
 import binascii
 import difflib
-from collections.abc import Callable
-from collections.abc import Iterable
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from grader.base.errors import AssignmentError
-from grader.base.positioned_yaml import Document
-from grader.base.positioned_yaml import Loc
-from grader.base.positioned_yaml import read_yaml
+from grader.base.positioned_yaml import Document, Loc, read_yaml
 from grader.validate import tree
 from grader.validate.mutant import Mutant
 

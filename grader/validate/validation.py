@@ -5,29 +5,18 @@ from __future__ import annotations
 import fnmatch
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.submission import Submission
 from grader.validate.automatic import generate
-from grader.validate.marking import Marked
-from grader.validate.marking import mark_all
-from grader.validate.marking import mark_files
-from grader.validate.marking import submit
-from grader.validate.marking import submit_path
-from grader.validate.matrix import Matrix
-from grader.validate.matrix import Row
-from grader.validate.matrix import as_json
+from grader.validate.marking import Marked, mark_all, mark_files, submit, submit_path
+from grader.validate.matrix import Matrix, Row, as_json
 from grader.validate.mutant import Mutant
-from grader.validate.named import MUTANTS
-from grader.validate.named import Written
-from grader.validate.named import read_mutants
-from grader.validate.tree import Tree
-from grader.validate.tree import digest
-from grader.validate.tree import read_tree
+from grader.validate.named import MUTANTS, Written, read_mutants
+from grader.validate.tree import Tree, digest, read_tree
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.mark import Order
 

@@ -4,27 +4,18 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
-from collections.abc import Collection
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
-from grader.report.model import CheckResult
-from grader.report.model import CheckStatus
-from grader.report.model import Mistake
-from grader.report.model import Visibility
-from grader.report.model import Where
+from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.diagnose import diagnose
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Inconclusive
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Blocked, Inconclusive, Passed
 from grader.verdict.registry import Check
 
 

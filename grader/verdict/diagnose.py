@@ -7,26 +7,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.nearest import compared
-from grader.base.nearest import meant
+from grader.base.i18n.message import Message, joined, say
+from grader.base.nearest import compared, meant
 from grader.base.shown import shown
-from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.catalogue import RANK
+from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.from_source import LOOKS
 from grader.mistakes.from_traceback import recognise
 from grader.mistakes.kind import Finding
 from grader.mistakes.raised import Raised
 from grader.mistakes.suspect import Suspect
-from grader.report.model import Mistake
-from grader.report.model import Where
+from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import traceback_of
 from grader.verdict.checks.parsed import node_path
-from grader.verdict.node_files import file_at
-from grader.verdict.node_files import file_with_main
-from grader.verdict.node_files import file_with_node
+from grader.verdict.node_files import file_at, file_with_main, file_with_node
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:

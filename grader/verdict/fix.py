@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Iterable
-from dataclasses import dataclass
-from dataclasses import replace
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 
 from grader.base.i18n.translator import SOURCE
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes import syntax
-from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.case import Fix
-from grader.mistakes.fixes.case import finding_of
-from grader.mistakes.fixes.table import ADVISED
-from grader.mistakes.fixes.table import STATIC
-from grader.mistakes.fixes.table import fixes_for
+from grader.mistakes.fixes.case import Case, Finding, Fix, finding_of
+from grader.mistakes.fixes.table import ADVISED, STATIC, fixes_for
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.submission import Submission

@@ -6,26 +6,21 @@ It prints nothing: it emits events, and returns the report.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from dataclasses import field
-from datetime import datetime
-from datetime import timezone
+from dataclasses import dataclass, field
+from datetime import datetime, timezone
 from pathlib import Path
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
-from grader.package.submission import Submission
-from grader.package.submission import take_in
-from grader.report import events
-from grader.report import model
+from grader.package.submission import Submission, take_in
+from grader.report import events, model
 from grader.ros.distro import Distro
 from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.ask import Question
-from grader.verdict.ask import ask_in_order
+from grader.verdict.ask import Question, ask_in_order
 from grader.verdict.compose import compose
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for

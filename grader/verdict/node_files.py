@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.package.source.node import NodeSource
-from grader.package.source.node import read_node
-from grader.verdict.checks.parsed import file_of
-from grader.verdict.checks.parsed import names_in
-from grader.verdict.checks.parsed import node_path
+from grader.package.source.node import NodeSource, read_node
+from grader.verdict.checks.parsed import file_of, names_in, node_path
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

@@ -8,14 +8,11 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import chosen_language
-from grader.course.assignment import Assignment
-from grader.course.assignment import load_assignment
-from grader.course.find import assignment_file
-from grader.course.find import own_keys
+from grader.course.assignment import Assignment, load_assignment
+from grader.course.find import assignment_file, own_keys
 from grader.ros.distro import find_distro
 from grader.sandbox.choose import check_name
-from grader.sandbox.limits import UNITS
-from grader.sandbox.limits import Limits
+from grader.sandbox.limits import UNITS, Limits
 from grader.verdict.mark import Order
 
 HIDDEN = "hidden.yaml"

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from grader.base.i18n.message import Value
-from grader.report.model import Mistake
-from grader.report.model import Where
+from grader.report.model import Mistake, Where
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,17 +6,12 @@ or raises `Failed`, `Blocked` or `Inconclusive`; it prints nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Inconclusive
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NoReturn
 
-from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Translator
+from grader.base.i18n.translator import SOURCE, Translator
 from grader.course.assignment import Assignment
-from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.case import finding_of
+from grader.mistakes.fixes.case import Finding, finding_of
 from grader.package.edit.files import Files
 from grader.package.submission import Submission
 from grader.report.model import CheckResult

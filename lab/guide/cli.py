@@ -15,23 +15,15 @@ from rich.text import Text
 
 from grader.base.errors import UsageError
 from grader.base.gated_console import GatedConsole
-from grader.base.i18n.message import msg
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import chosen_language
-from grader.base.i18n.translator import errors_in
+from grader.base.i18n.message import msg, say
+from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
 from grader.course.assignment import load_assignment
 from grader.course.find import assignment_file
 from grader.ros.distro import DEFAULT
-from lab.guide.lesson import Lesson
-from lab.guide.lesson import Step
-from lab.guide.lesson import lesson_file
-from lab.guide.lesson import read_lesson
-from lab.guide.progress import Place
-from lab.guide.progress import current
-from lab.guide.progress import progress
+from lab.guide.lesson import Lesson, Step, lesson_file, read_lesson
+from lab.guide.progress import Place, current, progress
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
 WIDEST = 96  # columns; longer lines are hard to read

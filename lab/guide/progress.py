@@ -9,25 +9,17 @@ from __future__ import annotations
 
 import ast
 import os
-from collections.abc import Callable
-from collections.abc import Iterable
-from collections.abc import Mapping
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
+from grader.base.i18n.message import joined, say
+from grader.base.nearest import meant, nearest
 from grader.course.assignment import Assignment
-from grader.package.source.entry_points import from_setup_cfg
-from grader.package.source.entry_points import from_setup_py
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
-from grader.package.source.setup_cfg import SetupCfgFault
-from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.entry_points import from_setup_cfg, from_setup_py
+from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import read_setup_py
 from grader.ros.distro import DEFAULT
 from lab.guide.lesson import Step

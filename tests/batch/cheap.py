@@ -16,11 +16,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.batch.work import Answer
-from grader.batch.work import Task
+from grader.batch.work import Answer, Task
 from grader.report.model import Report
-from tests.report.samples import check
-from tests.report.samples import report
+from tests.report.samples import check, report
 from tests.stage import ROOT
 
 SCORE = re.compile(rb"# score: ([\d.]+)")

@@ -13,8 +13,7 @@ from pathlib import Path
 from tests.batch.works import package
 from tests.corpus.broken import BROKEN
 from tests.corpus.right import RIGHT
-from tests.stage import ROOT
-from tests.stage import grader
+from tests.stage import ROOT, grader
 
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
 

@@ -11,16 +11,12 @@ import csv
 import io
 import re
 import zipfile
-from collections.abc import Iterable
-from collections.abc import Sequence
-from dataclasses import dataclass
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tests.batch.handed_out import package
-from tests.batch.handed_out import zipped
-from tests.site.classes import FIRST
-from tests.site.classes import LAST
+from tests.batch.handed_out import package, zipped
+from tests.site.classes import FIRST, LAST
 
 DATE = "Friday, 20 November 2026, 7:00 PM"
 BOM = b"\xef\xbb\xbf"

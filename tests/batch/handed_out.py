@@ -8,12 +8,10 @@ import stat
 import subprocess
 import tarfile
 import zipfile
-from collections.abc import Iterable
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.package.submission import Submission, take_in
 
 PACKAGE = "my_robot_controller"
 NODE = "my_first_node.py"

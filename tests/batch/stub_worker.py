@@ -8,8 +8,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from grader.batch.work import Answer
-from grader.batch.work import Task
+from grader.batch.work import Answer, Task
 from grader.report.model import Report
 
 

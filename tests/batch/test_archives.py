@@ -9,8 +9,7 @@ import subprocess
 import tarfile
 import zipfile
 from pathlib import Path
-from typing import TYPE_CHECKING
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
@@ -20,23 +19,24 @@ from grader.verdict.checks.source import exec_bit
 from grader.verdict.outcome import Failed
 
 from ..installed import installed
-from ..static_bench import ASSIGNMENT
-from ..static_bench import StandIn
-from .handed_out import NODE
-from .handed_out import NODE_PATH
-from .handed_out import PACKAGE
-from .handed_out import WINDOWS
-from .handed_out import hand_in
-from .handed_out import mode_of
-from .handed_out import notes
-from .handed_out import odd_member
-from .handed_out import package
-from .handed_out import take
-from .handed_out import tar_with
-from .handed_out import tarred
-from .handed_out import write
-from .handed_out import zip_of
-from .handed_out import zipped
+from ..static_bench import ASSIGNMENT, StandIn
+from .handed_out import (
+    NODE,
+    NODE_PATH,
+    PACKAGE,
+    WINDOWS,
+    hand_in,
+    mode_of,
+    notes,
+    odd_member,
+    package,
+    take,
+    tar_with,
+    tarred,
+    write,
+    zip_of,
+    zipped,
+)
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

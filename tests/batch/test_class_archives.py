@@ -15,25 +15,25 @@ from pathlib import Path
 
 import pytest
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder
-from grader.batch.model import HandedIn
+from grader.batch.model import ClassFolder, HandedIn
 from grader.package.intake.archive_limits import ArchiveLimits
 from tests.installed import installed
 
-from .handed_out import PACKAGE
-from .handed_out import WINDOWS
-from .handed_out import everything_below
-from .handed_out import odd_member
-from .handed_out import package
-from .handed_out import take
-from .handed_out import tar_with
-from .handed_out import tarred
-from .handed_out import write
-from .handed_out import zip_of
-from .handed_out import zipped
+from .handed_out import (
+    PACKAGE,
+    WINDOWS,
+    everything_below,
+    odd_member,
+    package,
+    take,
+    tar_with,
+    tarred,
+    write,
+    zip_of,
+    zipped,
+)
 
 
 def two(**more: bytes) -> dict[str, bytes]:

@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-from datetime import timedelta
-from datetime import timezone
+from datetime import datetime, timedelta, timezone
 from pathlib import Path
 
 import pytest
 
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder
-from grader.batch.model import Entry
-from grader.batch.model import HandedIn
-from grader.batch.policy import Attempt
-from grader.batch.policy import standing
-from grader.course.policy import Late
-from grader.course.policy import Policy
+from grader.batch.model import ClassFolder, Entry, HandedIn
+from grader.batch.policy import Attempt, standing
+from grader.course.policy import Late, Policy
 from tests.report.samples import report
 
-from .handed_out import package
-from .handed_out import repository
-from .handed_out import write
+from .handed_out import package, repository, write
 
 DUE = datetime(2026, 3, 4, 9, 20, 30, tzinfo=timezone.utc)
 POLICY = Policy(due=DUE, late=Late(per_day="10%"))

@@ -6,10 +6,8 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
-from collections.abc import Iterator
-from contextlib import ExitStack
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from threading import Timer
@@ -20,16 +18,11 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.batch.cluster import Cluster
 from grader.batch.ledger import Ledger
-from grader.batch.work import Done
-from grader.batch.work import Task
+from grader.batch.work import Done, Task
 from grader.ros.prefix import Ros
-from tests.batch.classes import grade_all
-from tests.batch.classes import of_corpus
-from tests.batch.classes import verdicts_beside
-from tests.batch.works import JOB
-from tests.batch.works import tasks
-from tests.stage import ROOT
-from tests.stage import grader
+from tests.batch.classes import grade_all, of_corpus, verdicts_beside
+from tests.batch.works import JOB, tasks
+from tests.stage import ROOT, grader
 
 if TYPE_CHECKING:
     from distributed import Future

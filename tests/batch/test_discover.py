@@ -8,25 +8,17 @@ import time
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck
+from hypothesis import HealthCheck, settings
 from hypothesis import given as hypothetical
-from hypothesis import settings
 from hypothesis import strategies as st
 
 from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder
-from grader.batch.model import HandedIn
+from grader.batch.model import ClassFolder, HandedIn
 from grader.batch.systems.words import plain
 
-from .handed_out import NODE_PATH
-from .handed_out import PACKAGE
-from .handed_out import package
-from .handed_out import take
-from .handed_out import tarred
-from .handed_out import write
-from .handed_out import zipped
+from .handed_out import NODE_PATH, PACKAGE, package, take, tarred, write, zipped
 
 
 def found_in(path: Path, tmp_path: Path, system: str = "auto") -> ClassFolder:

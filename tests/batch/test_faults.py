@@ -2,37 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Generator
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from grader.base.errors import SurroundingsError
-from grader.batch import intake
-from grader.batch import local_pool
+from grader.batch import intake, local_pool
 from grader.batch.intake import take_in_class
 from grader.batch.ledger import Ledger
-from grader.batch.model import ClassFolder
-from grader.batch.model import HandedIn
-from grader.batch.model import Student
+from grader.batch.model import ClassFolder, HandedIn, Student
 from grader.batch.proof import prove
 from grader.batch.result import class_result
-from grader.batch.run import FAULTS_IN_A_ROW
-from grader.batch.run import Listener
-from grader.batch.run import Plan
-from grader.batch.run import Setting
-from grader.batch.run import carry_out
-from grader.batch.run import make_plan
-from grader.batch.work import Answer
-from grader.batch.work import Done
-from grader.batch.work import Job
-from grader.batch.work import Task
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.batch.run import FAULTS_IN_A_ROW, Listener, Plan, Setting, carry_out, make_plan
+from grader.batch.work import Answer, Done, Job, Task
+from grader.package.submission import Submission, take_in
 from grader.publish.feedback import html_page
 from grader.publish.gradebook_csv import gradebook_csv
 from grader.ros.distro import find_distro
@@ -40,9 +25,7 @@ from grader.ros.prefix import Ros
 from grader.run import probe_link
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT
-from tests.batch.works import JOB
-from tests.batch.works import package
+from tests.batch.works import ASSIGNMENT, JOB, package
 from tests.report.samples import report
 
 SETTING = Setting(

@@ -9,25 +9,17 @@ import shutil
 import signal
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
 
 from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
-from tests.batch.classes import grade_all
-from tests.batch.classes import of_corpus
-from tests.batch.classes import verdicts_beside
-from tests.batch.downloads import KOREAN
-from tests.batch.downloads import moodle_zip
-from tests.batch.downloads import people
-from tests.batch.downloads import worksheet
+from tests.batch.classes import grade_all, of_corpus, verdicts_beside
+from tests.batch.downloads import KOREAN, moodle_zip, people, worksheet
 from tests.batch.works import workers_of
-from tests.stage import ROOT
-from tests.stage import grader
-from tests.stage import run
+from tests.stage import ROOT, grader, run
 
 pytestmark = pytest.mark.prefix
 

@@ -10,17 +10,18 @@ import pytest
 
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
-from tests.batch.downloads import ENGLISH
-from tests.batch.downloads import FINNISH
-from tests.batch.downloads import KOREAN
-from tests.batch.downloads import Person
-from tests.batch.downloads import Words
-from tests.batch.downloads import moodle_zip
-from tests.batch.downloads import people
-from tests.batch.downloads import scored
-from tests.batch.downloads import worksheet
-from tests.batch.handed_out import package
-from tests.batch.handed_out import write
+from tests.batch.downloads import (
+    ENGLISH,
+    FINNISH,
+    KOREAN,
+    Person,
+    Words,
+    moodle_zip,
+    people,
+    scored,
+    worksheet,
+)
+from tests.batch.handed_out import package, write
 
 
 def grouped(*sizes: tuple[str, int]) -> list[Person]:

@@ -13,24 +13,24 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from grader.package.intake.archive_limits import ArchiveLimits
 
-from .handed_out import NODE_PATH
-from .handed_out import add_file
-from .handed_out import everything_below
-from .handed_out import hand_in
-from .handed_out import notes
-from .handed_out import odd_member
-from .handed_out import package
-from .handed_out import tar_with
-from .handed_out import tarred
-from .handed_out import zip_of
-from .handed_out import zipped
+from .handed_out import (
+    NODE_PATH,
+    add_file,
+    everything_below,
+    hand_in,
+    notes,
+    odd_member,
+    package,
+    tar_with,
+    tarred,
+    zip_of,
+    zipped,
+)
 
 OUT = ["../evil", "a/../../evil", "/tmp/evil", "//evil", "C:/evil", "c:\\evil", "..\\evil", ".."]
 SECONDS = 20  # in which a bomb must be told, on a machine that is busy with other things

@@ -11,8 +11,7 @@ import pytest
 
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
-from tests.batch.classes import grade_all
-from tests.batch.classes import of_corpus
+from tests.batch.classes import grade_all, of_corpus
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.report.test_hostile import unfit

@@ -14,12 +14,9 @@ from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
-from tests.batch.classes import grade_all
-from tests.batch.classes import of_corpus
+from tests.batch.classes import grade_all, of_corpus
 from tests.batch.works import workers_of
-from tests.stage import ROOT
-from tests.stage import alive
-from tests.stage import grader
+from tests.stage import ROOT, alive, grader
 
 pytestmark = pytest.mark.prefix
 

@@ -8,23 +8,17 @@ import sqlite3
 import subprocess
 import sys
 from collections.abc import Iterator
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 from pathlib import Path
 
 import pytest
 
-from grader.base.errors import GraderError
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import GraderError, SurroundingsError, UsageError
 from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import AlreadyMarkedError
-from grader.batch.ledger_rows import HandedInRow
-from grader.batch.model import Override
-from grader.batch.model import Student
+from grader.batch.ledger_rows import AlreadyMarkedError, HandedInRow
+from grader.batch.model import Override, Student
 from grader.report.model import Report
-from tests.report.samples import check
-from tests.report.samples import report
+from tests.report.samples import check, report
 from tests.stage import ROOT
 
 AT = datetime(2026, 11, 20, 23, 59, tzinfo=timezone.utc)

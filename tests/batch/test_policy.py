@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from datetime import datetime
-from datetime import timedelta
-from datetime import timezone
+from datetime import datetime, timedelta, timezone
 from typing import Any
 from zoneinfo import ZoneInfo
 
 import pytest
 
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
-from grader.batch.policy import Attempt
-from grader.batch.policy import lateness
-from grader.batch.policy import penalty
-from grader.batch.policy import standing
+from grader.batch.model import Entry, Override, Student
+from grader.batch.policy import Attempt, lateness, penalty, standing
 from grader.course.policy import Policy
-from tests.report.samples import check
-from tests.report.samples import report
+from tests.report.samples import check, report
 
 DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)
 KIM = Student("kim", "Kim Minji")

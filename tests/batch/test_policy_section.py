@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 from pathlib import Path
 
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.course.assignment import Assignment
-from grader.course.assignment import load_assignment
+from grader.course.assignment import Assignment, load_assignment
 from tests.stage import ROOT
 
 DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)

@@ -12,17 +12,12 @@ from pathlib import Path
 import pytest
 
 from grader.batch.local_pool import LocalPool
-from grader.batch.submission_text import from_text
-from grader.batch.submission_text import to_text
-from grader.batch.work import Done
-from grader.batch.work import Task
+from grader.batch.submission_text import from_text, to_text
+from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.batch.works import ASSIGNMENT
-from tests.batch.works import JOB
-from tests.batch.works import own_workers
-from tests.batch.works import tasks
+from tests.batch.works import ASSIGNMENT, JOB, own_workers, tasks
 from tests.stage import descendants
 
 pytestmark = pytest.mark.prefix

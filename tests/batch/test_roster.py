@@ -8,22 +8,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from grader.base.errors import UsageError
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder
-from grader.batch.model import HandedIn
-from grader.batch.model import Student
-from grader.batch.roster import Roster
-from grader.batch.roster import read_roster
+from grader.batch.model import ClassFolder, HandedIn, Student
+from grader.batch.roster import Roster, read_roster
 
-from .handed_out import package
-from .handed_out import repository
-from .handed_out import write
+from .handed_out import package, repository, write
 
 MOODLE = """\
 Identifier,Full name,ID number,Email address,Status,Group,Grade,Maximum Grade,Last modified (grade)

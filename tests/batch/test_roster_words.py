@@ -9,16 +9,10 @@ import pytest
 
 from grader.base.errors import UsageError
 from grader.batch.model import Student
-from grader.batch.roster import Roster
-from grader.batch.roster import read_roster
+from grader.batch.roster import Roster, read_roster
 from grader.batch.systems.moodle.words import says_submitted
 from grader.batch.systems.moodle.worksheet import read_worksheet
-from tests.batch.downloads import ENGLISH
-from tests.batch.downloads import FINNISH
-from tests.batch.downloads import KOREAN
-from tests.batch.downloads import Words
-from tests.batch.downloads import people
-from tests.batch.downloads import worksheet
+from tests.batch.downloads import ENGLISH, FINNISH, KOREAN, Words, people, worksheet
 
 KIM = Student("2024001", "김민지", "kim@school.kr", "", "2024001")
 

@@ -11,11 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.batch.similar import fingerprint
-from grader.batch.similar import groups
-from grader.package.submission import SourceFile
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.batch.similar import fingerprint, groups
+from grader.package.submission import SourceFile, Submission, take_in
 from tests.batch.works import ASSIGNMENT
 from tests.stage import ROOT
 

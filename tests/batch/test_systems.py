@@ -4,24 +4,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 from pathlib import Path
 
 import pytest
 import yaml
 
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder
-from grader.batch.model import HandedIn
+from grader.batch.model import ClassFolder, HandedIn
 
-from .handed_out import NODE_PATH
-from .handed_out import class_zip
-from .handed_out import everything_below
-from .handed_out import package
-from .handed_out import take
-from .handed_out import write
-from .handed_out import zipped
+from .handed_out import NODE_PATH, class_zip, everything_below, package, take, write, zipped
 
 WAYS = ["folder", "zip"]
 

@@ -9,19 +9,20 @@ from pathlib import Path
 
 import pytest
 
-from tests.batch.cheap import Run
-from tests.batch.cheap import grade_all
-from tests.batch.downloads import KOREAN
-from tests.batch.downloads import Person
-from tests.batch.downloads import Words
-from tests.batch.downloads import canvas_gradebook
-from tests.batch.downloads import canvas_zip
-from tests.batch.downloads import marked
-from tests.batch.downloads import moodle_zip
-from tests.batch.downloads import of_people
-from tests.batch.downloads import people
-from tests.batch.downloads import scored
-from tests.batch.downloads import worksheet
+from tests.batch.cheap import Run, grade_all
+from tests.batch.downloads import (
+    KOREAN,
+    Person,
+    Words,
+    canvas_gradebook,
+    canvas_zip,
+    marked,
+    moodle_zip,
+    of_people,
+    people,
+    scored,
+    worksheet,
+)
 from tests.stage import ROOT
 
 pytestmark = pytest.mark.prefix

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from grader.batch.work import Job
-from grader.batch.work import Task
+from grader.batch.work import Job, Task
 from grader.course.assignment import load_assignment
 from grader.package.submission import take_in
 from grader.sandbox.limits import Limits

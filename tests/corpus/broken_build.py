@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
+from grader.validate.tree import Delete, Edit, Replace
 
-from .model import BUILT
-from .model import INSTALLED
-from .model import SETUP
-from .model import Package
-from .model import broken
+from .model import BUILT, INSTALLED, SETUP, Package, broken
 
 CALL = "\nsetup(\n"
 

@@ -2,17 +2,9 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Edit, Replace, Write
 
-from .model import BUILT
-from .model import INNER
-from .model import INSTALLED
-from .model import RUN
-from .model import SETUP
-from .model import Package
-from .model import broken
+from .model import BUILT, INNER, INSTALLED, RUN, SETUP, Package, broken
 
 TARGET = "my_robot_controller.my_first_node:main"
 ENTRY = f"            'test_node = {TARGET}',\n"

@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
+from grader.validate.tree import Edit, Replace
 
-from .model import NODE
-from .model import Package
-from .model import broken
-from .right_node import CATCH
-from .right_node import COUNT
-from .right_node import LINE
-from .right_node import STEP
-from .right_node import TEXT
-from .right_node import TIMER
+from .model import NODE, Package, broken
+from .right_node import CATCH, COUNT, LINE, STEP, TEXT, TIMER
 
 LOG = "self.get_logger().info"
 FAKED = (

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Copy
-from grader.validate.tree import Delete
-from grader.validate.tree import Move
-from grader.validate.tree import Nest
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Copy, Delete, Move, Nest, Replace, Write
 
-from .model import BUILT
-from .model import CFG
-from .model import FOUND
-from .model import INNER
-from .model import INSTALLED
-from .model import MANIFEST
-from .model import MARKER
-from .model import NODE
-from .model import PACKAGE
-from .model import SETUP
-from .model import broken
+from .model import (
+    BUILT,
+    CFG,
+    FOUND,
+    INNER,
+    INSTALLED,
+    MANIFEST,
+    MARKER,
+    NODE,
+    PACKAGE,
+    SETUP,
+    broken,
+)
 
 ALL = tuple(Delete(path) for path in (INNER, "resource", MANIFEST, SETUP, CFG))
 MARKER_LINES = """\

@@ -2,22 +2,9 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Chmod
-from grader.validate.tree import Crlf
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Move
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Chmod, Crlf, Delete, Edit, Move, Replace, Write
 
-from .model import AFTER_START
-from .model import INIT
-from .model import INNER
-from .model import NODE
-from .model import RUN
-from .model import SETUP
-from .model import Package
-from .model import broken
+from .model import AFTER_START, INIT, INNER, NODE, RUN, SETUP, Package, broken
 
 SHEBANG = "#!/usr/bin/env python3\n"
 LATIN = b"#!/usr/bin/env python3\n\n\ndef main():\n    print('f\xfcr den Kurs')\n"

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Edit, Replace, Write
 
-from .model import AFTER_START
-from .model import NODE
-from .model import Package
-from .model import broken
-from .right_node import CATCH
-from .right_node import COUNT
-from .right_node import TIMER
+from .model import AFTER_START, NODE, Package, broken
+from .right_node import CATCH, COUNT, TIMER
 
 SUPER = "        super().__init__('my_first_node')\n"
 MADE = "    node = MyFirstNode()\n"

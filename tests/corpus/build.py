@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.validate.tree import EditError
-from grader.validate.tree import apply_all
-from grader.validate.tree import read_tree
-from grader.validate.tree import write_tree
+from grader.validate.tree import EditError, apply_all, read_tree, write_tree
 
 from .model import Package
 

@@ -5,21 +5,10 @@ A bound is at most 3,000 processes, 3 GB of memory or disk, 300 MB of output, an
 
 from __future__ import annotations
 
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Link
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Delete, Edit, Link, Replace, Write
 
-from .model import AFTER_START
-from .model import INNER
-from .model import NODE
-from .model import RUN
-from .model import SETUP
-from .model import TICKS
-from .model import hostile
-from .right_node import CATCH
-from .right_node import STEP
+from .model import AFTER_START, INNER, NODE, RUN, SETUP, TICKS, hostile
+from .right_node import CATCH, STEP
 
 MADE = "    node = MyFirstNode()\n"
 INTERRUPT = frozenset({"run.interrupt"})

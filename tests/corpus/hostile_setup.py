@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from grader.validate.tree import Replace
 
-from .model import BUILT
-from .model import INSTALLED
-from .model import SETUP
-from .model import Package
-from .model import hostile
+from .model import BUILT, INSTALLED, SETUP, Package, hostile
 
 CALL = "\nsetup(\n"
 ESCAPED = "corpus-escaped"  # a file of this name outside the sandbox is proof of an escape

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Replace, Write
 
-from .model import INNER
-from .model import NODE
-from .model import right
+from .model import INNER, NODE, right
 
 TEXT = "'Hello time: ' + str(self.counter_)"
 LINE = f"self.get_logger().info({TEXT})"

@@ -2,20 +2,9 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Chmod
-from grader.validate.tree import Copy
-from grader.validate.tree import Crlf
-from grader.validate.tree import Nest
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Chmod, Copy, Crlf, Nest, Replace, Write
 
-from .model import CFG
-from .model import INNER
-from .model import MANIFEST
-from .model import NODE
-from .model import PACKAGE
-from .model import SETUP
-from .model import right
+from .model import CFG, INNER, MANIFEST, NODE, PACKAGE, SETUP, right
 
 ENTRY = "            'test_node = my_robot_controller.my_first_node:main',\n"
 POINTS = f"    entry_points={{\n        'console_scripts': [\n{ENTRY}        ],\n    }},\n"

@@ -2,21 +2,10 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Edit, Replace, Write
 
-from .model import INNER
-from .model import NODE
-from .model import SETUP
-from .model import right
-from .right_node import CATCH
-from .right_node import COUNT
-from .right_node import LINE
-from .right_node import NO_CLASS
-from .right_node import STEP
-from .right_node import TEXT
-from .right_node import TIMER
+from .model import INNER, NODE, SETUP, right
+from .right_node import CATCH, COUNT, LINE, NO_CLASS, STEP, TEXT, TIMER
 
 SUPER = "super().__init__('my_first_node')"
 BODY = "    rclpy.init(args=args)\n    node = MyFirstNode()\n" + CATCH

@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Edit, Replace, Write
 
-from .model import NODE
-from .model import right
-from .right_node import CATCH
-from .right_node import LINE
-from .right_node import STEP
-from .right_node import TIMER
+from .model import NODE, right
+from .right_node import CATCH, LINE, STEP, TIMER
 
 SPIN = "rclpy.spin(node)"
 

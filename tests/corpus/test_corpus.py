@@ -9,21 +9,12 @@ from pathlib import Path
 import pytest
 import yaml
 
-from grader.validate.tree import Chmod
-from grader.validate.tree import Crlf
-from grader.validate.tree import EditError
-from grader.validate.tree import Link
-from grader.validate.tree import Nest
-from grader.validate.tree import Replace
+from grader.validate.tree import Chmod, Crlf, EditError, Link, Nest, Replace
 
 from .broken import BROKEN
-from .build import ROOT
-from .build import SOLUTION
-from .build import write
+from .build import ROOT, SOLUTION, write
 from .hostile import HOSTILE
-from .model import NODE
-from .model import SETUP
-from .model import Package
+from .model import NODE, SETUP, Package
 from .right import RIGHT
 
 CORPUS = (*RIGHT, *BROKEN, *HOSTILE)

@@ -6,8 +6,7 @@ import shutil
 from pathlib import Path
 
 import grader
-from tests import engine
-from tests import stage
+from tests import engine, stage
 
 FOLDERS = ("docker", "grader", "lab", ".devcontainer")
 ARGUMENTS = {"BASE": engine.STANDIN, "ROS": "image", "VERSION": grader.__version__}

@@ -15,11 +15,9 @@ import yaml
 from docker import DockerClient
 
 from grader.ros import image_files
-from grader.ros.distro import Distro
-from grader.ros.distro import distros
+from grader.ros.distro import Distro, distros
 from grader.ros.images import table
-from tests import engine
-from tests import stage
+from tests import engine, stage
 from tests.docker import checkout
 
 pytestmark = pytest.mark.docker

@@ -13,17 +13,14 @@ from docker import DockerClient
 
 from grader.report.model import Report
 from grader.sandbox import orphans
-from tests import engine
-from tests import stage
+from tests import engine, stage
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
 from tests.docker.test_containers import made_by
-from tests.test_verdicts import mark
-from tests.test_verdicts import told
-from tests.test_verdicts import verdict_is
+from tests.test_verdicts import mark, told, verdict_is
 
 pytestmark = [pytest.mark.docker]
 VERDICTS = 50

@@ -18,8 +18,7 @@ from docker import DockerClient
 from grader.sandbox import orphans
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests import engine
-from tests import stage
+from tests import engine, stage
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 from tests.sandbox_contract import shell
 

@@ -17,8 +17,7 @@ from docker import DockerClient
 from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox import orphans
-from tests import engine
-from tests import stage
+from tests import engine, stage
 
 pytestmark = [pytest.mark.docker, pytest.mark.full]
 NAME = f"{engine.REPOSITORY}:grade-jazzy-wheels"

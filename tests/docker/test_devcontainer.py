@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +14,7 @@ import pytest
 
 from grader.ros.distro import distros
 from tests import stage
-from tests.docker import checkout
-from tests.docker import devcontainer_cli
+from tests.docker import checkout, devcontainer_cli
 
 pytestmark = pytest.mark.docker
 CONFIG = ".devcontainer/devcontainer.json"

@@ -14,19 +14,12 @@ import pytest
 from docker import DockerClient
 from docker.models.images import Image
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.ros import images
-from grader.ros.distro import distros
-from grader.ros.distro import find_distro
-from grader.ros.image_build import Network
-from grader.ros.image_build import build_image
-from grader.ros.image_build import is_ignored
-from tests import engine
-from tests import stage
-from tests.docker.layers import Layers
-from tests.docker.layers import certificates_in
-from tests.docker.layers import layers_of
+from grader.ros.distro import distros, find_distro
+from grader.ros.image_build import Network, build_image, is_ignored
+from tests import engine, stage
+from tests.docker.layers import Layers, certificates_in, layers_of
 
 pytestmark = [pytest.mark.docker]
 NAMES = (

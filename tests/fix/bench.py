@@ -7,11 +7,9 @@ import subprocess
 from pathlib import Path
 
 from grader.package.edit.files import Files
-from grader.package.submission import Submission
-from grader.package.submission import take_in
+from grader.package.submission import Submission, take_in
 from grader.validate.tree import Edit
-from grader.verdict.fix import Plan
-from grader.verdict.fix import fix_files
+from grader.verdict.fix import Plan, fix_files
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.static_bench import ASSIGNMENT

@@ -10,20 +10,10 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from grader.validate.tree import Chmod
-from grader.validate.tree import Delete
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Chmod, Delete, Replace, Write
 from tests import stage
-from tests.corpus.model import INNER
-from tests.corpus.model import MANIFEST
-from tests.corpus.model import MARKER
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
-from tests.fix.bench import TOOLS
-from tests.fix.bench import edited
-from tests.fix.bench import plan_of
-from tests.fix.bench import with_tool
+from tests.corpus.model import INNER, MANIFEST, MARKER, NODE, SETUP
+from tests.fix.bench import TOOLS, edited, plan_of, with_tool
 from tests.fix.test_disk import tree
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")

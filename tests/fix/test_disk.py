@@ -11,18 +11,9 @@ import pytest
 from grader.base.errors import UsageError
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
-from grader.validate.tree import Chmod
-from grader.validate.tree import Delete
-from grader.validate.tree import Move
-from grader.validate.tree import Replace
-from tests.corpus.model import MANIFEST
-from tests.corpus.model import MARKER
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
-from tests.fix.bench import contents
-from tests.fix.bench import edited
-from tests.fix.bench import plan_of
-from tests.fix.bench import taken
+from grader.validate.tree import Chmod, Delete, Move, Replace
+from tests.corpus.model import MANIFEST, MARKER, NODE, SETUP
+from tests.fix.bench import contents, edited, plan_of, taken
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
 ENTRY = Replace(SETUP, "my_first_node:main", "my_frist_node:main")

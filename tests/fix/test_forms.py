@@ -6,20 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Move
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
-from tests.corpus.model import CFG
-from tests.corpus.model import INNER
-from tests.corpus.model import MANIFEST
-from tests.corpus.model import MARKER
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
-from tests.fix.bench import contents
-from tests.fix.bench import edited
-from tests.fix.bench import plan_of
+from grader.validate.tree import Delete, Edit, Move, Replace, Write
+from tests.corpus.model import CFG, INNER, MANIFEST, MARKER, NODE, SETUP
+from tests.fix.bench import contents, edited, plan_of
 
 ENTRY = "'test_node = my_robot_controller.my_first_node:main'"
 POINTS = f"""\

@@ -7,13 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Delete
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.tree import Delete, Replace, Write
 from tests import stage
-from tests.corpus.model import MANIFEST
-from tests.corpus.model import MARKER
-from tests.corpus.model import NODE
+from tests.corpus.model import MANIFEST, MARKER, NODE
 from tests.fix.bench import edited
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")

@@ -6,21 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Crlf
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
-from tests.corpus.model import CFG
-from tests.corpus.model import MANIFEST
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
-from tests.fix.bench import TOOLS
-from tests.fix.bench import contents
-from tests.fix.bench import edited
-from tests.fix.bench import plan_of
-from tests.fix.bench import taken
-from tests.fix.bench import with_tool
+from grader.validate.tree import Crlf, Delete, Edit, Replace, Write
+from tests.corpus.model import CFG, MANIFEST, NODE, SETUP
+from tests.fix.bench import TOOLS, contents, edited, plan_of, taken, with_tool
 
 OLD = "'test_node = my_robot_controller.my_first_node:main'"
 BAD = OLD.replace("my_first_node:", "my_frist_node:")

@@ -6,30 +6,19 @@ from pathlib import Path
 
 import pytest
 
-from grader.cli.fix_package import Wish
-from grader.cli.fix_package import make_plan
+from grader.cli.fix_package import Wish, make_plan
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.table import BY_MISTAKE
-from grader.mistakes.fixes.table import fixes_for
+from grader.mistakes.fixes.case import Case, Finding
+from grader.mistakes.fixes.table import BY_MISTAKE, fixes_for
 from grader.package.edit.files import Files
-from grader.report.model import CheckResult
-from grader.report.model import Mistake
+from grader.report.model import CheckResult, Mistake
 from grader.validate.tree import Replace
-from grader.verdict.fix import first_fix
-from grader.verdict.fix import patch_for
+from grader.verdict.fix import first_fix, patch_for
 from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
-from tests.corpus.build import SOLUTION
-from tests.corpus.build import write
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
-from tests.corpus.model import Package
-from tests.fix.bench import TOOLS
-from tests.fix.bench import edited
-from tests.fix.bench import taken
-from tests.fix.bench import with_tool
+from tests.corpus.build import SOLUTION, write
+from tests.corpus.model import NODE, SETUP, Package
+from tests.fix.bench import TOOLS, edited, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
 # The one fix of these is the solution, letter by letter.

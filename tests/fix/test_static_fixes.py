@@ -6,19 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Crlf
-from grader.validate.tree import Write
+from grader.validate.tree import Crlf, Write
 from grader.verdict.fix import patch_for
 from grader.verdict.static import decided
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.fix.bench import NODE
-from tests.fix.bench import TOOLS
-from tests.fix.bench import contents
-from tests.fix.bench import plan_of
-from tests.fix.bench import taken
-from tests.fix.bench import with_tool
+from tests.fix.bench import NODE, TOOLS, contents, plan_of, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
 STATIC = ("package.", "source.", "entry_point.mapping")

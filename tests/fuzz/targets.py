@@ -11,8 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.case import Finding
+from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.fixes.syntax import fault_of
 from grader.mistakes.fixes.table import BY_MISTAKE
 from grader.mistakes.from_source import LOOKS
@@ -21,31 +20,19 @@ from grader.mistakes.raised import Raised
 from grader.mistakes.suspect import Suspect
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
-from grader.package.intake.model import SourceFile
-from grader.package.intake.model import Submission
-from grader.package.source.entry_points import from_setup_cfg
-from grader.package.source.entry_points import from_setup_py
-from grader.package.source.manifest import ManifestError
-from grader.package.source.manifest import name_in
-from grader.package.source.manifest import read_manifest
+from grader.package.intake.model import SourceFile, Submission
+from grader.package.source.entry_points import from_setup_cfg, from_setup_py
+from grader.package.source.manifest import ManifestError, name_in, read_manifest
 from grader.package.source.node import read_node
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
-from grader.package.source.setup_cfg import SetupCfgFault
-from grader.package.source.setup_cfg import read_setup_cfg
-from grader.package.source.setup_py import literal_name
-from grader.package.source.setup_py import read_setup_py
+from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_py import literal_name, read_setup_py
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
 from grader.verdict.checks.build import python_error
-from grader.verdict.fix import first_fix
-from grader.verdict.fix import fix_files
+from grader.verdict.fix import first_fix, fix_files
 from tests.corpus.build import SOLUTION
-from tests.corpus.model import CFG
-from tests.corpus.model import MANIFEST
-from tests.corpus.model import MARKER
-from tests.corpus.model import NODE
-from tests.corpus.model import SETUP
+from tests.corpus.model import CFG, MANIFEST, MARKER, NODE, SETUP
 from tests.static_bench import ASSIGNMENT
 
 Target = Callable[[bytes], None]

@@ -10,15 +10,12 @@ import time
 import tracemalloc
 
 import pytest
-from hypothesis import HealthCheck
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from grader.validate.tree import Replace
 from tests.corpus.broken import BROKEN
-from tests.fuzz.targets import SEEDS
-from tests.fuzz.targets import TARGETS
+from tests.fuzz.targets import SEEDS, TARGETS
 
 SECONDS = 10.0  # of processor time for one input; what is not made to be slow takes 0.01
 MEGABYTES = 100  # beyond what the input itself takes

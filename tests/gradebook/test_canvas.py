@@ -8,16 +8,14 @@ import io
 import re
 
 import pytest
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
 from grader.batch.systems.canvas.write import new_gradebook
 from tests.gradebook.filled import fill_gradebook
-from tests.gradebook.texts import hostile_class
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_class, texts
 from tests.report import samples
 from tests.site import classes
 

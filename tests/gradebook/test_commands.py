@@ -14,8 +14,7 @@ import pytest
 
 from grader.report.files import report_json
 from tests import stage
-from tests.gradebook.schemas import GRADESCOPE
-from tests.gradebook.schemas import PRAIRIELEARN
+from tests.gradebook.schemas import GRADESCOPE, PRAIRIELEARN
 from tests.gradebook.test_github import read
 from tests.gradebook.test_junit import suites
 from tests.report import samples

@@ -7,8 +7,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 from markdown_it import MarkdownIt
 
 from grader.batch.model import ClassResult
@@ -16,8 +15,7 @@ from grader.batch.points import single
 from grader.publish.feedback import html_page
 from grader.publish.markdown import markdown
 from grader.report.model import Report
-from tests.gradebook.texts import hostile_entry
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_entry, texts
 from tests.report import samples
 from tests.site.browser import Open
 

@@ -8,16 +8,13 @@ from typing import Any
 
 import jsonschema
 import pytest
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 
-from grader.batch.model import ClassResult
-from grader.batch.model import Override
+from grader.batch.model import ClassResult, Override
 from grader.batch.points import single
 from grader.batch.systems.github_classroom import write as github
 from tests.gradebook.schemas import GITHUB
-from tests.gradebook.texts import hostile_entry
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_entry, texts
 from tests.report import samples
 from tests.site import classes
 

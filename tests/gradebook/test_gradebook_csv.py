@@ -7,14 +7,12 @@ import dataclasses
 import io
 import re
 
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.publish.gradebook_csv import gradebook_csv
-from tests.gradebook.texts import hostile_class
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_class, texts
 from tests.report import samples
 
 FORMULA = re.compile(r"[\s\"']*[=+\-@＝＋－＠]")
@@ -81,8 +79,7 @@ def test_the_byte_order_mark_is_there_when_asked_for() -> None:
 
 def test_the_points_of_a_check_are_the_corrected_ones_last_of_all() -> None:
     from grader.batch.model import Override
-    from grader.batch.points import marks
-    from grader.batch.points import single
+    from grader.batch.points import marks, single
 
     first = Override("1", "entry_point.mapping", 3, "half")
     last = Override("1", "entry_point.mapping", 15, "all")

@@ -6,16 +6,13 @@ import json
 
 import jsonschema
 import pytest
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 
-from grader.batch.model import ClassResult
-from grader.batch.model import Override
+from grader.batch.model import ClassResult, Override
 from grader.batch.systems.gradescope import write as gradescope
 from grader.report.model import Report
 from tests.gradebook.schemas import GRADESCOPE
-from tests.gradebook.texts import hostile_entry
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_entry, texts
 from tests.report import samples
 
 

@@ -18,8 +18,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.batch.systems.gradescope import container as gradescope_run
 from grader.batch.systems.gradescope.archive import gradescope_zip
 from grader.package.submission import take_in
@@ -27,11 +26,9 @@ from grader.report import events
 from grader.report.model import Report
 from grader.ros.prefix import Ros
 from grader.validate.tree import Replace
-from grader.verdict.mark import Order
-from grader.verdict.mark import grade
+from grader.verdict.mark import Order, grade
 from grader.verdict.order import make_orders
-from tests import stage
-from tests import weather
+from tests import stage, weather
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.gradebook.schemas import GRADESCOPE

@@ -5,21 +5,15 @@ from __future__ import annotations
 import dataclasses
 import xml.etree.ElementTree as ET
 
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
-from junitparser import Error
-from junitparser import Failure
-from junitparser import JUnitXml
-from junitparser import Skipped
+from junitparser import Error, Failure, JUnitXml, Skipped
 from junitparser import TestSuite as Suite
 
 from grader.batch.model import ClassResult
-from grader.publish.junit import class_xml
-from grader.publish.junit import report_xml
+from grader.publish.junit import class_xml, report_xml
 from grader.report.model import Report
-from tests.gradebook.texts import hostile_class
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_class, texts
 from tests.report import samples
 
 # what may stand in what, and the attributes that must be there (Jenkins' xunit plugin, junit-10.xsd)

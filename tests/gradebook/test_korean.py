@@ -17,28 +17,22 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from grader.base.errors import SurroundingsError
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
-from grader.batch.model import Override
+from grader.batch.model import ClassResult, Entry, Override
 from grader.batch.points import single
-from grader.batch.policy import Attempt
-from grader.batch.policy import standing
+from grader.batch.policy import Attempt, standing
 from grader.batch.systems.github_classroom import write as github
 from grader.batch.systems.gradescope import container as gradescope_run
 from grader.batch.systems.gradescope import write as gradescope
 from grader.batch.systems.gradescope.archive import gradescope_zip
-from grader.batch.systems.gradescope.container import OUR_FAULT
-from grader.batch.systems.gradescope.container import ResultsFile
+from grader.batch.systems.gradescope.container import OUR_FAULT, ResultsFile
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.prairielearn import write as prairielearn
 from grader.course.assignment import load_assignment
 from grader.course.policy import Policy
 from grader.publish import junit
-from grader.publish.feedback import html_page
-from grader.publish.feedback import short_html
+from grader.publish.feedback import html_page, short_html
 from grader.publish.markdown import markdown
-from grader.report.model import Evidence
-from grader.report.model import Report
+from grader.report.model import Evidence, Report
 from grader.verdict.mark import Order
 from tests import stage
 from tests.gradebook.filled import comment

@@ -7,11 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.batch.gradebook_before import Before
-from grader.batch.gradebook_before import read_before
+from grader.batch.gradebook_before import Before, read_before
 from grader.batch.lowered import lowered
-from grader.batch.model import Entry
-from grader.batch.model import Override
+from grader.batch.model import Entry, Override
 from grader.publish.gradebook_csv import gradebook_csv
 from tests.report import samples
 from tests.site import classes

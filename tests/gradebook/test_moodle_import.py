@@ -6,15 +6,13 @@ import csv
 import dataclasses
 import io
 
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from tests.gradebook.filled import comment
-from tests.gradebook.texts import hostile_class
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_class, texts
 from tests.report import samples
 from tests.site import classes
 

@@ -7,14 +7,12 @@ import dataclasses
 import io
 
 import pytest
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
 from tests.gradebook.filled import fill_worksheet
-from tests.gradebook.texts import hostile_class
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_class, texts
 from tests.report import samples
 from tests.site import classes
 

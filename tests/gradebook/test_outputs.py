@@ -7,25 +7,19 @@ import stat
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.batch.model import ClassResult
 from grader.batch.systems.canvas.write import read_gradebook
 from grader.batch.systems.moodle.worksheet import read_worksheet
 from grader.publish import gradebooks as outputs
 from grader.publish.gradebooks import write_outputs
 from grader.publish.written import raise_failures
-from tests.gradebook.test_canvas import POSSIBLE
-from tests.gradebook.test_canvas import export
-from tests.gradebook.test_canvas import student
+from tests.gradebook.test_canvas import POSSIBLE, export, student
 from tests.gradebook.test_moodle_worksheet import english
-from tests.gradebook.texts import hostile_class
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_class, texts
 
 
 def files(out: Path) -> set[Path]:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 
 import jsonschema
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 
 from grader.batch.model import ClassResult
 from grader.batch.points import single
 from grader.batch.systems.prairielearn import write as prairielearn
 from grader.report.model import Report
 from tests.gradebook.schemas import PRAIRIELEARN
-from tests.gradebook.texts import hostile_entry
-from tests.gradebook.texts import texts
+from tests.gradebook.texts import hostile_entry, texts
 from tests.report import samples
 from tests.site import classes
 

@@ -6,10 +6,7 @@ import dataclasses
 
 from hypothesis import strategies as st
 
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
+from grader.batch.model import ClassResult, Entry, Override, Student
 from tests.report import samples
 from tests.site import classes
 

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from grader.ros.prefix import Ros
-from tests.lab.kinds import Kind
-from tests.lab.kinds import open_kind
+from tests.lab.kinds import Kind, open_kind
 
 IMAGES = ("lab-jazzy", "lab-jazzy-wheels")
 

@@ -13,9 +13,7 @@ import docker
 import pytest
 
 from grader.sandbox.execs import Frames
-from lab.exec_stream import STDERR
-from lab.exec_stream import STDOUT
-from lab.exec_stream import ExecStream
+from lab.exec_stream import STDERR, STDOUT, ExecStream
 
 
 class _Daemon(socketserver.StreamRequestHandler):

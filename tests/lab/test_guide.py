@@ -16,10 +16,7 @@ from lab.guide import progress as steps
 from lab.guide.lesson import read_lesson
 from tests import stage
 from tests.lab.walk import NODE
-from tests.lab.workspaces import PACKAGE
-from tests.lab.workspaces import SETUP
-from tests.lab.workspaces import after_step
-from tests.lab.workspaces import put
+from tests.lab.workspaces import PACKAGE, SETUP, after_step, put
 
 COURSE = stage.ROOT / "lab/course/hello_time"
 LESSON = read_lesson(COURSE / "lesson.md", distro="jazzy")

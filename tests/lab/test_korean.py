@@ -11,17 +11,13 @@ import pytest
 
 from grader.base.i18n.translator import LANGUAGES
 from grader.ros.prefix import Ros
-from lab.guide.lesson import lesson_file
-from lab.guide.lesson import read_lesson
+from lab.guide.lesson import lesson_file, read_lesson
 from tests import stage
 from tests.lab.kinds import Kind
-from tests.lab.screen import Lab
-from tests.lab.screen import command
-from tests.lab.screen import environment
+from tests.lab.screen import Lab, command, environment
 from tests.lab.visits import run
 from tests.lab.walk import NODE
-from tests.lab.workspaces import after_step
-from tests.lab.workspaces import put
+from tests.lab.workspaces import after_step, put
 
 COURSE = stage.ROOT / "lab/course/hello_time"
 WORDS = stage.ROOT / "lab/shell/words"

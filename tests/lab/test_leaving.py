@@ -14,17 +14,9 @@ import pytest
 
 from grader.sandbox.processes import adopt_orphans
 from tests import stage
-from tests.lab.kinds import Kind
-from tests.lab.kinds import containers
-from tests.lab.screen import PROMPT
-from tests.lab.screen import Lab
-from tests.lab.screen import command
-from tests.lab.screen import environment
-from tests.lab.visits import SLOW
-from tests.lab.visits import alive
-from tests.lab.visits import run
-from tests.lab.visits import start
-from tests.lab.visits import until
+from tests.lab.kinds import Kind, containers
+from tests.lab.screen import PROMPT, Lab, command, environment
+from tests.lab.visits import SLOW, alive, run, start, until
 
 
 def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:

@@ -14,9 +14,7 @@ from grader.ros.prefix import Ros
 from tests import stage
 from tests.lab import walk
 from tests.lab.kinds import Kind
-from tests.lab.screen import Lab
-from tests.lab.screen import command
-from tests.lab.screen import environment
+from tests.lab.screen import Lab, command, environment
 from tests.lab.workspaces import open_to_all
 
 NO_DAEMON = {"DOCKER_HOST": "unix:///nonexistent/docker.sock"}

@@ -10,14 +10,8 @@ import pexpect
 
 from tests import stage
 from tests.lab.kinds import Kind
-from tests.lab.screen import Lab
-from tests.lab.screen import command
-from tests.lab.screen import environment
-from tests.lab.screen import new_domain
-from tests.lab.visits import SLOW
-from tests.lab.visits import has_the_terminal
-from tests.lab.visits import start
-from tests.lab.visits import until
+from tests.lab.screen import Lab, command, environment, new_domain
+from tests.lab.visits import SLOW, has_the_terminal, start, until
 
 NODE = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('talker'))"
 SEEN = "timeout 60 bash -c 'until ros2 node list | grep -x /talker; do :; done'"

@@ -11,9 +11,7 @@ from pathlib import Path
 from grader.sandbox.processes import stat_fields
 from tests import stage
 from tests.lab.kinds import Kind
-from tests.lab.screen import Lab
-from tests.lab.screen import command
-from tests.lab.screen import environment
+from tests.lab.screen import Lab, command, environment
 
 SLOW = 90  # seconds
 

@@ -10,8 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from grader.base.i18n.translator import Translator
-from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.catalogue import RANK
+from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.from_source import LOOKS
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address

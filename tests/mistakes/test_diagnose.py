@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
@@ -17,17 +15,13 @@ from grader.mistakes.from_source import LOOKS
 from grader.mistakes.wanted import words_of
 from grader.package.source.node import MOST_BYTES
 from grader.package.submission import Submission
-from grader.report.model import CheckResult
-from grader.report.model import Where
+from grader.report.model import CheckResult, Where
 from grader.run.run import Run
 from grader.verdict.checks import source
-from grader.verdict.diagnose import Diagnosis
-from grader.verdict.diagnose import diagnose
+from grader.verdict.diagnose import Diagnosis, diagnose
 from grader.verdict.outcome import Failed
 from tests.corpus.build import SOLUTION
-from tests.static_bench import ASSIGNMENT
-from tests.static_bench import NODE
-from tests.static_bench import Bench
+from tests.static_bench import ASSIGNMENT, NODE, Bench
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

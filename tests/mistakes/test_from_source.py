@@ -5,19 +5,16 @@ from __future__ import annotations
 import textwrap
 
 import pytest
-from hypothesis import given
-from hypothesis import settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.from_source import LOOKS
-from grader.mistakes.from_traceback import RECOGNISERS
-from grader.mistakes.from_traceback import recognise
+from grader.mistakes.from_traceback import RECOGNISERS, recognise
 from grader.mistakes.kind import Finding
 from grader.mistakes.raised import Raised
 from grader.mistakes.suspect import Suspect
-from grader.package.source.node import MOST_BYTES
-from grader.package.source.node import read_node
+from grader.package.source.node import MOST_BYTES, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE

@@ -9,18 +9,15 @@ import pytest
 from rich.cells import cell_len
 
 from grader.report import events
-from grader.report.model import CheckResult
-from grader.report.model import Report
+from grader.report.model import CheckResult, Report
 from grader.report.terminal import render_report
 from grader.ros.distro import find_distro
-from grader.verdict.mark import Order
-from grader.verdict.mark import grade
+from grader.verdict.mark import Order, grade
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.report.samples import report as sample_report
-from tests.test_verdicts import ASSIGNMENT
-from tests.test_verdicts import LIMITS
+from tests.test_verdicts import ASSIGNMENT, LIMITS
 
 # one of each kind of mistake: handed in, manifest, setup.py, source, build, start, callback, text
 NAMES = ("only_the_node", "manifest_other_name", "comma_missing", "super_missing", "f_prefix_missing",

@@ -7,11 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.base.i18n.translator import Translator
-from grader.base.nearest import compared
-from grader.base.nearest import marks
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
+from grader.base.nearest import compared, marks, meant, nearest, with_difference
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import msg
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import chosen_language
+from grader.base.i18n.message import Message, joined, msg, say
+from grader.base.i18n.translator import Translator, chosen_language
 
 DICTIONARY = {"a cat {what}": "eine Katze {what}", "in {place}": "in {place} drin", "red": "rot"}
 

@@ -16,8 +16,7 @@ from babel.messages.extract import extract_from_file
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import LANGUAGES
 from grader.cli import update_translations as update
-from grader.cli.localized import CLICK
-from grader.cli.localized import CLICK_COUNTED
+from grader.cli.localized import CLICK, CLICK_COUNTED
 from tests.stage import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]

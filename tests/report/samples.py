@@ -5,10 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from grader.report.model import CheckResult
-from grader.report.model import Mistake
-from grader.report.model import Report
-from grader.report.model import Where
+from grader.report.model import CheckResult, Mistake, Report, Where
 
 TITLES = {
     "package.found": ("The package is there", 5),

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.report.terminal import print_matrix
-from grader.report.terminal import print_report
+from grader.report.terminal import print_matrix, print_report
 from tests.report.samples import failing_report
 
 

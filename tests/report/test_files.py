@@ -15,14 +15,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.report.files import report_json
-from grader.report.files import write_matrix
-from grader.report.files import write_report
+from grader.report.files import report_json, write_matrix, write_report
 from grader.report.model import Report
-from tests.report.samples import check
-from tests.report.samples import failing_report
-from tests.report.samples import of
-from tests.report.samples import report
+from tests.report.samples import check, failing_report, of, report
 
 
 def suffix(path: str | Path) -> str:

@@ -17,12 +17,9 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import SurroundingsError
-from grader.report.files import report_json
-from grader.report.files import write_matrix
-from grader.report.files import write_report
+from grader.report.files import report_json, write_matrix, write_report
 from grader.report.model import Report
-from tests.report.samples import of
-from tests.report.samples import report
+from tests.report.samples import of, report
 
 KILLS = 60
 PADDING = 300_000  # characters, so that a write takes more than one block

@@ -9,19 +9,10 @@ import sys
 import pexpect
 import pytest
 
-from grader.base.gate import Gate
-from grader.base.gate import behind
-from grader.base.gate import bytes_of
-from grader.base.gate import gate
-from grader.base.gate import gated_output
-from grader.base.plain_text import LONGEST_LINE
-from grader.base.plain_text import MOST_LINES
-from grader.base.plain_text import bounded
-from tests.report.stage import ROOT
-from tests.report.stage import environment
-from tests.report.stage import on_a_terminal
-from tests.report.test_hostile import HOSTILE
-from tests.report.test_hostile import unfit
+from grader.base.gate import Gate, behind, bytes_of, gate, gated_output
+from grader.base.plain_text import LONGEST_LINE, MOST_LINES, bounded
+from tests.report.stage import ROOT, environment, on_a_terminal
+from tests.report.test_hostile import HOSTILE, unfit
 
 WAYS = {
     "print": 0,

@@ -8,19 +8,13 @@ import unicodedata
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import settings
-from hypothesis import strategies
+from hypothesis import given, settings, strategies
 from rich.cells import cell_len
 
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import visible
+from grader.base.plain_text import first_lines, one_line, visible
 from grader.report.model import Report
-from grader.report.terminal import render_matrix
-from grader.report.terminal import render_report
-from tests.report.samples import check
-from tests.report.samples import report
+from grader.report.terminal import render_matrix, render_report
+from tests.report.samples import check, report
 
 OUR_STYLES = re.compile(r"\x1b\[[0-9;]*m")
 SURVIVING = ("\n",)

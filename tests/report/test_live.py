@@ -12,18 +12,10 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from grader.report.events import Event
-from grader.report.events import Note
-from grader.report.events import StageStarted
-from grader.report.events import to_all
+from grader.report.events import Event, Note, StageStarted, to_all
 from grader.report.terminal import LiveProgress
 from tests import stage
-from tests.report.stage import ROOT
-from tests.report.stage import SECONDS
-from tests.report.stage import STYLES
-from tests.report.stage import environment
-from tests.report.stage import on_a_terminal
-from tests.report.stage import piped
+from tests.report.stage import ROOT, SECONDS, STYLES, environment, on_a_terminal, piped
 
 CURSOR_HIDDEN, CURSOR_SHOWN = "\x1b[?25l", "\x1b[?25h"
 STAGES = "building with colcon ...\nrunning the node ...\n"

@@ -7,14 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.report.model import CheckResult
-from grader.report.model import Report
+from grader.report.model import CheckResult, Report
 from grader.report.terminal import render_matrix
-from tests.report.samples import TITLES
-from tests.report.samples import check
-from tests.report.samples import failing_report
-from tests.report.samples import misspelt_module
-from tests.report.samples import report
+from tests.report.samples import TITLES, check, failing_report, misspelt_module, report
 
 DISTROS = ["humble", "jazzy", "kilted", "lyrical", "rolling"]
 

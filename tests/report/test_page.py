@@ -9,12 +9,7 @@ import pytest
 
 from grader.report.page import Page
 from grader.report.terminal import render_report
-from tests.report.samples import COMMAND
-from tests.report.samples import TITLES
-from tests.report.samples import check
-from tests.report.samples import failing_report
-from tests.report.samples import misspelt_module
-from tests.report.samples import report
+from tests.report.samples import COMMAND, TITLES, check, failing_report, misspelt_module, report
 
 
 def words(text: str) -> str:

@@ -13,11 +13,8 @@ import jsonschema
 import pytest
 
 from grader.report.files import report_json
-from grader.report.schema import PATH
-from grader.report.schema import schema_text
-from tests.report.samples import check
-from tests.report.samples import failing_report
-from tests.report.samples import report
+from grader.report.schema import PATH, schema_text
+from tests.report.samples import check, failing_report, report
 
 SCHEMA = json.loads(PATH.read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)

@@ -11,14 +11,9 @@ import pexpect
 import pytest
 from rich.cells import cell_len
 
-from grader.report.terminal import print_report
-from grader.report.terminal import render_report
-from tests.report.samples import COMMAND
-from tests.report.samples import failing_report
-from tests.report.stage import ROOT
-from tests.report.stage import STYLES
-from tests.report.stage import on_a_terminal
-from tests.report.stage import piped
+from grader.report.terminal import print_report, render_report
+from tests.report.samples import COMMAND, failing_report
+from tests.report.stage import ROOT, STYLES, on_a_terminal, piped
 
 
 def shown(columns: int = 80, env: dict[str, str] | None = None) -> str:

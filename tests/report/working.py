@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import sys
 
-from grader.report.events import CheckFinished
-from grader.report.events import CheckStarted
-from grader.report.events import Event
-from grader.report.events import Note
-from grader.report.events import StageFinished
-from grader.report.events import StageStarted
-from grader.report.events import TickSeen
+from grader.report.events import (
+    CheckFinished,
+    CheckStarted,
+    Event,
+    Note,
+    StageFinished,
+    StageStarted,
+    TickSeen,
+)
 from grader.report.terminal import LiveProgress
-from tests.report.samples import TITLES
-from tests.report.samples import check
+from tests.report.samples import TITLES, check
 
 
 def events(words: list[str]) -> list[Event]:

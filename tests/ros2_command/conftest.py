@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from .surroundings import Surroundings
-from .surroundings import umask_of_a_student
+from .surroundings import Surroundings, umask_of_a_student
 
 
 @pytest.fixture(autouse=True)

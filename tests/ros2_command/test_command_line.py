@@ -6,8 +6,7 @@ import re
 
 import pytest
 
-from .surroundings import PACKAGE
-from .surroundings import Surroundings
+from .surroundings import PACKAGE, Surroundings
 
 ROOT_HELP = """\
 usage: ros2 [-h] [--use-python-default-buffering]

@@ -14,8 +14,7 @@ import pytest
 from grader.sandbox.processes import children_of
 from tests.stage import wait_until_asleep
 
-from .surroundings import Surroundings
-from .surroundings import files
+from .surroundings import Surroundings, files
 
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
 # Tells of each SIGINT and SIGTERM, and ends at SIGTERM

@@ -8,10 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from .surroundings import Surroundings
-from .surroundings import add_marker
-from .surroundings import files
-from .surroundings import write_script
+from .surroundings import Surroundings, add_marker, files, write_script
 
 LICENSES = {
     "Apache-2.0": 11358,

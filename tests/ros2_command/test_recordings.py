@@ -18,10 +18,7 @@ import pytest
 from grader.sandbox.processes import children_of
 from tests.stage import wait_until_asleep
 
-from .surroundings import Surroundings
-from .surroundings import files
-from .surroundings import running
-from .surroundings import without_places
+from .surroundings import Surroundings, files, running, without_places
 
 CASES: list[dict[str, Any]] = json.loads(
     (Path(__file__).parents[1] / "recordings" / "ros2cli-jazzy.json").read_text()

@@ -7,9 +7,7 @@ import signal
 
 import pytest
 
-from .surroundings import Surroundings
-from .surroundings import add_marker
-from .surroundings import write_script
+from .surroundings import Surroundings, add_marker, write_script
 
 SAY_WHERE = '#!/bin/sh\necho "$0" "$@"\n'
 

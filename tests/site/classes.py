@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
-from collections.abc import Sequence
-from datetime import datetime
-from datetime import timedelta
-from datetime import timezone
+from collections.abc import Mapping, Sequence
+from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
+from grader.batch.model import ClassResult, Entry, Override, Student
 from grader.course.assignment import load_assignment
-from grader.report.model import CheckResult
-from grader.report.model import Report
+from grader.report.model import CheckResult, Report
 from grader.ros.distro import find_distro
-from grader.verdict.mark import Order
-from grader.verdict.mark import grade
+from grader.verdict.mark import Order, grade
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT

@@ -8,8 +8,7 @@ import pytest
 
 from grader.publish.pages import write_site
 from grader.report.model import Report
-from tests.site import axe
-from tests.site import classes
+from tests.site import axe, classes
 
 
 @pytest.fixture(scope="session")

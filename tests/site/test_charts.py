@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies
+from hypothesis import given, strategies
 
-from grader.publish.pages.charts import LANES
-from grader.publish.pages.charts import WIDTH
-from grader.publish.pages.charts import histogram
-from grader.publish.pages.charts import timeline
+from grader.publish.pages.charts import LANES, WIDTH, histogram, timeline
 from grader.publish.pages.overview import Bin
-from grader.report.model import Observed
-from grader.report.model import Tick
+from grader.report.model import Observed, Tick
 
 
 def virtual(*instants: float, due: tuple[float, ...] = (), period: float | None = 1.0) -> Observed:

@@ -8,10 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.model import Student
+from grader.batch.model import ClassResult, Entry, Override, Student
 from grader.publish.pages import write_site
 from grader.publish.pages.names import page_names
 from tests.report.samples import failing_report

@@ -8,12 +8,9 @@ import pytest
 
 from grader.batch.model import Entry
 from grader.publish.pages import overview
-from grader.report.model import Mistake
-from grader.report.model import Timing
-from tests.report.samples import check
-from tests.report.samples import report
-from tests.site.classes import entry
-from tests.site.classes import result
+from grader.report.model import Mistake, Timing
+from tests.report.samples import check, report
+from tests.site.classes import entry, result
 
 TEXT = [Mistake(id="run.wrong_text")]
 

@@ -9,8 +9,7 @@ from playwright.sync_api import expect
 
 from grader.batch.model import Student
 from grader.publish.pages import write_site
-from grader.report.model import Evidence
-from grader.report.model import Report
+from grader.report.model import Evidence, Report
 from tests.report.samples import failing_report
 from tests.site import classes
 from tests.site.axe import violations

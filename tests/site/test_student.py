@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 
 from grader.batch.model import Override
-from grader.batch.words import duration
-from grader.batch.words import instant
+from grader.batch.words import duration, instant
 from grader.publish.pages.student import student_view
-from tests.report.samples import check
-from tests.report.samples import failing_report
-from tests.report.samples import report
+from tests.report.samples import check, failing_report, report
 from tests.site.classes import entry
 
 AT = datetime(2026, 11, 20, 22, 30, tzinfo=timezone.utc)

@@ -14,8 +14,7 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.publish.pages import write_site
 from grader.report.model import Report
-from tests.report.samples import failing_report
-from tests.report.samples import report
+from tests.report.samples import failing_report, report
 from tests.site import classes
 
 

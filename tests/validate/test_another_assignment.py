@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from tests import stage
-from tests.test_another_course import write_assignment
-from tests.test_another_course import write_solution
+from tests.test_another_course import write_assignment, write_solution
 
 MUTANTS = """\
 schema: 1

@@ -11,8 +11,7 @@ from grader.course.find import KEYS
 from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code
-from grader.validate.tree import digest
-from grader.validate.tree import read_tree
+from grader.validate.tree import digest, read_tree
 from tests.stage import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")

@@ -8,14 +8,8 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.validate.named import Written
-from grader.validate.named import read_mutants
-from grader.validate.tree import Chmod
-from grader.validate.tree import Copy
-from grader.validate.tree import Delete
-from grader.validate.tree import Move
-from grader.validate.tree import Replace
-from grader.validate.tree import Write
+from grader.validate.named import Written, read_mutants
+from grader.validate.tree import Chmod, Copy, Delete, Move, Replace, Write
 
 CHECKS = ("package.found", "source.exec_bit")
 MISTAKES = ("package.empty", "source.not_executable")

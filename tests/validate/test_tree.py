@@ -6,23 +6,25 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Chmod
-from grader.validate.tree import Copy
-from grader.validate.tree import Crlf
-from grader.validate.tree import Delete
-from grader.validate.tree import Edit
-from grader.validate.tree import EditError
-from grader.validate.tree import Entry
-from grader.validate.tree import Link
-from grader.validate.tree import Move
-from grader.validate.tree import Nest
-from grader.validate.tree import Replace
-from grader.validate.tree import Tree
-from grader.validate.tree import Write
-from grader.validate.tree import apply_all
-from grader.validate.tree import digest
-from grader.validate.tree import read_tree
-from grader.validate.tree import write_tree
+from grader.validate.tree import (
+    Chmod,
+    Copy,
+    Crlf,
+    Delete,
+    Edit,
+    EditError,
+    Entry,
+    Link,
+    Move,
+    Nest,
+    Replace,
+    Tree,
+    Write,
+    apply_all,
+    digest,
+    read_tree,
+    write_tree,
+)
 
 TREE: Tree = {
     "a.py": Entry(b"#!x\none two\n", 0o755),

@@ -7,8 +7,7 @@ it is English, so it can be used like any string.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 Translate = Callable[[str], str]
 Value = str | int | float

@@ -6,8 +6,7 @@ import contextlib
 import functools
 import gettext
 import os
-from collections.abc import Iterator
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from grader.base.errors import GraderError

@@ -12,8 +12,7 @@ from pathlib import Path
 from grader.base.errors import SurroundingsError
 from grader.base.shown import shown
 from grader.package.intake.archive_limits import ArchiveLimits
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import open_file
+from grader.package.intake.reading import Unread, open_file
 
 MOST_FILES = 1_000  # of one student; the rest is not copied
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from typing import Protocol
-from typing import cast
-from typing import get_args
+from typing import Protocol, cast, get_args
 
 from grader.base.errors import UsageError
 from grader.base.shown import shown
@@ -14,9 +12,7 @@ from grader.batch.systems import plain
 from grader.batch.systems.canvas import read as canvas
 from grader.batch.systems.github_classroom import read as github_classroom
 from grader.batch.systems.gradescope import read as gradescope
-from grader.batch.systems.layout import Layout
-from grader.batch.systems.layout import Read
-from grader.batch.systems.layout import Reading
+from grader.batch.systems.layout import Layout, Read, Reading
 from grader.batch.systems.moodle import read as moodle
 
 

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from collections.abc import Iterable
-from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -15,13 +12,9 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.batch.model import HandedIn
-from grader.batch.systems.words import Notes
-from grader.batch.systems.words import plain
-from grader.package.intake.archive_kind import HEAD
-from grader.package.intake.archive_kind import is_named_archive
-from grader.package.intake.archive_kind import kind_of
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import open_file
+from grader.batch.systems.words import Notes, plain
+from grader.package.intake.archive_kind import HEAD, is_named_archive, kind_of
+from grader.package.intake.reading import Unread, open_file
 
 Kind = Literal["folder", "archive", "file"]
 

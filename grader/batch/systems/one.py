@@ -6,12 +6,10 @@ import os
 import re
 from pathlib import Path
 
-from grader.batch.systems.layout import Item
-from grader.batch.systems.layout import Layout
+from grader.batch.systems.layout import Item, Layout
 from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.artefacts import COLCON
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import read_bytes
+from grader.package.intake.reading import Unread, read_bytes
 
 DEEPEST = 3  # how far below a student's folder a package is looked for
 MOST_NAMES = 500

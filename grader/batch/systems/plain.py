@@ -6,13 +6,8 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from grader.batch.model import HandedIn
-from grader.batch.model import Student
-from grader.batch.systems.layout import NO_SUBMISSION
-from grader.batch.systems.layout import Item
-from grader.batch.systems.layout import Layout
-from grader.batch.systems.layout import Read
-from grader.batch.systems.layout import Reading
+from grader.batch.model import HandedIn, Student
+from grader.batch.systems.layout import NO_SUBMISSION, Item, Layout, Read, Reading
 from grader.batch.systems.words import plain
 from grader.package.intake.archive_kind import without_ending
 

@@ -8,21 +8,12 @@ import re
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.setup_call import FILE
-from grader.mistakes.fixes.setup_call import read_setup_call
+from grader.mistakes.fixes.setup_call import FILE, read_setup_call
 from grader.package.edit.files import Files
-from grader.package.edit.text import SourceText
-from grader.package.edit.text import Splice
-from grader.package.edit.text import read_source
-from grader.package.edit.text import read_text
-from grader.package.source.entry_points import Entry
-from grader.package.source.entry_points import EntryPoints
-from grader.package.source.entry_points import from_setup_cfg
-from grader.package.source.entry_points import from_setup_py
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
-from grader.package.source.setup_cfg import SetupCfgFault
-from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.edit.text import SourceText, Splice, read_source, read_text
+from grader.package.source.entry_points import Entry, EntryPoints, from_setup_cfg, from_setup_py
+from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import read_setup_py
 
 GROUP = "console_scripts"

@@ -6,12 +6,8 @@ import re
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import BOM
-from grader.package.edit.text import MOST_BYTES
-from grader.package.edit.text import read_source
-from grader.package.source.python import SHEBANG
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
+from grader.package.edit.text import BOM, MOST_BYTES, read_source
+from grader.package.source.python import SHEBANG, PythonFault, parse_python
 
 SCRIPT = re.compile(r"[#!\s]*(?:/|\b)(?:usr/|bin/|env\b)[\w/ .-]*python[\d.]*\s*", re.IGNORECASE)
 LATE = 20

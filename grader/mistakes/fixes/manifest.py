@@ -9,8 +9,7 @@ from xml.parsers import expat
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.source.manifest import DEPENDS
-from grader.package.source.manifest import MOST_BYTES
+from grader.package.source.manifest import DEPENDS, MOST_BYTES
 
 FILE = "package.xml"
 TYPE = b"<build_type>ament_python</build_type>"

@@ -8,11 +8,8 @@ from dataclasses import dataclass
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import SourceText
-from grader.package.edit.text import Splice
-from grader.package.edit.text import read_source
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
+from grader.package.edit.text import SourceText, Splice, read_source
+from grader.package.source.python import PythonFault, parse_python
 
 LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
 

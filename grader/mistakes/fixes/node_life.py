@@ -5,13 +5,9 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode
-from grader.mistakes.fixes.node_code import own
-from grader.mistakes.fixes.node_code import plain_text
-from grader.mistakes.fixes.node_code import read_node
+from grader.mistakes.fixes.node_code import NodeCode, own, plain_text, read_node
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
-from grader.package.edit.text import indent_of
+from grader.package.edit.text import Splice, indent_of
 
 IMPORT = "from rclpy.node import Node"
 

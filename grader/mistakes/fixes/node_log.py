@@ -7,11 +7,7 @@ import difflib
 import re
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode
-from grader.mistakes.fixes.node_code import called
-from grader.mistakes.fixes.node_code import own
-from grader.mistakes.fixes.node_code import plain_text
-from grader.mistakes.fixes.node_code import read_node
+from grader.mistakes.fixes.node_code import NodeCode, called, own, plain_text, read_node
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 

@@ -6,12 +6,8 @@ import ast
 from dataclasses import dataclass
 
 from grader.mistakes.fixes.case import Case
-from grader.package.edit.text import SourceText
-from grader.package.edit.text import Splice
-from grader.package.edit.text import indent_of
-from grader.package.edit.text import read_source
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
+from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.setup_py import is_setup_call
 
 FILE = "setup.py"

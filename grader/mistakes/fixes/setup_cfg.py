@@ -7,13 +7,8 @@ import re
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import SourceText
-from grader.package.edit.text import Splice
-from grader.package.edit.text import indent_of
-from grader.package.edit.text import read_text
-from grader.package.source.setup_cfg import SetupCfg
-from grader.package.source.setup_cfg import SetupCfgFault
-from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.edit.text import SourceText, Splice, indent_of, read_text
+from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_cfg
 
 FILE = "setup.cfg"
 KEYS = {"develop": "script_dir", "install": "install_scripts"}

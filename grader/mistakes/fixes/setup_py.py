@@ -6,9 +6,7 @@ import ast
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.setup_call import FILE
-from grader.mistakes.fixes.setup_call import SetupCall
-from grader.mistakes.fixes.setup_call import read_setup_call
+from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.setup_py import INDEX

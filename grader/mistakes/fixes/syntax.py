@@ -6,12 +6,8 @@ import re
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import SourceText
-from grader.package.edit.text import Splice
-from grader.package.edit.text import indent_of
-from grader.package.edit.text import read_source
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
+from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.source.python import PythonFault, parse_python
 
 TAB_WIDTHS = (2, 4, 8)
 TRIES = 3

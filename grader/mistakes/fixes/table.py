@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from grader.mistakes.fixes import entries
-from grader.mistakes.fixes import first_line
-from grader.mistakes.fixes import layout
-from grader.mistakes.fixes import manifest
-from grader.mistakes.fixes import node_count
-from grader.mistakes.fixes import node_life
-from grader.mistakes.fixes import node_log
-from grader.mistakes.fixes import node_names
-from grader.mistakes.fixes import node_timer
-from grader.mistakes.fixes import setup_cfg
-from grader.mistakes.fixes import setup_py
-from grader.mistakes.fixes import syntax
-from grader.mistakes.fixes.case import Finding
-from grader.mistakes.fixes.case import Fix
+from grader.mistakes.fixes import (
+    entries,
+    first_line,
+    layout,
+    manifest,
+    node_count,
+    node_life,
+    node_log,
+    node_names,
+    node_timer,
+    setup_cfg,
+    setup_py,
+    syntax,
+)
+from grader.mistakes.fixes.case import Finding, Fix
 
 STATIC: dict[str, tuple[Fix, ...]] = {
     "package.manifest": (

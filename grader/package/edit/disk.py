@@ -12,14 +12,12 @@ import errno
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile

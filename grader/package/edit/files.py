@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from dataclasses import field
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from grader.package.intake.links import follow
-from grader.package.intake.model import SourceFile
-from grader.package.intake.model import Submission
+from grader.package.intake.model import SourceFile, Submission
 
 PLAIN, EXECUTABLE = 0o644, 0o755
 

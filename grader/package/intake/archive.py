@@ -6,34 +6,21 @@ from __future__ import annotations
 
 import io
 import unicodedata
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import IO
-from typing import Literal
+from typing import IO, Literal
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import say
-from grader.package.intake.archive_kind import HEAD
-from grader.package.intake.archive_kind import Kind
-from grader.package.intake.archive_kind import kind_of
-from grader.package.intake.archive_kind import without_ending
+from grader.package.intake.archive_kind import HEAD, Kind, kind_of, without_ending
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_member import Member
-from grader.package.intake.archive_member import inside
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import corrupt
-from grader.package.intake.archive_problems import empty
-from grader.package.intake.archive_problems import unsafe
-from grader.package.intake.archive_problems import unsupported
+from grader.package.intake.archive_member import Member, inside
+from grader.package.intake.archive_problems import ArchiveError, corrupt, empty, unsafe, unsupported
 from grader.package.intake.archive_tar import read_tar
 from grader.package.intake.archive_zip import read_zip
 from grader.package.intake.artefacts import FOLDERS
-from grader.package.intake.place import Entry
-from grader.package.intake.place import not_a_folder
-from grader.package.intake.place import not_there
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import larger_than
+from grader.package.intake.place import Entry, not_a_folder, not_there
+from grader.package.intake.reading import Unread, larger_than
 
 TWICE = say("twice in the archive: the last one was used")
 BELOW_FILE = say("left out, as it is below a name that is not a folder")

@@ -6,9 +6,7 @@ import time
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import bomb
-from grader.package.intake.archive_problems import too_large
+from grader.package.intake.archive_problems import ArchiveError, bomb, too_large
 from grader.package.intake.reading import MEGABYTE
 
 

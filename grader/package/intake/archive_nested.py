@@ -5,30 +5,19 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import islice
-from typing import IO
-from typing import Literal
+from typing import IO, Literal
 
-from grader.package.intake.archive import Archive
-from grader.package.intake.archive import read_archive
-from grader.package.intake.archive_kind import HEAD
-from grader.package.intake.archive_kind import Kind
-from grader.package.intake.archive_kind import is_named_archive
-from grader.package.intake.archive_kind import kind_of
+from grader.package.intake.archive import Archive, read_archive
+from grader.package.intake.archive_kind import HEAD, Kind, is_named_archive, kind_of
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import corrupt
-from grader.package.intake.archive_problems import too_deep
+from grader.package.intake.archive_problems import ArchiveError, corrupt, too_deep
 from grader.package.intake.choose import find_candidates
-from grader.package.intake.place import Entry
-from grader.package.intake.place import Place
+from grader.package.intake.place import Entry, Place
 from grader.package.intake.problems import Problem
 from grader.package.intake.reading import Unread
-from grader.package.intake.tree import Tree
-from grader.package.intake.tree import ancestors
-from grader.package.intake.tree import look
+from grader.package.intake.tree import Tree, ancestors, look
 
 MOST_TRIED = 50
 """How many files are tested for being archives."""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, say
 from grader.base.shown import shown
 from grader.package.intake.problems import Problem
 

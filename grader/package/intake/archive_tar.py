@@ -9,21 +9,15 @@ import lzma
 import tarfile
 import tempfile
 from collections.abc import Iterator
-from datetime import datetime
-from datetime import timezone
+from datetime import datetime, timezone
 from typing import IO
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
-from grader.package.intake.archive_kind import HEAD
-from grader.package.intake.archive_kind import Packing
-from grader.package.intake.archive_kind import is_tar
+from grader.package.intake.archive_kind import HEAD, Packing, is_tar
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_member import CHUNK
-from grader.package.intake.archive_member import Member
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import corrupt
-from grader.package.intake.archive_problems import unsupported
+from grader.package.intake.archive_member import CHUNK, Member
+from grader.package.intake.archive_problems import ArchiveError, corrupt, unsupported
 
 IN_MEMORY = 8_000_000  # bytes; larger unpacked data goes to an unnamed file on disk
 XZ_MEMORY = 100_000_000  # bytes; xz -9 needs 65 MB

@@ -12,12 +12,8 @@ from typing import IO
 
 from grader.base.i18n.message import say
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_member import CHUNK
-from grader.package.intake.archive_member import Member
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import encrypted
-from grader.package.intake.archive_problems import too_large
-from grader.package.intake.archive_problems import unsupported
+from grader.package.intake.archive_member import CHUNK, Member
+from grader.package.intake.archive_problems import ArchiveError, encrypted, too_large, unsupported
 
 UNIX = (3, 19)  # "version made by": Unix, and macOS (APPNOTE 4.4.2)
 ENCRYPTED, UTF8 = 0x1, 0x800  # general purpose flags (APPNOTE 4.4.4)

@@ -8,14 +8,9 @@ from dataclasses import dataclass
 from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.package.intake.model import Candidate
-from grader.package.intake.problems import Problem
-from grader.package.intake.problems import duplicate
-from grader.package.intake.problems import no_package
+from grader.package.intake.problems import Problem, duplicate, no_package
 from grader.package.intake.reading import Unread
-from grader.package.intake.tree import Tree
-from grader.package.intake.tree import ancestors
-from grader.package.intake.tree import join
-from grader.package.intake.tree import parent
+from grader.package.intake.tree import Tree, ancestors, join, parent
 from grader.package.source.manifest import name_in
 from grader.package.source.setup_py import literal_name
 

@@ -8,10 +8,8 @@ from grader.base.i18n.message import say
 from grader.package.intake.links import follow
 from grader.package.intake.model import SourceFile
 from grader.package.intake.place import Entry
-from grader.package.intake.reading import MEGABYTE
-from grader.package.intake.reading import Unread
-from grader.package.intake.tree import LEADS_OUT
-from grader.package.intake.tree import Tree
+from grader.package.intake.reading import MEGABYTE, Unread
+from grader.package.intake.tree import LEADS_OUT, Tree
 
 MOST_FILES = 5_000
 """How many files and folders a package may have."""

@@ -11,16 +11,11 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.package.intake.archive import read_archive
-from grader.package.intake.archive_kind import HEAD
-from grader.package.intake.archive_kind import is_named_archive
-from grader.package.intake.archive_kind import kind_of
+from grader.package.intake.archive_kind import HEAD, is_named_archive, kind_of
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_problems import ArchiveError
-from grader.package.intake.archive_problems import no_archive
-from grader.package.intake.place import Folder
-from grader.package.intake.place import Place
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import open_file
+from grader.package.intake.archive_problems import ArchiveError, no_archive
+from grader.package.intake.place import Folder, Place
+from grader.package.intake.reading import Unread, open_file
 
 CHUNK = 1_000_000
 

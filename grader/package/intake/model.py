@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from grader.package.intake.links import follow
-from grader.report.model import Modes
-from grader.report.model import Origin
+from grader.report.model import Modes, Origin
 
 
 @dataclass(frozen=True)

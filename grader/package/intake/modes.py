@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Callable
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import read_bytes
+from grader.package.intake.reading import Unread, read_bytes
 
 MOUNTS = Path("/proc/self/mountinfo")
 NO_MODES = frozenset(

@@ -7,18 +7,13 @@ from __future__ import annotations
 import errno
 import os
 import stat
-from collections.abc import Iterable
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
-from typing import Literal
-from typing import Protocol
+from typing import IO, Literal, Protocol
 
 from grader.package.intake.modes import keeps_modes
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import open_file
-from grader.package.intake.reading import read_bytes
+from grader.package.intake.reading import Unread, open_file, read_bytes
 
 
 @dataclass(frozen=True)

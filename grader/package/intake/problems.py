@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
-from grader.package.intake.tree import MADE_BY_TOOLS
-from grader.package.intake.tree import Tree
+from grader.package.intake.tree import MADE_BY_TOOLS, Tree
 
 ARCHIVE = re.compile(r".*\.(?:zip|tar|tgz|tar\.\w{2,3}|7z|rar)", re.IGNORECASE)
 NEAR_NAME = re.compile(r"package\.xml\.\w{1,10}|setup\.py\.\w{1,10}|package\.xml|setup\.py", re.I)

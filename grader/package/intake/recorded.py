@@ -6,12 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from grader.package.intake.model import SourceFile
-from grader.package.intake.modes import git_ignores_modes
-from grader.package.intake.modes import git_modes
+from grader.package.intake.modes import git_ignores_modes, git_modes
 from grader.package.intake.reading import Unread
-from grader.package.intake.tree import Tree
-from grader.package.intake.tree import ancestors
-from grader.package.intake.tree import join
+from grader.package.intake.tree import Tree, ancestors, join
 from grader.report.model import Modes
 
 

@@ -4,19 +4,13 @@ from __future__ import annotations
 
 import unicodedata
 from collections import deque
-from dataclasses import dataclass
-from dataclasses import field
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from grader.base.i18n.message import say
 from grader.base.shown import LeftOut
-from grader.package.intake.artefacts import COLCON
-from grader.package.intake.artefacts import is_colcon_artefact
-from grader.package.intake.artefacts import is_tool_file
-from grader.package.intake.artefacts import is_tool_folder
+from grader.package.intake.artefacts import COLCON, is_colcon_artefact, is_tool_file, is_tool_folder
 from grader.package.intake.links import follow
-from grader.package.intake.place import Entry
-from grader.package.intake.place import Place
+from grader.package.intake.place import Entry, Place
 
 MOST_LEVELS = 32
 """How many folders deep a submission is read."""

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from grader.package.source.setup_cfg import SetupCfg
 from grader.package.source.setup_py import SetupPy
-from grader.package.source.values import Listing
-from grader.package.source.values import Table
-from grader.package.source.values import Text
-from grader.package.source.values import Value
+from grader.package.source.values import Listing, Table, Text, Value
 
 # The form in which importlib.metadata.EntryPoint (Python 3.10 to 3.13) accepts an entry's value.
 TARGET = re.compile(r"[\w.]+\s{0,9}(:\s{0,9}[\w.]+\s{0,9})?(\[[^\]]*\]\s{0,9})?")

@@ -86,8 +86,7 @@ def read_manifest(found: bytes) -> Manifest:
 def _judge(found: bytes, warnings: list[str]) -> str:
     """Return why catkin_pkg rejects a manifest, on one line; empty if it does not."""
     # imported only when a package is graded: 43 ms of CPU time on top of pydantic's
-    from catkin_pkg.package import InvalidPackage  # noqa: PLC0415
-    from catkin_pkg.package import parse_package_string  # noqa: PLC0415
+    from catkin_pkg.package import InvalidPackage, parse_package_string  # noqa: PLC0415
 
     try:
         parse_package_string(found, warnings=warnings)

@@ -10,9 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from grader.package.source.python import PythonFault
-from grader.package.source.python import PythonFile
-from grader.package.source.python import parse_python
+from grader.package.source.python import PythonFault, PythonFile, parse_python
 
 LOG_METHODS = ("debug", "info", "warn", "warning", "error", "fatal")
 LONGEST_NAME = 20  # names, dots and calls; longer ones are ignored

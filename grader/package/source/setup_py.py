@@ -6,14 +6,8 @@ import ast
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
-from grader.package.source.python import PythonFault
-from grader.package.source.python import PythonFile
-from grader.package.source.python import parse_python
-from grader.package.source.values import Computed
-from grader.package.source.values import Evaluator
-from grader.package.source.values import Table
-from grader.package.source.values import Text
-from grader.package.source.values import Value
+from grader.package.source.python import PythonFault, PythonFile, parse_python
+from grader.package.source.values import Computed, Evaluator, Table, Text, Value
 
 INDEX = "share/ament_index/resource_index/packages"
 """The folder into which `data_files` installs the package's marker."""

@@ -13,8 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.publish.pages.overview import Bin
-from grader.report.model import Observed
-from grader.report.model import Tick
+from grader.report.model import Observed, Tick
 
 WIDTH = 400.0
 EDGE = 24.0  # margin at the ends of an axis

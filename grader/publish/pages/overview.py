@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.base.plain_text import one_line
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
+from grader.batch.model import ClassResult, Entry
 from grader.report.model import CheckResult
 
 BINS = 10

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.plain_text import points
-from grader.batch.model import Entry
-from grader.batch.model import Override
+from grader.batch.model import Entry, Override
 from grader.batch.points import in_points
-from grader.batch.words import duration
-from grader.batch.words import instant
+from grader.batch.words import duration, instant
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 

@@ -12,28 +12,15 @@ import base64
 import hashlib
 from pathlib import Path
 
-from jinja2 import Environment
-from jinja2 import FileSystemLoader
-from jinja2 import StrictUndefined
-from markupsafe import Markup
-from markupsafe import escape
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup, escape
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Translator
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
-from grader.base.plain_text import shorten
-from grader.base.plain_text import visible
+from grader.base.i18n.message import Message, say
+from grader.base.i18n.translator import SOURCE, Translator
+from grader.base.plain_text import one_line, points, shorten, visible
 from grader.batch.model import Student
-from grader.batch.words import SIGNS
-from grader.batch.words import STATES
-from grader.batch.words import duration
-from grader.batch.words import instant
-from grader.batch.words import plural
-from grader.report.blocks import WORDS
-from grader.report.blocks import all_of
+from grader.batch.words import SIGNS, STATES, duration, instant, plural
+from grader.report.blocks import WORDS, all_of
 from grader.report.report_page import hidden_checks
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"

@@ -6,21 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Translator
+from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines
-from grader.batch.model import Entry
-from grader.batch.model import Override
+from grader.batch.model import Entry, Override
 from grader.batch.words import instant
-from grader.publish.pages.charts import Timeline
-from grader.publish.pages.charts import timeline
+from grader.publish.pages.charts import Timeline, timeline
 from grader.publish.pages.overview import shown
 from grader.publish.pages.points_table import reckoning
-from grader.report.blocks import UNSEEN
-from grader.report.blocks import evidence_of
-from grader.report.blocks import roots
-from grader.report.model import CheckResult
-from grader.report.model import Report
+from grader.report.blocks import UNSEEN, evidence_of, roots
+from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
 
 FIELD_LINES, FIELD_CHARACTERS = 30, 1_000

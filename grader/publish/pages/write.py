@@ -9,12 +9,8 @@ from pathlib import Path
 
 from grader.base.folder import Folder
 from grader.base.plain_text import one_line
-from grader.batch.model import ClassResult
-from grader.batch.model import Entry
-from grader.batch.words import STATES
-from grader.batch.words import SYSTEMS
-from grader.batch.words import duration
-from grader.batch.words import instant
+from grader.batch.model import ClassResult, Entry
+from grader.batch.words import STATES, SYSTEMS, duration, instant
 from grader.publish.pages import overview
 from grader.publish.pages.charts import histogram
 from grader.publish.pages.names import page_names

@@ -9,10 +9,7 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 
-from .parsing import Parser
-from .parsing import add_commands
-from .parsing import first_word
-from .parsing import summary
+from .parsing import Parser, add_commands, first_word, summary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

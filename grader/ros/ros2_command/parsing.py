@@ -6,18 +6,13 @@ some texts differently.
 
 from __future__ import annotations
 
-from argparse import Action
-from argparse import ArgumentError
-from argparse import ArgumentParser
-from argparse import RawDescriptionHelpFormatter
+from argparse import Action, ArgumentError, ArgumentParser, RawDescriptionHelpFormatter
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` must be quick
-    from argparse import Namespace
-    from argparse import _SubParsersAction
+    from argparse import Namespace, _SubParsersAction
     from collections.abc import Iterable
-    from typing import Any
-    from typing import Protocol
+    from typing import Any, Protocol
 
     Result = int | str | None  # what sys.exit takes; a text goes to stderr with status 1
 

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from argparse import Namespace
     from types import FrameType
 
-    from .parsing import Parser
-    from .parsing import Result
+    from .parsing import Parser, Result
 
 
 def add_arguments(parser: Parser) -> None:

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-from grader.verdict.checks import build
-from grader.verdict.checks import counting
-from grader.verdict.checks import installed
-from grader.verdict.checks import package
-from grader.verdict.checks import source
-from grader.verdict.checks import starting
-from grader.verdict.checks import timing
+from grader.verdict.checks import build, counting, installed, package, source, starting, timing
 from grader.verdict.registry import Check
 
 CHECKS: dict[str, Check] = {

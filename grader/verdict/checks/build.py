@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.report.model import Where
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

@@ -4,18 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.nearest import compared
-from grader.verdict.checks.faults import flood
-from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.faults import node_file
-from grader.verdict.checks.faults import resource
-from grader.verdict.checks.faults import traceback_of
-from grader.verdict.checks.faults import words
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
+from grader.verdict.outcome import Blocked, Failed, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

@@ -5,15 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import say
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
+from grader.base.i18n.message import Message, say
+from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.source.entry_points import Entry
-from grader.package.source.entry_points import EntryPoints
+from grader.package.source.entry_points import Entry, EntryPoints
 from grader.report.model import Where
 from grader.verdict.checks.parsed import names_in
 from grader.verdict.outcome import Failed

@@ -10,26 +10,16 @@ import ast
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
+from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
-from grader.package.source.entry_points import EntryPoints
-from grader.package.source.entry_points import from_setup_cfg
-from grader.package.source.entry_points import from_setup_py
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
-from grader.package.source.setup_cfg import SetupCfgFault
-from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.entry_points import EntryPoints, from_setup_cfg, from_setup_py
+from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.values import Table
 from grader.report.model import Where
 from grader.verdict.checks import entry_faults
-from grader.verdict.checks.parsed import file_of
-from grader.verdict.checks.parsed import node_path
-from grader.verdict.checks.parsed import reader_said
-from grader.verdict.checks.parsed import setup_py_of
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.checks.parsed import file_of, node_path, reader_said, setup_py_of
+from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
     from grader.package.source.setup_py import SetupPy

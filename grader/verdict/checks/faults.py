@@ -5,12 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import Value
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Value, say
 from grader.mistakes.wanted import words_of
 from grader.report.model import Where
-from grader.verdict.checks.build import limit_name
-from grader.verdict.checks.build import python_error
+from grader.verdict.checks.build import limit_name, python_error
 from grader.verdict.node_files import file_with_node
 from grader.verdict.outcome import Failed
 

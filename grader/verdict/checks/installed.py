@@ -12,9 +12,7 @@ from grader.report.model import Where
 from grader.verdict.checks.build import setup_error
 from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

@@ -5,25 +5,13 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import Message
-from grader.base.i18n.message import Value
-from grader.base.i18n.message import say
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
+from grader.base.i18n.message import Message, Value, say
+from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
-from grader.package.source.manifest import REQUIRED
-from grader.package.source.manifest import Element
-from grader.package.source.manifest import Manifest
-from grader.package.source.manifest import ManifestError
-from grader.package.source.manifest import read_manifest
+from grader.package.source.manifest import REQUIRED, Element, Manifest, ManifestError, read_manifest
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of
-from grader.verdict.checks.parsed import names_in
-from grader.verdict.checks.parsed import reader_said
-from grader.verdict.checks.parsed import setup_py_of
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.checks.parsed import file_of, names_in, reader_said, setup_py_of
+from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

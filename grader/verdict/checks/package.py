@@ -5,26 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.base.nearest import meant
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
+from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
-from grader.package.source.setup_cfg import SetupCfg
-from grader.package.source.setup_cfg import SetupCfgFault
-from grader.package.source.setup_cfg import read_setup_cfg
+from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import INDEX
-from grader.package.source.values import Computed
-from grader.package.source.values import Listing
-from grader.package.source.values import Text
-from grader.package.source.values import Value
+from grader.package.source.values import Computed, Listing, Text, Value
 from grader.report.model import Where
 from grader.verdict.checks.manifest import check_manifest
-from grader.verdict.checks.parsed import file_of
-from grader.verdict.checks.parsed import names_in
-from grader.verdict.checks.parsed import reader_said
-from grader.verdict.checks.parsed import setup_py_of
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.checks.parsed import file_of, names_in, reader_said, setup_py_of
+from grader.verdict.outcome import Failed, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message
 from grader.base.shown import shown
 from grader.package.source.python import PythonFault
-from grader.package.source.setup_py import SetupPy
-from grader.package.source.setup_py import read_setup_py
+from grader.package.source.setup_py import SetupPy, read_setup_py
 
 if TYPE_CHECKING:
     from grader.package.intake.model import SourceFile

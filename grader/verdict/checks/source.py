@@ -5,24 +5,15 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
+from grader.base.i18n.message import joined, say
+from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
 from grader.package.source.node import NodeSource
-from grader.package.source.python import SHEBANG
-from grader.package.source.python import PythonFault
-from grader.package.source.python import parse_python
+from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of
-from grader.verdict.checks.parsed import names_in
-from grader.verdict.checks.parsed import node_path
-from grader.verdict.checks.parsed import reader_said
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Passed
+from grader.verdict.checks.parsed import file_of, names_in, node_path, reader_said
+from grader.verdict.outcome import Blocked, Failed, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

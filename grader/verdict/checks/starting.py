@@ -5,20 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.nearest import nearest
-from grader.base.nearest import with_difference
-from grader.verdict.checks.faults import flood
-from grader.verdict.checks.faults import node_file
-from grader.verdict.checks.faults import resource
-from grader.verdict.checks.faults import traceback_of
-from grader.verdict.checks.faults import words
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Inconclusive
-from grader.verdict.outcome import Outcome
-from grader.verdict.outcome import Passed
+from grader.base.i18n.message import joined, say
+from grader.base.nearest import nearest, with_difference
+from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

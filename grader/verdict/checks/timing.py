@@ -9,13 +9,9 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.mistakes.from_source import longest_sleep
-from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.faults import words
+from grader.verdict.checks.faults import line_of, words
 from grader.verdict.node_files import file_with_node
-from grader.verdict.outcome import Blocked
-from grader.verdict.outcome import Failed
-from grader.verdict.outcome import Inconclusive
-from grader.verdict.outcome import Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.registry import check
 
 if TYPE_CHECKING:

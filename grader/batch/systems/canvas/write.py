@@ -11,32 +11,17 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterable
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
-from grader.batch.lowered import NONE
-from grader.batch.lowered import Lowered
-from grader.batch.lowered import as_number
-from grader.batch.lowered import is_without_verdict
-from grader.batch.lowered import lowered
-from grader.batch.match import Match
-from grader.batch.match import Way
-from grader.batch.match import match_more
-from grader.batch.match import ways_of_people
-from grader.batch.model import ClassResult
-from grader.batch.model import Elsewhere
-from grader.batch.model import Entry
-from grader.batch.model import Student
-from grader.batch.model import System
-from grader.batch.roster import Roster
-from grader.batch.roster import roster_of
-from grader.batch.sheet import Filled
-from grader.batch.sheet import Sheet
+from grader.batch.lowered import NONE, Lowered, as_number, is_without_verdict, lowered
+from grader.batch.match import Match, Way, match_more, ways_of_people
+from grader.batch.model import ClassResult, Elsewhere, Entry, Student, System
+from grader.batch.roster import Roster, roster_of
+from grader.batch.sheet import Filled, Sheet
 
 NAME = "the Canvas gradebook"
 REMEDY = "In Canvas: Grades, Export, Export Entire Gradebook."

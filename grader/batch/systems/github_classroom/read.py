@@ -5,12 +5,8 @@ from __future__ import annotations
 from itertools import takewhile
 from pathlib import Path
 
-from grader.batch.model import HandedIn
-from grader.batch.model import Student
-from grader.batch.systems.layout import Item
-from grader.batch.systems.layout import Layout
-from grader.batch.systems.layout import Read
-from grader.batch.systems.layout import Reading
+from grader.batch.model import HandedIn, Student
+from grader.batch.systems.layout import Item, Layout, Read, Reading
 from grader.batch.systems.words import plain
 
 SUBMISSIONS = "-submissions"  # what `gh classroom clone` puts behind the assignment's name

@@ -13,15 +13,12 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.base.errors import SurroundingsError
-from grader.base.errors import UsageError
+from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Translator
+from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.project import CHECKOUT
 from grader.course.find import assignment_file
-from grader.verdict.order import HIDDEN
-from grader.verdict.order import with_hidden
+from grader.verdict.order import HIDDEN, with_hidden
 
 PARTS = (
     "grader",

@@ -12,9 +12,7 @@ import json
 import os
 import sys
 import traceback
-from dataclasses import dataclass
-from dataclasses import field
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -23,19 +21,15 @@ import click
 
 from grader.base.errors import GraderError
 from grader.base.folder import Folder
-from grader.base.i18n.message import joined
-from grader.base.i18n.message import say
-from grader.base.i18n.translator import Translator
-from grader.base.i18n.translator import chosen_language
+from grader.base.i18n.message import joined, say
+from grader.base.i18n.translator import Translator, chosen_language
 from grader.base.plain_text import one_line
 from grader.batch.policy import penalty
 from grader.batch.systems.gradescope import write as gradescope
 from grader.report import events
 from grader.report.blocks import UNSEEN
-from grader.report.model import CheckResult
-from grader.report.model import Report
-from grader.verdict.mark import Order
-from grader.verdict.mark import grade
+from grader.report.model import CheckResult, Report
+from grader.verdict.mark import Order, grade
 from grader.verdict.order import make_orders
 
 RESULTS = "results.json"

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from collections.abc import Mapping
-from datetime import datetime
-from datetime import timezone
+from collections.abc import Iterator, Mapping
+from datetime import datetime, timezone
 from typing import Any
 
 Record = Mapping[str, Any]

@@ -7,26 +7,17 @@ come as an object of Rails. A group has one folder and several submitters.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
-from grader.batch.model import HandedIn
-from grader.batch.model import Student
-from grader.batch.systems.gradescope.metadata import Record
-from grader.batch.systems.gradescope.metadata import instant
-from grader.batch.systems.gradescope.metadata import read_metadata
-from grader.batch.systems.layout import Item
-from grader.batch.systems.layout import Layout
-from grader.batch.systems.layout import Read
-from grader.batch.systems.layout import Reading
+from grader.batch.model import HandedIn, Student
+from grader.batch.systems.gradescope.metadata import Record, instant, read_metadata
+from grader.batch.systems.layout import Item, Layout, Read, Reading
 from grader.batch.systems.words import plain
-from grader.package.intake.reading import MEGABYTE
-from grader.package.intake.reading import Unread
-from grader.package.intake.reading import read_bytes
+from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 METADATA = "submission_metadata.yml"
 NAMED = re.compile(r"submission_\d+")

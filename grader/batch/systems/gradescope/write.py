@@ -11,20 +11,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from grader.base.i18n.message import say
-from grader.base.i18n.translator import SOURCE
-from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
+from grader.base.i18n.translator import SOURCE, Translator
+from grader.base.plain_text import first_lines, one_line, points
 from grader.batch.check_text import check_text
-from grader.batch.model import Entry
-from grader.batch.model import Override
-from grader.batch.points import Mark
-from grader.batch.points import in_points
-from grader.batch.points import marks
-from grader.batch.points import rounded
-from grader.batch.points import single
-from grader.batch.points import steps
+from grader.batch.model import Entry, Override
+from grader.batch.points import Mark, in_points, marks, rounded, single, steps
 from grader.report.model import Report
 
 MOST = 200  # characters of a name

@@ -13,10 +13,7 @@ from collections import Counter
 from typing import Literal
 
 from grader.batch import cells
-from grader.batch.model import ClassResult
-from grader.batch.model import Comment
-from grader.batch.model import Entry
-from grader.batch.model import Student
+from grader.batch.model import ClassResult, Comment, Entry, Student
 from grader.batch.sheet import Filled
 
 By = Literal["id_number", "email", "username"]

@@ -11,16 +11,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import say
-from grader.batch.model import HandedIn
-from grader.batch.model import Student
-from grader.batch.systems.layout import Item
-from grader.batch.systems.layout import Layout
-from grader.batch.systems.layout import Read
-from grader.batch.systems.layout import Reading
+from grader.batch.model import HandedIn, Student
+from grader.batch.systems.layout import Item, Layout, Read, Reading
 from grader.batch.systems.words import plain
 
 NAMED = re.compile(

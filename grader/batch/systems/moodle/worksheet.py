@@ -8,34 +8,19 @@ maximum without a word, so they are refused here.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
-from grader.batch.lowered import Lowered
-from grader.batch.lowered import is_without_verdict
-from grader.batch.lowered import lowered
-from grader.batch.match import Match
-from grader.batch.match import match_more
-from grader.batch.match import ways_of_people
-from grader.batch.model import ClassResult
-from grader.batch.model import Comment
-from grader.batch.model import Elsewhere
-from grader.batch.model import Entry
-from grader.batch.model import Student
-from grader.batch.model import System
-from grader.batch.roster import Roster
-from grader.batch.roster import roster_of
+from grader.batch.lowered import Lowered, is_without_verdict, lowered
+from grader.batch.match import Match, match_more, ways_of_people
+from grader.batch.model import ClassResult, Comment, Elsewhere, Entry, Student, System
+from grader.batch.roster import Roster, roster_of
 from grader.batch.roster_columns import columns_of
-from grader.batch.sheet import Filled
-from grader.batch.sheet import Sheet
-from grader.batch.systems.moodle.words import FEEDBACK
-from grader.batch.systems.moodle.words import GRADE
-from grader.batch.systems.moodle.words import IDENTIFIER
-from grader.batch.systems.moodle.words import MAXIMUM
+from grader.batch.sheet import Filled, Sheet
+from grader.batch.systems.moodle.words import FEEDBACK, GRADE, IDENTIFIER, MAXIMUM
 
 PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word (in any script), then the number
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")

@@ -12,17 +12,10 @@ from typing import Any
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.base.plain_text import first_lines
-from grader.base.plain_text import last_lines
-from grader.base.plain_text import one_line
-from grader.base.plain_text import points
-from grader.base.plain_text import shorten
+from grader.base.plain_text import first_lines, last_lines, one_line, points, shorten
 from grader.batch.check_text import check_text
 from grader.batch.model import Entry
-from grader.batch.points import Mark
-from grader.batch.points import marks
-from grader.batch.points import rounded
-from grader.batch.points import steps
+from grader.batch.points import Mark, marks, rounded, steps
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 

@@ -9,17 +9,12 @@ from typing import TYPE_CHECKING
 
 from .. import distro
 from . import maintainer
-from .cmake_package import populate_ament_cmake
-from .cmake_package import populate_cmake
-from .cpp_sources import write_library
-from .cpp_sources import write_node
-from .licenses import LICENSES
-from .licenses import license_text
-from .manifest import PackageDescription
-from .manifest import manifest
+from .cmake_package import populate_ament_cmake, populate_cmake
+from .cpp_sources import write_library, write_node
+from .licenses import LICENSES, license_text
+from .manifest import PackageDescription, manifest
 from .python_package import populate_ament_python
-from .writing import create_folder
-from .writing import write_file
+from .writing import create_folder, write_file
 
 if TYPE_CHECKING:
     from argparse import Namespace

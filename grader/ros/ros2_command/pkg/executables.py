@@ -3,8 +3,7 @@
 from argparse import Namespace
 from pathlib import PurePath
 
-from ..ament_index import package_executables
-from ..ament_index import package_names
+from ..ament_index import package_executables, package_names
 from ..parsing import Parser
 
 

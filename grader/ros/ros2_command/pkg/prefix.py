@@ -2,8 +2,7 @@
 
 from argparse import Namespace
 
-from ..ament_index import package_prefix
-from ..ament_index import share_directory
+from ..ament_index import package_prefix, share_directory
 from ..parsing import Parser
 
 

@@ -2,8 +2,7 @@
 
 from .linter_tests import linter_tests
 from .manifest import PackageDescription
-from .writing import create_folder
-from .writing import write_file
+from .writing import create_folder, write_file
 
 _SETUP_PY = """\
 from setuptools import find_packages, setup
