@@ -195,7 +195,10 @@ MET = check("run.starts", "failed", mistakes=[Mistake(id="run.resource")])
 def test_what_could_not_be_known_is_tried_again(trial: Trial) -> None:
     assert trial.hear(answer(10, UNKNOWN)) is None
     trial.tries = TRIES
-    assert trial.hear(answer(10, UNKNOWN)) is not None
+    done = trial.hear(answer(10, UNKNOWN))
+    assert done is not None
+    assert done.answer.report is not None
+    assert done.answer.report.attempts == TRIES
 
 
 def test_a_submission_that_met_a_limit_of_its_own_is_never_tried_again(trial: Trial) -> None:

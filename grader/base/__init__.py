@@ -1,1 +1,1 @@
-"""What every other part uses: errors, folders, texts and their translation."""
+"""What every other package stands on: errors, translation, plain text, folders, positioned YAML."""

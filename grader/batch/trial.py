@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from grader.batch.work import TRIES, Answer, Done, Task
 
@@ -27,4 +27,10 @@ class Trial:
         self.spent += answer.seconds
         if self.best.doubtful and self.tries < TRIES and self.spent <= self.most:
             return None
-        return Done(self.task, self.best, self.tries)
+        return Done(self.task, self._counted(self.best), self.tries)
+
+    def _counted(self, best: Answer) -> Answer:
+        """Return the answer with the number of tries in its report."""
+        if best.report is None:
+            return best
+        return replace(best, report=best.report.model_copy(update={"attempts": self.tries}))

@@ -1,1 +1,1 @@
-"""cli"""
+"""The `grader` command: one module for each of its commands."""

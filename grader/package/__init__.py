@@ -1,1 +1,1 @@
-"""A submitted package: intake, source analysis and edits."""
+"""What was handed in, as values: intake, source, edits."""

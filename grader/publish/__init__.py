@@ -1,1 +1,1 @@
-"""What goes back into other systems: one module a format, each a pure function of a result."""
+"""Runs a class and writes what comes out of it: gradebooks, feedback, pages."""

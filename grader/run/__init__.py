@@ -1,1 +1,1 @@
-"""run"""
+"""Builds and runs one package in a sandbox, and observes it."""

@@ -1,1 +1,1 @@
-"""verdict"""
+"""One verdict: from an order through the checks to the report."""

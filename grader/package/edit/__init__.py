@@ -1,1 +1,1 @@
-"""Changes to a package's files: as text, as a diff and on disk."""
+"""Changes of a package's files: texts, diffs, and writing them to disk."""

@@ -1,1 +1,1 @@
-"""verdict.checks"""
+"""The checks: one module for each stage."""

@@ -1,1 +1,1 @@
-"""batch.systems.canvas"""
+"""Canvas: its download and its gradebook."""

@@ -1,1 +1,1 @@
-"""batch.systems.github_classroom"""
+"""GitHub Classroom: its clones and the results of its reporter."""

@@ -1,1 +1,1 @@
-"""batch.systems.gradescope"""
+"""Gradescope: its export, its results.json and its autograder archive."""

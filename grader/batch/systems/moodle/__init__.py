@@ -1,1 +1,1 @@
-"""batch.systems.moodle"""
+"""Moodle: its download, its worksheet and its gradebook import."""

@@ -1,1 +1,1 @@
-"""batch.systems.prairielearn"""
+"""PrairieLearn: its results.json."""
