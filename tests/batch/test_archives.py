@@ -16,6 +16,7 @@ import pytest
 from grader.package.intake.model import Submission
 from grader.package.submission import take_in
 from grader.verdict.checks.source import exec_bit
+from grader.verdict.diagnose import Diagnosis
 from grader.verdict.outcome import Failed
 
 from ..installed import installed
@@ -175,7 +176,7 @@ def test_the_assignments_policy_says_what_unknown_exec_bits_cost(tmp_path: Path)
     with pytest.raises(Failed) as caught:
         exec_bit.function(cast("Evidence", StandIn(strict, submission)))
     assert caught.value.mistake.id == "source.exec_bit_unknown"
-    assert "tar" in caught.value.fix
+    assert "tar" in Diagnosis.of(caught.value).fix
 
 
 # what tools and systems add
