@@ -1,4 +1,7 @@
-"""A command of this project that prints what it was given, in each way that there is."""
+"""A command of this project that prints a hostile text, in each of the ways that it is told.
+
+After each it says on standard output which it was, and the exit status.
+"""
 
 from __future__ import annotations
 
@@ -58,4 +61,7 @@ def command(way: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(run(command, "misbehaving", sys.argv[1:]))
+    for word in sys.argv[1:]:
+        status = run(command, "misbehaving", [word])
+        sys.stderr.flush()
+        print(f"\n== {word} {status}", flush=True)
