@@ -5,18 +5,15 @@ old. It makes `.venv` (locked, every package checked by its hash), complete or n
 bubblewrap from the system's packages where root may install it.
 """
 
+import argparse
+import fcntl
+import hashlib
 import os
+import shutil
+import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-# where a script lies Python looks first, and its own `locale` is another one than the one in here
-sys.path[:] = [path for path in sys.path if os.path.abspath(path) != HERE]
-
-import argparse  # noqa: E402
-import fcntl  # noqa: E402
-import hashlib  # noqa: E402
-import shutil  # noqa: E402
-import subprocess  # noqa: E402
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

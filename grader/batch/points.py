@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from grader.base.i18n.message import Message, joined, say
 from grader.base.plain_text import one_line, points
 from grader.batch.model import Entry, Override, Student
+from grader.batch.words import duration
 from grader.report.model import CheckResult, Report
 
 DIGITS = 4  # of points, so that sums of decimals stay readable
@@ -135,8 +136,6 @@ def _total_words(entry: Entry) -> str:
 
 def _late_words(entry: Entry) -> str:
     if entry.late_seconds > 0:
-        from grader.batch.words import duration  # noqa: PLC0415 - it brings the pages' templates
-
         return say("Handed in {duration} late", duration=duration(entry.late_seconds))
     if entry.penalty:
         return say("Points taken for lateness")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import tarfile
 
+from grader.base.unheard import unheard
 from grader.batch.work import Job
 from grader.ros.distro import find_distro
 from grader.run.probe_link import ProbeLink
@@ -15,7 +16,7 @@ from grader.sandbox.choose import open_sandbox
 
 def prove(job: Job) -> None:
     """Open the job's sandbox and try it; SurroundingsError says what does not work."""
-    sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, say=_unheard)
+    sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, say=unheard)
     try:
         try_out(sandbox)
     finally:
@@ -35,8 +36,3 @@ def try_out(sandbox: Sandbox) -> None:
         probe.ask("look")
     finally:
         probe.close()
-
-
-def _unheard(text: str) -> None:
-    """What is made on the way was said when it was first made."""
-    del text

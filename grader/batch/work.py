@@ -16,10 +16,10 @@ from typing import Protocol
 from grader.base.errors import GraderError
 from grader.base.i18n.message import joined
 from grader.base.i18n.translator import Translator
+from grader.base.unheard import unheard
 from grader.batch.submission_text import from_text, to_text
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
-from grader.report.events import Event
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
@@ -165,14 +165,10 @@ def answer(job: Job, task: Task) -> Answer:
     )
     report, fault = None, ""
     try:
-        report = mark(submission, order, _unheard)
+        # the steps of one verdict are not reported: many run at once
+        report = mark(submission, order, unheard)
     except GraderError as error:
         fault = Translator(job.lang)(joined(error.message, error.remedy, by="\n"))
     except Exception:  # a fault of ours must cost nobody but this one submission
         fault = traceback.format_exc(limit=-6)
     return Answer(report, fault, time.monotonic() - begin)
-
-
-def _unheard(event: Event) -> None:
-    """The steps of one verdict are not told: there are many at once."""
-    del event

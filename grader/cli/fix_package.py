@@ -13,6 +13,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
 from grader.base.nearest import nearest
 from grader.base.shown import shown
+from grader.base.unheard import unheard
 from grader.cli.fix_show import show_diff
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding, finding_of
@@ -20,7 +21,6 @@ from grader.mistakes.fixes.table import STATIC
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
-from grader.report.events import Event
 from grader.report.model import CheckResult
 from grader.verdict.fix import Plan, fix_all, fix_files
 from grader.verdict.mark import Order, grade
@@ -159,7 +159,7 @@ class _Runner:
         with tempfile.TemporaryDirectory(prefix="grader-fix-") as folder:
             path = Path(folder) / order.assignment.package
             _write_tree(files, path)
-            report = grade(replace(order, path=path), _unheard)
+            report = grade(replace(order, path=path), unheard)
         if report.environment.sandbox == "none":
             self.tell(say("No sandbox was used: the package ran as you, with your files."))
         return [f for result in report.checks for f in self._found(result)]
@@ -190,10 +190,6 @@ def _write_tree(files: Files, root: Path) -> None:
         elif not file.unreadable:
             place.write_bytes(file.data)
             place.chmod(file.mode & 0o777 | 0o600)
-
-
-def _unheard(event: Event) -> None:
-    del event
 
 
 def _finish(wish: Wish, submission: Submission, plan: Plan, tell: Tell) -> None:

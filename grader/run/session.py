@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from types import TracebackType
 
+from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.run.observer import Event
@@ -80,7 +81,8 @@ class Session:
             if run.doubts_ros2:
                 prove_again(self.sandbox)
             if self._doubtful(run):
-                run = self._second_opinion(run, self._run(_unheard, fine=True))
+                # the ticks of a second run are not reported: the listener has heard them once
+                run = self._second_opinion(run, self._run(unheard, fine=True))
             return run
         finally:
             self.timing["run"] += time.monotonic() - begin
@@ -150,8 +152,3 @@ class Session:
         probe, self._probe = self._probe, None
         if probe is not None:
             probe.close()
-
-
-def _unheard(event: Event) -> None:
-    """The ticks of a second run are not told: whoever listens has heard them once."""
-    del event

@@ -9,6 +9,7 @@ from __future__ import annotations
 from grader.base.cache import Say, discard
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
+from grader.base.unheard import unheard
 from grader.ros import prefix_texts as texts
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError, Ros, find_ros, is_in_cache
@@ -68,7 +69,8 @@ def prove_again(sandbox: Sandbox) -> None:
     try:
         _prove(sandbox, Message(texts.REMOVED))
     except BrokenRosError:
-        discard(ros.path, unless=lambda _: False, say=_unheard)
+        # waiting for another grader that makes the same prefix is no news to this user
+        discard(ros.path, unless=lambda _: False, say=unheard)
         raise
 
 
@@ -82,8 +84,3 @@ def _prove(sandbox: Sandbox, remedy: str) -> None:
     if BROKEN in said:
         raise BrokenRosError(Message(texts.BROKEN, values), remedy=remedy)
     raise SurroundingsError(Message(texts.UNTESTED, values), remedy=Message(texts.TRY_AGAIN))
-
-
-def _unheard(text: str) -> None:
-    """That another grader makes the same prefix anew is not told: it is no wait of the user's."""
-    del text

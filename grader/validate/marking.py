@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from grader.base.unheard import unheard
 from grader.batch.local_pool import LocalPool
 from grader.batch.run import cores_here, prove
 from grader.batch.work import Done, Task
@@ -84,11 +85,11 @@ def mark_all(
     `workers`: how many at once (0: as a class is marked). Raises SurroundingsError if no sandbox
     can be opened.
     """
-    job = prove(order, say=_unheard).job
+    job = prove(order, say=unheard).job
     cores = cores_here()
     pool = LocalPool(job, workers or cores, most=workers or MOST_A_CORE * cores)
     tasks = (Task(name, name, name, submission.sha256, submission) for name, submission in work)
-    running = pool.run(tasks, started=_unheard)
+    running = pool.run(tasks, started=unheard)
     with contextlib.closing(running):
         for done in running:
             if done.answer.report is None:
@@ -115,8 +116,3 @@ def _marked(
         ran=ran,
         seconds=seconds,
     )
-
-
-def _unheard(what: object) -> None:
-    """Drop the steps of a single verdict: many run at once."""
-    del what
