@@ -2,7 +2,7 @@
 # GNU make's own rule: every failure is exit status 2. Scripts call .venv/bin/grader.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lab images grade grade-all check fix validate test test-all bench lock lint clean
+.PHONY: help setup lab images grade grade-all check fix validate test test-all test-long recordings bench lock lint clean
 SHELL := /bin/sh
 
 # A variable's raw text goes to the recipes through the environment, never through make or a shell.
@@ -14,6 +14,8 @@ $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval overri
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # one process more than cores: a node that is being watched leaves them idle
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
+# the tests whose verdicts are from recorded evidence
+RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py
 GRADER := .venv/bin/python -m grader
 OPTIONS := $${ASSIGNMENT:+--assignment "$$ASSIGNMENT"} $${DISTRO:+--distro "$$DISTRO"} \
   $${SANDBOX:+--sandbox "$$SANDBOX"}
@@ -82,17 +84,28 @@ validate:  ## Test an assignment: does it mark what it claims to? (ASSIGNMENT=id
 test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests
 	@$(MAKE) --no-print-directory lint
-	@$(PYTEST) -m "not full and not docker" $${PYTEST_ARGS}
+	@$(PYTEST) -m "not full and not docker and not long" $${PYTEST_ARGS}
 
 test-all:  ## Run every test (as root: brings Docker where it is missing)
 	@$(MAKE) --no-print-directory test
 	@if [ "$${GRADER_TESTS_WITHOUT_DOCKER:-}" = 1 ]; then \
 	  echo "make test-all: GRADER_TESTS_WITHOUT_DOCKER=1: the tests that need Docker are left out" >&2; \
-	  $(PYTEST) -m "full and not docker" $${PYTEST_ARGS}; \
+	  $(PYTEST) -m "full and not docker and not long" $${PYTEST_ARGS}; \
 	else \
 	  trap '.venv/bin/python -m tests.engine down' EXIT; \
-	  .venv/bin/python -m tests.engine up && $(PYTEST) -m "full or docker" $${PYTEST_ARGS}; \
+	  .venv/bin/python -m tests.engine up && $(PYTEST) -m "(full or docker) and not long" $${PYTEST_ARGS}; \
 	fi
+
+test-long:  ## Run what counts in dozens: every package for real, attacks, kills (as root; part: PYTEST_ARGS=path)
+	@$(BOOTSTRAP) --tests
+	@trap '.venv/bin/python -m tests.engine down' EXIT; \
+	  .venv/bin/python -m tests.engine up all && $(PYTEST) -m long $${PYTEST_ARGS} && \
+	  GRADER_TESTS_EVIDENCE=real $(PYTEST) $(RECORDED)
+
+recordings:  ## Record the evidence of the tests' packages anew (a quarter of an hour)
+	@$(BOOTSTRAP) --tests
+	@rm -rf tests/recordings/evidence
+	@GRADER_TESTS_EVIDENCE=record $(PYTEST) $(RECORDED)
 
 lint:
 	@.venv/bin/python -m ruff check .

@@ -22,7 +22,7 @@ from grader.verdict.fix import patch_for
 from tests.bench import bound
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
-from tests.test_verdicts import mark
+from tests.marking import mark
 
 MOST_SECONDS = 0.15
 

@@ -1,4 +1,4 @@
-"""The Docker engine and the images for the tests: `python -m tests.engine up`, and `down`.
+"""The Docker engine and the images for the tests: `python -m tests.engine up [all]`, and `down`.
 
 `up` installs the engine from the system's packages where it is missing (as root), starts it where
 none answers, and makes the images on a base of debootstrap's, since no registry is needed for the
@@ -109,14 +109,18 @@ def start() -> DockerClient:
     )
 
 
-def make_images(client: DockerClient) -> None:
-    """Make the base, the wheels images, the stand-in, and the images on it."""
+def make_images(client: DockerClient, *, every: bool) -> None:
+    """Make the base, an image of wheels, the stand-in, and the two images on it.
+
+    `every`: also the lab on wheels and another distro, for the long run.
+    """
     base = ROOT / "docker" / "make_base.sh"
     subprocess.run([base, SUITE, LOCAL_BASE], check=True, stdout=sys.stderr)
     jazzy, kilted = find_distro("jazzy"), find_distro("kilted")
     build_image(client, jazzy, stage="grade", base="wheels", network=network(), say=_steps)
-    build_image(client, jazzy, stage="lab", base="wheels", network=network(), say=_steps)
-    build_image(client, kilted, stage="grade", base="wheels", network=network(), say=_steps)
+    if every:
+        build_image(client, jazzy, stage="lab", base="wheels", network=network(), say=_steps)
+        build_image(client, kilted, stage="grade", base="wheels", network=network(), say=_steps)
     say(f"building {STANDIN}")
     with (ROOT / "tests" / "docker" / "standin.Dockerfile").open("rb") as dockerfile:
         under = images.image_name(jazzy, "base", "wheels")
@@ -130,12 +134,12 @@ def _steps(text: str) -> None:
         say(text)
 
 
-def up() -> None:
+def up(*, every: bool) -> None:
     """Make everything ready for the tests that need Docker."""
     os.environ[images.REPOSITORY_VARIABLE] = REPOSITORY
     install()
     client = start()
-    make_images(client)
+    make_images(client, every=every)
     client.close()
 
 
@@ -159,12 +163,16 @@ def down() -> None:
 
 
 def main() -> int:
-    """Run `up` or `down`."""
-    if sys.argv[1:] not in (["up"], ["down"]):
-        say("usage: python -m tests.engine up|down")
+    """Run `up`, `up all` or `down`."""
+    words = sys.argv[1:]
+    if words not in (["up"], ["up", "all"], ["down"]):
+        say("usage: python -m tests.engine up [all] | down")
         return 2
     try:
-        (up if sys.argv[1] == "up" else down)()
+        if words == ["down"]:
+            down()
+        else:
+            up(every="all" in words)
     except (GraderError, subprocess.CalledProcessError) as error:
         say(f"tests.engine: {error}")
         return 1

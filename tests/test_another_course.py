@@ -13,7 +13,7 @@ from grader.batch.systems.gradescope.archive import gradescope_zip
 from tests import stage
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
-from tests.test_verdicts import ASSIGNMENT, COURSE
+from tests.marking import ASSIGNMENT, COURSE
 
 OTHER = {
     "my_robot_controller": "turtle_counter",

@@ -8,7 +8,7 @@ import pytest
 
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
-from tests.test_verdicts import mark
+from tests.recorded import mark
 
 BY_NAME = {package.name: package for package in BROKEN}
 

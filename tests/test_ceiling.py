@@ -23,8 +23,8 @@ from grader.sandbox.limits import Limits
 from tests.batch.works import ASSIGNMENT, tasks
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
+from tests.marking import assert_verdict, mark
 from tests.report.samples import check, report
-from tests.test_verdicts import mark, verdict_is
 
 LIMITS = Limits()
 LONG = Event("Hello time: 0", 0.0, 1.0, "logger", 0, None)
@@ -175,7 +175,7 @@ def test_a_deaf_node_that_prints_dots_has_its_verdict_at_once(tmp_path: Path) ->
     found = mark(write(package, tmp_path))
     assert time.monotonic() - begin < 60
     assert found.timing.run < 30
-    verdict_is(package, found)
+    assert_verdict(package, found)
 
 
 def answer(seconds: float, *changed: CheckResult) -> Answer:

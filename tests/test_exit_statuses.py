@@ -10,7 +10,7 @@ import pytest
 from grader.validate.tree import Replace, Write
 from tests.corpus.build import write
 from tests.corpus.model import NODE, SETUP, Package
-from tests.test_verdicts import mark, told
+from tests.marking import mark, summary
 
 IMPORT = "from setuptools import setup\n"
 INSTALLING = """
@@ -47,16 +47,21 @@ def installing(status: int, code: str = "") -> Replace:
     )
 
 
+def later(*statuses: int) -> list[object]:
+    """Return the parameters that wait for the long run."""
+    return [pytest.param(status, marks=pytest.mark.long) for status in statuses]
+
+
 def package(*edits: Replace | Write) -> Package:
     return Package(name="solution", edits=edits)
 
 
 @pytest.mark.prefix
-@pytest.mark.parametrize("status", [126, 127, 250, 251])
+@pytest.mark.parametrize("status", [127, 250, *later(126, 251)])
 def test_a_status_of_setup_py_is_the_students(status: int, tmp_path: Path) -> None:
     report = mark(write(package(installing(status)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
-    assert found.status == "failed", told(report)
+    assert found.status == "failed", summary(report)
     assert f"exited with code {status}" in found.actual
 
 
@@ -64,15 +69,15 @@ def test_a_status_of_setup_py_is_the_students(status: int, tmp_path: Path) -> No
 def test_a_setup_py_that_spoils_what_it_can_write_gains_nothing(tmp_path: Path) -> None:
     report = mark(write(package(installing(127, SPOIL)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
-    assert found.status == "failed", told(report)
+    assert found.status == "failed", summary(report)
     assert "exited with code 127" in found.actual
 
 
 @pytest.mark.prefix
-@pytest.mark.parametrize("status", [126, 127])
+@pytest.mark.parametrize("status", [127, *later(126)])
 def test_a_status_of_the_node_is_the_students(status: int, tmp_path: Path) -> None:
     report = mark(write(package(Write(NODE, UNREADY.format(status=status), 0o755)), tmp_path))
     found = next(check for check in report.checks if check.id == "run.starts")
-    assert found.status == "failed", told(report)
+    assert found.status == "failed", summary(report)
     assert "run.exits_at_once" in [mistake.id for mistake in found.mistakes]
     assert f"with status {status}" in found.actual

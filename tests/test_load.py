@@ -10,10 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.report.model import Report
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
-from tests.test_verdicts import mark, told
+from tests.marking import mark, outcomes, summary
 
 TIMES = 30
 
@@ -31,21 +30,16 @@ def busy_cores() -> Iterator[None]:
         process.wait()
 
 
-def verdict(report: Report) -> list[tuple[str, str, float, list[str]]]:
-    """Return what makes two verdicts equal: statuses, scores and mistake ids."""
-    return [(c.id, c.status, c.score, [m.id for m in c.mistakes]) for c in report.checks]
-
-
-@pytest.mark.full
+@pytest.mark.long
 @pytest.mark.usefixtures("busy_cores")
 def test_thirty_verdicts_on_a_busy_machine_are_equal(tmp_path: Path) -> None:
     tutorial = next(package for package in RIGHT if package.name == "tutorial")
     root = write(tutorial, tmp_path)
     reports = [mark(root) for _ in range(TIMES)]
     for report in reports:
-        assert report.score == 100, told(report)
+        assert report.score == 100, summary(report)
         assert report.observed.clock == "virtual"
-    assert all(verdict(report) == verdict(reports[0]) for report in reports)
+    assert all(outcomes(report) == outcomes(reports[0]) for report in reports)
 
 
 @pytest.mark.usefixtures("busy_cores")

@@ -7,7 +7,7 @@ import traceback
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
-from grader.base.errors import SurroundingsError
+from grader.base.errors import GraderError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
@@ -57,7 +57,7 @@ def ask_in_order(
     """Ask the assignment's checks (those in `only`) and yield each result once it is in the evidence.
 
     `announce` hears of each check before it is asked. The build and the run happen in the first
-    check that needs them. Raises SurroundingsError; any other fault of ours is a result of the
+    check that needs them. Raises GraderError; any other fault of ours is a result of the
     status `error`.
     """
     for question in questions(evidence.assignment):
@@ -91,7 +91,7 @@ def _ask(question: Question, evidence: Evidence, translate: Translator) -> Check
     begin = time.monotonic()
     try:
         found = _found(question, evidence)
-    except SurroundingsError:
+    except GraderError:
         raise
     except Exception:  # a fault of ours in one check must not lose the verdict on the others
         found = _Found(status="error", actual=traceback.format_exc(limit=-4))

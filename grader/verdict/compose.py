@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
-import grader
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.package.submission import Submission
 from grader.report import model
-from grader.ros.prefix import Ros
 from grader.run.run import Run
 from grader.verdict.evidence import Evidence
 
@@ -24,9 +22,7 @@ def compose(
     results: Sequence[model.CheckResult],
     *,
     student_id: str,
-    ros: Ros,
-    sandbox: str,
-    limits: Mapping[str, model.LimitInfo],
+    environment: model.Environment,
     timing: model.Timing,
     started: datetime,
     translate: Translator,
@@ -51,16 +47,7 @@ def compose(
             modes=submission.modes,
             notes=[translate(note) for note in submission.notes],
         ),
-        environment=model.Environment.model_validate(
-            {
-                "distro": ros.distro.name,
-                "ros": ros.kind,
-                "sandbox": sandbox,
-                "limits": limits,
-                "grader": grader.__version__,
-                **ros.versions,
-            }
-        ),
+        environment=environment,
         status="graded",
         message=translate(unknown) if open_ else "",
         lang=translate.lang,

@@ -6,24 +6,29 @@ It prints nothing: it emits events, and returns the report.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import datetime, timezone
 from pathlib import Path
 
+import grader
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
+from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission, take_in
 from grader.report import events, model
 from grader.ros.distro import Distro
 from grader.run.observer import Event
 from grader.run.session import Session
+from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
 from grader.verdict.ask import Question, ask_in_order
 from grader.verdict.compose import compose
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
+from grader.verdict.recording import Recording, evidence_of, record
 
 STAGES = {
     "package": ("intake", say("looking at the package")),
@@ -69,9 +74,17 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
 
 
 def mark(
-    submission: Submission, order: Order, listener: events.Listener, *, intake: float = 0
+    submission: Submission,
+    order: Order,
+    listener: events.Listener,
+    *,
+    intake: float = 0,
+    keep: Callable[[Recording], None] | None = None,
 ) -> model.Report:
-    """Mark what was taken in before, which took `intake` seconds; all else as `grade`."""
+    """Mark a submission whose intake took `intake` seconds; raises as `grade`.
+
+    `keep` receives the recording of the evidence.
+    """
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
     assignment = order.assignment
@@ -90,7 +103,9 @@ def mark(
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
         results = _decide(evidence, listener, translate)
-        limits = sandbox.limit_report()
+        environment = _environment(sandbox)
+    if keep is not None:
+        keep(record(evidence, environment))
     timing = model.Timing(
         setup=round(setup, 3),
         intake=round(intake, 3),
@@ -102,12 +117,49 @@ def mark(
         evidence,
         results,
         student_id=order.student_id,
-        ros=sandbox.ros,
-        sandbox=sandbox.name,
-        limits=limits,
+        environment=environment,
         timing=timing,
         started=started,
         translate=translate,
+    )
+
+
+def replay(
+    recording: Recording,
+    submission: Submission,
+    assignment: Assignment,
+    listener: events.Listener = unheard,
+    *,
+    lang: str = "en",
+) -> model.Report:
+    """Judge recorded evidence again and return the report; its times are 0.
+
+    Raises RecordingError if the recording is not of this submission and assignment.
+    """
+    translate = Translator(lang)
+    evidence = evidence_of(recording, submission, assignment)
+    return compose(
+        evidence,
+        _decide(evidence, listener, translate),
+        student_id="",
+        environment=recording.environment,
+        timing=model.Timing(),
+        started=datetime.now(timezone.utc),
+        translate=translate,
+    )
+
+
+def _environment(sandbox: Sandbox) -> model.Environment:
+    ros = sandbox.ros
+    return model.Environment.model_validate(
+        {
+            "distro": ros.distro.name,
+            "ros": ros.kind,
+            "sandbox": sandbox.name,
+            "limits": sandbox.limit_report(),
+            "grader": grader.__version__,
+            **ros.versions,
+        }
     )
 
 

@@ -20,35 +20,39 @@ from tests.corpus.hostile import HOSTILE
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
 from tests.docker.test_containers import made_by
-from tests.test_verdicts import mark, told, verdict_is
+from tests.marking import assert_full_marks, assert_verdict, mark
 
 pytestmark = [pytest.mark.docker]
 VERDICTS = 50
 
 
-def some(corpus: tuple[Package, ...], each: int) -> list[object]:
-    return [pytest.param(package, id=package.name) for package in corpus[::each]]
+def some(corpus: tuple[Package, ...], each: int, *, later: int) -> list[object]:
+    """Return every n-th package of a corpus for CI, and more of them for the long run."""
+    return [
+        pytest.param(package, id=package.name, marks=() if n % each == 0 else pytest.mark.long)
+        for n, package in enumerate(corpus)
+        if n % each == 0 or n % later == 0
+    ]
 
 
-@pytest.mark.parametrize("package", some(RIGHT, 10))
+@pytest.mark.parametrize("package", some(RIGHT, 40, later=10))
 def test_a_right_variant_gets_full_marks_in_containers(package: Package, tmp_path: Path) -> None:
     report = mark(write(package, tmp_path), sandbox="docker")
-    assert report.score == report.max_score == 100, told(report)
+    assert_full_marks(package, report)
     assert report.environment.sandbox == "docker"
-    assert report.observed.clock == ("wall" if package.wall_clock else "virtual")
 
 
-@pytest.mark.parametrize("package", some(BROKEN, 9))
+@pytest.mark.parametrize("package", some(BROKEN, 30, later=9))
 def test_a_broken_package_fails_alike_in_containers(package: Package, tmp_path: Path) -> None:
-    verdict_is(package, mark(write(package, tmp_path), sandbox="docker"))
+    assert_verdict(package, mark(write(package, tmp_path), sandbox="docker"))
 
 
-@pytest.mark.parametrize("package", some(HOSTILE, 4))
+@pytest.mark.parametrize("package", some(HOSTILE, 8, later=4))
 def test_a_hostile_package_harms_nothing_in_containers(
     package: Package, tmp_path: Path, client: DockerClient
 ) -> None:
     report = mark(write(package, tmp_path), sandbox="docker")
-    verdict_is(package, report)
+    assert_verdict(package, report)
     assert made_by(client, os.getpid()) == []
 
 
@@ -63,6 +67,7 @@ def test_the_report_names_the_image_and_what_is_in_it(tmp_path: Path) -> None:
     assert found.limits["memory"].held_by == found.limits["cpus"].held_by == "cgroup"
 
 
+@pytest.mark.long
 def test_several_distros_give_a_matrix(tmp_path: Path) -> None:
     root = write(RIGHT[0], tmp_path / "in")
     command = stage.grader("grade", root, "--sandbox", "docker", "--distro", "jazzy,kilted")
@@ -79,12 +84,12 @@ def test_several_distros_give_a_matrix(tmp_path: Path) -> None:
     assert {report.environment.ros for report in reports} == {"image", "wheels"}
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_fifty_verdicts_leave_the_daemon_as_it_was(client: DockerClient, tmp_path: Path) -> None:
     before = everything(client)
     root = write(RIGHT[0], tmp_path)
     code = (
-        "import sys; from pathlib import Path; from tests.test_verdicts import mark\n"
+        "import sys; from pathlib import Path; from tests.marking import mark\n"
         f"scores = [mark(Path(sys.argv[1]), sandbox='docker').score for _ in range({VERDICTS})]\n"
         "print(scores.count(100.0))"
     )

@@ -22,23 +22,19 @@ from tests import engine, stage
 from tests.docker.layers import Layers, certificates_in, layers_of
 
 pytestmark = [pytest.mark.docker]
-NAMES = (
-    "grade-jazzy",
-    "lab-jazzy",
-    "grade-jazzy-wheels",
-    "lab-jazzy-wheels",
-    "grade-kilted-wheels",
-)
+NAMES = ("grade-jazzy", "lab-jazzy", "grade-jazzy-wheels")
+LATER = ("lab-jazzy-wheels", "grade-kilted-wheels")  # made for the long run only
+ALL = (*NAMES, *(pytest.param(name, marks=pytest.mark.long) for name in LATER))
 DOCKERFILES = ("docker/Dockerfile", "docker/wheels.Dockerfile", "tests/docker/standin.Dockerfile")
 
 
-@pytest.fixture(params=NAMES)
+@pytest.fixture(params=ALL)
 def image(request: pytest.FixtureRequest, client: DockerClient) -> Image:
     """Each image of the tests."""
     return client.images.get(f"{engine.REPOSITORY}:{request.param}")
 
 
-@pytest.fixture(scope="module", params=NAMES)
+@pytest.fixture(scope="module", params=ALL)
 def layers(request: pytest.FixtureRequest) -> Layers:
     """The layers of each image of the tests."""
     opened = images.connect()

@@ -11,18 +11,14 @@ from grader.verdict import mark as runner
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.fix.bench import TOOLS, with_tool
-from tests.test_verdicts import mark
+from tests.recorded import mark
 
 BY_NAME = {package.name: package for package in BROKEN}
 
 
 @pytest.mark.parametrize(
     "name",
-    [
-        "text_capital",
-        pytest.param("comma_missing", marks=pytest.mark.full),
-        pytest.param("printed", marks=pytest.mark.full),
-    ],
+    ["text_capital", "comma_missing", "printed"],
 )
 def test_the_change_in_a_report_fixes_the_check_that_failed(name: str, tmp_path: Path) -> None:
     handed_in = write(BY_NAME[name], tmp_path)

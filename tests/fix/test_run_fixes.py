@@ -19,6 +19,7 @@ from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.model import NODE, SETUP, Package
 from tests.fix.bench import TOOLS, edited, taken, with_tool
+from tests.recorded import mark
 from tests.static_bench import ASSIGNMENT
 
 # The one fix of these is the solution, letter by letter.
@@ -47,7 +48,7 @@ OTHERWISE = {
     "f_prefix_missing": "f'Hello time: {self.counter_}'",
     "number_padded": "f'Hello time: {self.counter_}'",
 }
-# A verdict takes seconds: `make test` has one of each kind, `test-all` every one.
+# A verdict takes seconds: `make test` has one of each kind, `make test-long` every one.
 QUICK = ("setup_prints", "counter_not_set")
 # What these should be, nobody but the student knows.
 NOT_MENDED = {
@@ -95,8 +96,12 @@ def test_the_patch_leads_back_to_the_solution(
 
 
 @pytest.mark.parametrize("name", OTHERWISE)
-def test_the_patch_holds_the_fix(name: str, tmp_path: Path) -> None:
-    assert OTHERWISE[name] in patches(name, tmp_path)[0]
+def test_the_patch_holds_the_fix_and_the_verdict_is_full_after_it(
+    name: str, tmp_path: Path
+) -> None:
+    patch = patches(name, tmp_path)[0]
+    assert OTHERWISE[name] in patch
+    assert mark(with_tool(TOOLS[0], patch.encode(), tmp_path / name)).all_passed
 
 
 @pytest.mark.parametrize("name", sorted(NOT_MENDED))
@@ -115,7 +120,7 @@ def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=() if name in QUICK else pytest.mark.full)
+        pytest.param(name, marks=() if name in QUICK else pytest.mark.long)
         for name in (*BACK_TO_SOLUTION, *OTHERWISE)
     ],
 )

@@ -27,7 +27,6 @@ from grader.batch.systems.gradescope.archive import gradescope_zip
 from grader.batch.systems.gradescope.container import OUR_FAULT, ResultsFile
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.prairielearn import write as prairielearn
-from grader.course.assignment import load_assignment
 from grader.course.policy import Policy
 from grader.publish import junit
 from grader.publish.feedback import html_page, short_html
@@ -36,6 +35,7 @@ from grader.report.model import Evidence, Report
 from grader.verdict.mark import Order
 from tests import stage
 from tests.gradebook.filled import comment
+from tests.marking import ASSIGNMENT
 from tests.report import samples
 from tests.site import classes
 
@@ -113,7 +113,7 @@ def entries() -> Iterator[Entry]:
 
 
 def _policy() -> Policy:
-    return load_assignment(classes.COURSE).policy
+    return ASSIGNMENT.policy
 
 
 ENTRIES = list(entries())

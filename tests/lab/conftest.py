@@ -9,18 +9,19 @@ import pytest
 from grader.ros.prefix import Ros
 from tests.lab.kinds import Kind, open_kind
 
-IMAGES = ("lab-jazzy", "lab-jazzy-wheels")
-
-
-@pytest.fixture(
-    params=["bubblewrap", *(pytest.param(name, marks=pytest.mark.docker) for name in IMAGES)]
+IMAGES = (
+    pytest.param("lab-jazzy", marks=pytest.mark.docker),
+    pytest.param("lab-jazzy-wheels", marks=[pytest.mark.docker, pytest.mark.long]),
 )
+
+
+@pytest.fixture(params=["bubblewrap", *IMAGES])
 def kind(request: pytest.FixtureRequest, ros_jazzy: Ros) -> Iterator[Kind]:
     """Each kind of lab in turn."""
     yield from open_kind(request.param)
 
 
-@pytest.fixture(params=[pytest.param(name, marks=pytest.mark.docker) for name in IMAGES])
+@pytest.fixture(params=IMAGES)
 def docker_kind(request: pytest.FixtureRequest) -> Iterator[Kind]:
     """Each kind of lab in a container."""
     yield from open_kind(request.param)

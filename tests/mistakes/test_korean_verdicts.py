@@ -11,18 +11,15 @@ from rich.cells import cell_len
 from grader.report import events
 from grader.report.model import CheckResult, Report
 from grader.report.terminal import render_report
-from grader.ros.distro import find_distro
-from grader.verdict.mark import Order, grade
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
+from tests.recorded import mark
 from tests.report.samples import report as sample_report
-from tests.test_verdicts import ASSIGNMENT, LIMITS
 
 # one of each kind of mistake: handed in, manifest, setup.py, source, build, start, callback, text
 NAMES = ("only_the_node", "manifest_other_name", "comma_missing", "super_missing", "f_prefix_missing",
          "printed", "called_by_hand", "setup_prints", "colon_missing", "callback_misspelt")  # fmt: skip
-QUICK = 5
 # what programs print word for word, and commands to be typed
 QUOTED = (
     "No executable found",
@@ -35,24 +32,8 @@ QUOTED = (
 PROSE = re.compile(r"(?:\b[a-z]{2,}\b[ ,]+){3}[a-z]{2,}\b")
 
 
-def packages() -> list[object]:
-    found = [package for package in BROKEN if package.name in NAMES]
-    return [
-        pytest.param(package, id=package.name, marks=() if k % QUICK == 0 else pytest.mark.full)
-        for k, package in enumerate(found)
-    ]
-
-
-def mark(path: Path, lang: str, heard: list[events.Event]) -> Report:
-    order = Order(
-        path=path,
-        assignment=ASSIGNMENT,
-        distro=find_distro("jazzy"),
-        sandbox="bubblewrap",
-        limits=LIMITS,
-        lang=lang,
-    )
-    return grade(order, heard.append)
+def packages() -> list[Package]:
+    return [package for package in BROKEN if package.name in NAMES]
 
 
 def prose(text: str, report: Report) -> list[str]:
@@ -73,13 +54,13 @@ def said(report: Report) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("package", packages())
+@pytest.mark.parametrize("package", packages(), ids=lambda package: package.name)
 def test_a_verdict_in_korean_is_the_same_verdict_and_all_korean(
     package: Package, tmp_path: Path
 ) -> None:
     heard: list[events.Event] = []
     root = write(package, tmp_path)
-    korean = mark(root, "ko", heard)
+    korean = mark(root, lang="ko", listener=heard.append)
     assert korean.lang == "ko"
     assert korean.score == package.expect_score
     failed = {check.id: check.mistakes[0].id for check in korean.checks if check.status == "failed"}
@@ -103,7 +84,7 @@ def test_a_verdict_in_korean_is_the_same_verdict_and_all_korean(
 def test_the_language_changes_texts_and_nothing_else(tmp_path: Path) -> None:
     package = next(package for package in BROKEN if package.name == "brackets_behind_callback")
     root = write(package, tmp_path)
-    english, korean = mark(root, "en", []), mark(root, "ko", [])
+    english, korean = mark(root), mark(root, lang="ko")
     assert (english.lang, korean.lang) == ("en", "ko")
     kept = ("id", "status", "score", "mistakes", "where", "depends", "blocked_by", "consequence_of")
     for one, other in zip(english.checks, korean.checks, strict=True):

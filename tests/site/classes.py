@@ -9,15 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from grader.batch.model import ClassResult, Entry, Override, Student
-from grader.course.assignment import load_assignment
 from grader.report.model import CheckResult, Report
-from grader.ros.distro import find_distro
-from grader.verdict.mark import Order, grade
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
+from tests.recorded import mark
 
-COURSE = Path(__file__).parents[2] / "lab/course/hello_time/assignment.yaml"
 DUE = datetime(2026, 11, 20, 22, 0, tzinfo=timezone.utc)
 # of the corpus: right, wrong text, cannot be started, cannot be built, too fast, on the wall clock
 REAL = (
@@ -73,16 +70,9 @@ def result(entries: Sequence[Entry], **fields: Any) -> ClassResult:
 
 
 def marked(name: str, folder: Path) -> Report:
-    """Mark one package of the corpus for real."""
+    """Return the report of one package of the corpus."""
     package = next(package for package in (*RIGHT, *BROKEN) if package.name == name)
-    order = Order(
-        path=write(package, folder),
-        assignment=load_assignment(COURSE),
-        distro=find_distro("jazzy"),
-        sandbox="bubblewrap",
-        name=name,
-    )
-    return grade(order, lambda event: None)
+    return mark(write(package, folder))
 
 
 def mixed(reports: Sequence[Report], count: int) -> ClassResult:

@@ -6,35 +6,20 @@ fixtures, and a process in which tests of both run would start two browsers, whi
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser
 
-from grader.base.cache import make_once
-from grader.report.files import report_json
 from grader.report.model import Report
-from grader.ros.prefix import Ros
 from tests.site import browser, classes
 
 
 @pytest.fixture(scope="session")
-def reports(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, ...]:
-    """Reports of a solution and of packages with mistakes; several test processes mark them once."""
-    base = tmp_path_factory.getbasetemp()
-    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
-
-    def make(staging: Path) -> None:
-        for name in classes.REAL:
-            report = classes.marked(name, staging)
-            (staging / f"{name}.json").write_text(report_json(report), encoding="utf-8")
-
-    folder = shared / "site-reports"
-    make_once(folder, make, say=lambda text: None)
-    found = [(folder / f"{name}.json").read_text(encoding="utf-8") for name in classes.REAL]
-    return tuple(Report.model_validate_json(text) for text in found)
+def reports(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, ...]:
+    """Reports of a solution and of packages with mistakes."""
+    folder = tmp_path_factory.mktemp("packages")
+    return tuple(classes.marked(name, folder) for name in classes.REAL)
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,172 @@
+"""The evidence of one verdict as a file: what the build and the run showed, judged again later.
+
+A recording is canonical JSON: UTF-8, sorted keys, no white space, no NaN or infinity, a line end
+after it. So equal evidence is equal bytes. Its fields are in docs/recordings.md. Checks, diagnosis,
+fixes and the report work on it as they do on a build and a run; nothing is executed.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import Message, say
+from grader.course.assignment import Assignment, Output
+from grader.package.submission import Submission
+from grader.report.model import Environment
+from grader.run.observer import Event, Watch
+from grader.run.run import Run
+from grader.run.session import Unobserved
+from grader.run.workspace import Build
+from grader.verdict.evidence import Evidence
+
+EVENT_LISTS = ("events", "before_start", "early")  # of a Watch; they share their events
+EVENTS = TypeAdapter(list[Event])
+RUN = TypeAdapter(Run)
+
+
+class RecordingError(UsageError):
+    """A recording cannot be read, or is of another submission or assignment."""
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Asked(_Part):
+    """What the build and the run depend on in an assignment."""
+
+    id: str
+    package: str
+    executable: str
+    output: Output
+
+
+class Recording(_Part):
+    """What one build and one run showed.
+
+    `build` and `run` are None if no check needed them; `unobserved` is the reason if the run was
+    tried and could not be observed. `run` is a `Run`, its events listed once (see `_run_as_json`).
+    """
+
+    schema_: Literal[1] = Field(default=1, alias="schema")
+    asked: Asked
+    submission: str = Field(description="the SHA-256 of the submission, its modes included")
+    environment: Environment
+    build: Build | None = None
+    run: dict[str, Any] | None = None
+    unobserved: str = ""
+
+    def to_bytes(self) -> bytes:
+        """Return the recording as canonical JSON.
+
+        Raises ValueError for a number that JSON does not have.
+        """
+        return canonical_json(self.model_dump(mode="json", by_alias=True))
+
+    @classmethod
+    def from_bytes(cls, content: bytes, *, name: str = "the recording") -> Recording:
+        """Read a recording; `name` is for the message of a RecordingError."""
+        try:
+            recording = cls.model_validate_json(content)
+            if recording.run is not None:
+                _run_from_json(recording.run)
+        except (ValidationError, LookupError, TypeError, ValueError) as error:
+            raise RecordingError(f"{name} is not a recording of schema 1: {error}") from None
+        return recording
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """The evidence of a recording, and the environment in which it was recorded."""
+
+    evidence: Evidence
+    environment: Environment
+
+
+def record(evidence: Evidence, environment: Environment) -> Recording:
+    """Return the recording of a verdict's evidence after its last check."""
+    return Recording(
+        asked=_asked(evidence.assignment),
+        submission=evidence.submission.sha256,
+        environment=environment,
+        build=evidence.build if evidence.was_built else None,
+        run=_run_as_json(evidence.run) if evidence.has_run else None,
+        unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
+    )
+
+
+def evidence_of(recording: Recording, submission: Submission, assignment: Assignment) -> Evidence:
+    """Return the evidence that a recording holds of a submission.
+
+    Raises RecordingError if the recording is of another submission, or of an assignment whose
+    build or run differs. A check that needs what was not recorded raises it too.
+    """
+    if recording.submission != submission.sha256:
+        raise RecordingError(f"the recording is not of {submission.name} as it is now")
+    if recording.asked != _asked(assignment):
+        raise RecordingError(f"the recording is of another version of {assignment.id}")
+
+    def build() -> Build:
+        if recording.build is None:
+            raise RecordingError("the recording has no build")
+        return recording.build
+
+    def run() -> Run:
+        if recording.unobserved:
+            raise Unobserved(recording.unobserved)
+        if recording.run is None:
+            raise RecordingError("the recording has no run")
+        return _run_from_json(recording.run)
+
+    return Evidence(assignment, submission, build=build, run=run)
+
+
+def canonical_json(value: object) -> bytes:
+    """Return a JSON value as bytes that are equal whenever the values are."""
+    text = json.dumps(
+        value, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")
+    )
+    return f"{text}\n".encode()
+
+
+def _asked(assignment: Assignment) -> Asked:
+    return Asked(
+        id=assignment.id,
+        package=assignment.package,
+        executable=assignment.executable,
+        output=assignment.output,
+    )
+
+
+def _run_as_json(run: Run) -> dict[str, Any]:
+    """Return a run as a JSON value.
+
+    The lists of a Watch share events, and which event is in which list matters: `seen` has each
+    event once, and the lists hold indices into it.
+    """
+    lists = {name: getattr(run.watch, name) for name in EVENT_LISTS}
+    seen = list({id(event): event for events in lists.values() for event in events}.values())
+    place = {id(event): index for index, event in enumerate(seen)}
+    found: dict[str, Any] = asdict(run)
+    found["watch"] |= {name: [place[id(e)] for e in events] for name, events in lists.items()}
+    found["watch"]["seen"] = EVENTS.dump_python(seen, mode="json")
+    note = run.watch.note
+    found["watch"]["note"] = note.template if isinstance(note, Message) else note
+    return found
+
+
+def _run_from_json(value: dict[str, Any]) -> Run:
+    watch = dict(value["watch"])
+    seen = EVENTS.validate_python(watch.pop("seen"))
+    lists = {name: [seen[index] for index in watch.pop(name)] for name in EVENT_LISTS}
+    note = watch.pop("note")
+    run = RUN.validate_python({**value, "watch": Watch(**watch)})
+    for name, events in lists.items():
+        setattr(run.watch, name, events)
+    run.watch.note = say(note) if note else ""
+    return run

@@ -1,0 +1,143 @@
+"""Verdicts for real: built by colcon, run by `ros2 run`, in each sandbox and on each distro."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from grader.base.cache import cache_root
+from grader.report.model import Report
+from grader.sandbox.processes import adopt_orphans
+from tests import stage
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import write
+from tests.corpus.hostile import HOSTILE
+from tests.corpus.model import Package
+from tests.corpus.right import RIGHT
+from tests.marking import assert_full_marks, assert_verdict, mark, summary
+
+PATIENCE = 120.0  # seconds in which the worst package must have its verdict
+# one that each kind of check fails: files, build, install, start, spin, output, time, Ctrl+C
+KINDS = (
+    *("shebang_missing", "setup_import_error", "module_misspelt", "import_misspelt"),
+    *("spin_missing", "text_capital", "period_half", "ignores_interrupt"),
+)
+DOZEN = HOSTILE[:: max(1, len(HOSTILE) // 12)]
+
+
+def kinds() -> list[object]:
+    return [pytest.param(p, id=p.name) for p in BROKEN if p.name in KINDS]
+
+
+def test_each_kind_of_check_has_its_package() -> None:
+    assert {package.name for package in BROKEN} >= set(KINDS)
+
+
+def test_the_solution_gets_full_marks(tmp_path: Path) -> None:
+    assert_full_marks(RIGHT[0], mark(write(RIGHT[0], tmp_path)))
+
+
+@pytest.mark.parametrize("package", kinds())
+def test_a_broken_package_fails_where_and_why_it_must(package: Package, tmp_path: Path) -> None:
+    assert_verdict(package, mark(write(package, tmp_path)))
+
+
+@pytest.mark.parametrize(
+    "package",
+    [
+        pytest.param(p, id=p.name, marks=pytest.mark.full if p in DOZEN else pytest.mark.long)
+        for p in HOSTILE
+    ],
+)
+def test_a_hostile_package_harms_nothing(package: Package, tmp_path: Path) -> None:
+    adopt_orphans()
+    before = set(stage.descendants())
+    begin = time.monotonic()
+    report = mark(write(package, tmp_path))
+    assert time.monotonic() - begin < PATIENCE
+    assert_verdict(package, report)
+    assert len(report.model_dump_json()) < 1_000_000
+    left = {pid: line for pid, line in stage.descendants().items() if pid not in before}
+    assert left == {}
+
+
+def test_the_solution_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
+    report = mark(write(RIGHT[0], tmp_path), distro="kilted")
+    assert report.score == 100, summary(report)
+    assert report.environment.rclpy == "9.1.2"
+
+
+@pytest.mark.full
+def test_the_tutorials_own_node_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
+    tutorial = next(package for package in RIGHT if package.name == "tutorial")
+    report = mark(write(tutorial, tmp_path), distro="kilted")
+    assert report.score == 100, summary(report)
+
+
+def test_the_period_is_measured_to_a_millisecond(tmp_path: Path) -> None:
+    report = mark(write(RIGHT[0], tmp_path))
+    assert [tick.virtual for tick in report.observed.ticks] == [float(k) for k in range(1, 11)]
+    assert [tick.n for tick in report.observed.ticks] == list(range(10))
+    stamps = [tick.wall for tick in report.observed.ticks]
+    assert None not in stamps
+    assert stamps == sorted(stamps, key=lambda stamp: stamp or 0)
+
+
+def test_the_command_in_the_report_is_the_one_that_ran(tmp_path: Path) -> None:
+    report = mark(write(RIGHT[0], tmp_path))
+    assert report.observed.command == (
+        "ros2 run my_robot_controller test_node --ros-args -p use_sim_time:=true"
+    )
+    assert report.observed.nodes == ["/my_first_node"]
+
+
+@pytest.mark.parametrize("name", ["solution", "text_capital", "marker_missing", "spin_missing"])
+def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -> None:
+    package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
+    root = write(package, tmp_path)
+    report = mark(root, sandbox="none")
+    if package in RIGHT:
+        assert report.score == 100, summary(report)
+    else:
+        assert_verdict(package, report)
+    assert report.environment.sandbox == "none"
+
+
+@pytest.mark.full  # needs root, which `make test` does not
+@pytest.mark.parametrize("name", ["solution", "period_half"])
+def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -> None:
+    package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
+    root = write(package, tmp_path)
+    command = stage.grader("grade", root, "--sandbox", "account", "--out", tmp_path / "out")
+    done = stage.run(stage.as_root_of_a_container(command))
+    assert done.returncode == (0 if package in RIGHT else 1), done.stdout + done.stderr
+    (written,) = (tmp_path / "out").rglob("report.json")
+    report = Report.model_validate(json.loads(written.read_text()))
+    if package in RIGHT:
+        assert report.score == 100, summary(report)
+    else:
+        assert_verdict(package, report)
+    assert report.environment.sandbox == "account"
+
+
+def test_an_ordinary_user_gets_the_same_verdict(open_folder: Path) -> None:
+    root = write(RIGHT[0], open_folder)
+    done = stage.run(
+        stage.as_user(stage.grader("grade", root, "--out", open_folder / "reports")),
+        env={"HOME": str(open_folder), "GRADER_CACHE": str(cache_root())},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.fixture
+def open_folder() -> Iterator[Path]:
+    """A folder that every user may read and write; pytest's own are closed to the others."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o777)
+        yield folder
