@@ -22,7 +22,7 @@ from grader.sandbox.base import HOME
 from grader.sandbox.bubblewrap import FILES, Bubblewrap, memory_file, system_mounts
 from grader.sandbox.bubblewrap import parents_of as parents
 from grader.sandbox.limits import Limits
-from grader.sandbox.local import need
+from grader.sandbox.local import require_program
 from grader.sandbox.processes import kill_with_children
 from lab.terminal import foreground_again, ignoring_interrupts
 from lab.visit import BASHRC, ROOM, WORKSPACE, Visit, accounts
@@ -45,7 +45,7 @@ class BubblewrapLab:
 
     def __init__(self, ros: Ros) -> None:
         self._ros = ros
-        self._bwrap = need("bwrap", shutil.which("bwrap"))
+        self._bwrap = require_program("bwrap", shutil.which("bwrap"))
         self._root = os.geteuid() == 0
 
     def enter(self, visit: Visit) -> int:
