@@ -230,7 +230,7 @@ def test_a_second_build_is_made_of_the_cache(client: DockerClient) -> None:
 
 
 def test_every_distro_has_its_rows_in_the_table(client: DockerClient) -> None:
-    rows = images.table(client)
+    rows = images.image_table(client)
     assert {row.distro for row in rows} == set(distros())
     here = {row.name for row in rows if row.size}
     assert here >= {f"{engine.REPOSITORY}:{name}" for name in NAMES}
