@@ -26,7 +26,7 @@ FILE = f"{INNER}/my_first_node.py"
 
 def found(workspace: Path, environment: Mapping[str, str]) -> tuple[str, ...]:
     wanted = load_assignment(COURSE / "assignment.yaml")
-    return steps.progress(steps.Place(workspace, wanted, environment), LESSON.steps)
+    return steps.next_actions(steps.StudentState(workspace, wanted, environment), LESSON.steps)
 
 
 def guide(*words: str, workspace: Path, env: dict[str, str]) -> tuple[int, str, str]:
