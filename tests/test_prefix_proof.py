@@ -248,7 +248,7 @@ def test_a_program_of_ours_that_does_not_run_is_nobodys_mistake(
     done = stage.run([*command, "--out", tmp_path / "out"])
     assert done.returncode == 3, done.stdout + done.stderr
     assert "a program of ROS jazzy does not run" in done.stderr
-    assert "Run the command again: it makes a new one first." in done.stderr
+    assert "Run the command again to make a new one." in done.stderr
     assert "Traceback (most recent call last)" not in done.stdout
     assert list((tmp_path / "out").rglob("report.json")) == []
     assert not folder.exists()  # so the next command makes it anew

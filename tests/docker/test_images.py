@@ -241,5 +241,5 @@ def test_an_image_that_is_missing_and_cannot_be_made_is_exit_3() -> None:
     command = stage.grader("grade", solution, "--sandbox", "docker", "--distro", "humble")
     done = stage.run(command, env={"GRADER_IMAGES": "ros2-teaching-lab-none"}, timeout=300)
     assert done.returncode == 3
-    assert "ros2-teaching-lab-none:grade-humble could not be built" in done.stderr
+    assert "cannot build ros2-teaching-lab-none:grade-humble" in done.stderr
     assert "Traceback" not in done.stderr

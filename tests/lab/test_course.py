@@ -115,7 +115,7 @@ def test_a_home_folder_is_no_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     for folder in (tmp_path / "home", tmp_path):
         folder.mkdir(exist_ok=True)
         (folder / "assignment.yaml").write_text(weather.ASSIGNMENT)
-        with pytest.raises(UsageError, match="not in a folder of its own"):
+        with pytest.raises(UsageError, match="does not have a folder of its own"):
             chosen_lesson(str(folder / "assignment.yaml"))
     with pytest.raises(UsageError, match="no assignment"):
         chosen_lesson(str(tmp_path / "none.yaml"))

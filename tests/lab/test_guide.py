@@ -100,7 +100,7 @@ def test_files_in_the_wrong_state_are_told_as_what_they_are(tmp_path: Path) -> N
     workspace, environment = after("wrong target")
     wrong = "'test_node = my_robot_controller.my_node:main',"
     put(workspace, f"src/{PACKAGE}/setup.py", SETUP.replace("ENTRY", wrong))
-    assert "leads to my_robot_controller.my_node:main" in found(workspace, environment)[6]
+    assert "runs my_robot_controller.my_node:main" in found(workspace, environment)[6]
 
     workspace, environment = after("broken setup")
     put(workspace, f"src/{PACKAGE}/setup.py", "setup(")
