@@ -42,7 +42,7 @@ wheels_prefix(find_distro('$DISTRO'), prove=lambda ros: None).rename('/opt/ros/$
 FROM python AS wheels
 COPY --from=prefix /opt/ros /opt/ros
 ARG DISTRO=jazzy
-# the proof that its programs run, here where they will
+# test that the programs run in this image
 RUN bash -c ". /opt/ros/$DISTRO/setup.bash && colcon build --help && ros2 --help && python3 -c 'import rclpy.node; rclpy.init'" \
       > /dev/null
 ENV ROS_DISTRO=${DISTRO} LANG=C.UTF-8
