@@ -61,7 +61,7 @@ class Outcome:
 
 
 class Console(ABC):
-    """A command on a pseudo-terminal of its own."""
+    """A command on its own pseudo-terminal."""
 
     @abstractmethod
     def wait(self, seconds: float) -> bool:

@@ -191,7 +191,7 @@ class DockerSandbox(Sandbox):
         return ExecConsole(command, ended=partial(self._console_ended, future))
 
     def _console_ended(self, future: Future[Container], how: End) -> None:
-        if how != "as asked":
+        if how != "interrupted":
             with docker_errors("reading which limit was hit"):
                 self._limit_hit = future.result().limit_hit()
         self._retire("run", future)

@@ -20,7 +20,7 @@ from grader.sandbox.base import COLUMNS, ROWS, Console, Outcome, Pipe
 if TYPE_CHECKING:
     from docker import APIClient
 
-End = Literal["as asked", "otherwise"]  # whether Ctrl+C ended a command on a console
+End = Literal["interrupted", "otherwise"]  # how a command on a console ended
 HEADER = struct.Struct(">BxxxL")  # of a frame: stream number, length (Docker's API, attach)
 STDERR = 2
 MAX_STDERR = 4_000  # bytes that are kept
@@ -231,7 +231,7 @@ class ExecConsole(Console):
         return None if self._status is None else (self._status, None)
 
     def end(self) -> None:
-        how: End = "as asked" if self._interrupted and self.poll() is not None else "otherwise"
+        how: End = "interrupted" if self._interrupted and self.poll() is not None else "otherwise"
         self._command.close()
         self._ended(how)
 
