@@ -194,7 +194,7 @@ def test_a_proof_that_is_not_finished_removes_nothing(
     folder = maker(0).find()
     monkeypatch.setattr(proof, "SECONDS", 0.0)
     made = Ros(JAZZY, "wheels", folder, base_interpreter(), {})
-    untested = pytest.raises(SurroundingsError, match="could not be tested")
+    untested = pytest.raises(SurroundingsError, match="cannot test whether")
     with Bubblewrap(made, Limits()) as sandbox, untested as caught:
         prove_again(sandbox)
     assert not isinstance(caught.value, BrokenRosError)

@@ -68,7 +68,7 @@ def test_another_terminal_has_not_sourced_the_overlay(tmp_path: Path) -> None:
         ("(Node)", "(object)", "no class that inherits from Node"),
         ("self.create_timer(1.0, self.timer_callback)", "pass", "no timer"),
         ("def main(", "def mian(", "no function main"),
-        ("rclpy.spin(node)", "pass", "spins"),
+        ("rclpy.spin(node)", "pass", "does not spin"),
         ("class MyFirstNode(Node):", "class MyFirstNode(Node)", "line 6"),
     ],
 )
