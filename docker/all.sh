@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds and tests all distros and bases on a machine that reaches a registry, and prints the table
+# Builds and tests all distros and bases on a machine with access to a registry, and prints the table
 # for the README:  docker/all.sh [DISTRO...]
 # For each: builds both images, marks the solution in a container (it must get full marks), and runs
 # `ros2 pkg prefix` in the lab. WHEELS_BASE names another image for the base `wheels`.

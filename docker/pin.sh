@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Prints today's digests of the official images, as rows for grader/ros/distros.toml.
-# Needs a machine that reaches the registry:  docker/pin.sh [DISTRO...]
+# Prints the current digests of the official images, for grader/ros/distros.toml.
+# Needs access to the registry:  docker/pin.sh [DISTRO...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- $(sed -n 's/^\[\([a-z]*\)\]$/\1/p' grader/ros/distros.toml)

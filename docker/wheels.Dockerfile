@@ -28,9 +28,8 @@ RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
 COPY grader/__init__.py grader/
 COPY grader/base/__init__.py grader/base/errors.py grader/base/cache.py grader/base/
 COPY grader/base/i18n/__init__.py grader/base/i18n/message.py grader/base/i18n/
-COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/making.py grader/ros/prefix.py \
-     grader/ros/prefix_texts.py grader/ros/scripts.py grader/ros/distros.toml \
-     grader/ros/setup.bash.in grader/ros/
+COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/prefix.py grader/ros/prefix_build.py \
+     grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
 COPY grader/ros/locks grader/ros/locks
 COPY grader/ros/ros2_command grader/ros/ros2_command
 ARG DISTRO=jazzy
@@ -43,7 +42,7 @@ wheels_prefix(find_distro('$DISTRO'), prove=lambda ros: None).rename('/opt/ros/$
 FROM python AS wheels
 COPY --from=prefix /opt/ros /opt/ros
 ARG DISTRO=jazzy
-# the proof that its programs run, here where they will
+# test that the programs run in this image
 RUN bash -c ". /opt/ros/$DISTRO/setup.bash && colcon build --help && ros2 --help && python3 -c 'import rclpy.node; rclpy.init'" \
       > /dev/null
 ENV ROS_DISTRO=${DISTRO} LANG=C.UTF-8

@@ -1,1 +1,1 @@
-"""The student's side: a ROS 2 terminal with a workspace, and a guide through the exercise."""
+"""The lab for students: a ROS 2 terminal with their workspace, and a guide through the lesson."""

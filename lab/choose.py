@@ -1,4 +1,4 @@
-"""Which kind of lab opens: `auto`, or the one that was asked for."""
+"""Selects how the lab is opened: in Docker or with bubblewrap."""
 
 from __future__ import annotations
 
@@ -10,38 +10,41 @@ from grader.base.cache import Say
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
-from lab.visit import Visit
+from lab.config import LabConfig
 
 KINDS = ("auto", "docker", "bubblewrap")
-Enter = Callable[[Visit], int]
+Enter = Callable[[LabConfig], int]
+"""Opens a lab and returns the exit status of its command."""
 
 
-def choose(kind: str, distro: Distro, *, tell: Say) -> Enter:
-    """Return what opens a lab of this kind and returns its exit status; say which it is, and why.
+def choose(kind: str, distro: Distro, *, notify: Say) -> Enter:
+    """Return the function that opens a lab of this kind; report the choice with `notify`.
 
-    Raises UsageError for another kind, SurroundingsError where the lab cannot be had.
+    Raises UsageError for an unknown kind, SurroundingsError if the lab is not available.
     """
     if kind not in KINDS:
         close = difflib.get_close_matches(kind.lower(), KINDS, n=1)
         hint = say("did you mean '{name}'?", name=close[0]) if close else ""
-        known = say("Kinds: {names}.", names=", ".join(KINDS))
+        known = say("Sandboxes: {names}.", names=", ".join(KINDS))
         raise UsageError(
-            say("there is no lab of the kind '{kind}'", kind=kind), remedy=joined(hint, known)
+            say("there is no lab sandbox '{kind}'", kind=kind), remedy=joined(hint, known)
         )
     if kind == "bubblewrap":
-        return _bubblewrap(distro, tell)
+        return _bubblewrap(distro, notify)
     try:
         enter, image = _docker(distro)
     except SurroundingsError as error:
         if kind == "docker":
             raise
-        return _without_docker(distro, error, tell)
-    tell(say("opening ROS 2 {distro} in a container of {image}", distro=distro.name, image=image))
+        return _without_docker(distro, error, notify)
+    notify(
+        say("opening ROS 2 {distro} in a container from {image}", distro=distro.name, image=image)
+    )
     return enter
 
 
 def _docker(distro: Distro) -> tuple[Enter, str]:
-    # each kind is loaded only when it is wanted: the one must not need the other's libraries
+    # imported lazily: neither kind of lab needs the other's libraries
     from grader.ros.images import connect, find_image  # noqa: PLC0415
     from lab.container import ContainerLab  # noqa: PLC0415
 
@@ -49,35 +52,35 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     image = find_image(client, distro, "lab")
     if image is None:
         raise SurroundingsError(
-            say("Docker has no image of the {distro} lab", distro=distro.name),
-            remedy=say("Make it once: make images DISTRO={distro}", distro=distro.name),
+            say("Docker has no lab image for {distro}", distro=distro.name),
+            remedy=say("Build it: make images DISTRO={distro}", distro=distro.name),
         )
     lab = ContainerLab(client, image)
     return lab.enter, image.tags[0] if image.tags else str(image.short_id)
 
 
-def _bubblewrap(distro: Distro, tell: Say) -> Enter:
+def _bubblewrap(distro: Distro, notify: Say) -> Enter:
     from grader.sandbox.proof import proven_ros  # noqa: PLC0415
     from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
 
-    return BubblewrapLab(proven_ros(distro, say=tell)).enter
+    return BubblewrapLab(proven_ros(distro, say=notify)).enter
 
 
-def _without_docker(distro: Distro, error: SurroundingsError, tell: Say) -> Enter:
+def _without_docker(distro: Distro, error: SurroundingsError, notify: Say) -> Enter:
     if distro.lock is None and not (Path("/opt/ros") / distro.name / "setup.bash").is_file():
         raise SurroundingsError(
             say(
-                "ROS 2 {distro} has no wheels on PyPI, so its lab needs Docker, and {problem}",
+                "ROS 2 {distro} has no wheels on PyPI, so its lab needs Docker, but {problem}",
                 distro=distro.name,
                 problem=error.message,
             ),
             remedy=error.remedy,
         )
-    tell(
+    notify(
         say(
-            "opening ROS 2 {distro} in bubblewrap, since {problem}",
+            "opening ROS 2 {distro} in bubblewrap because {problem}",
             distro=distro.name,
             problem=error.message,
         )
     )
-    return _bubblewrap(distro, tell)
+    return _bubblewrap(distro, notify)

@@ -1,5 +1,7 @@
-"""The `lab` command. Exit status: that of the command in the lab (0 after an interactive visit), 2
-wrong usage, 3 the lab's own surroundings failed, 130/143 interrupted/terminated.
+"""The `lab` command, and `check`, `fix` and `explain` in the lab.
+
+Exit status of `lab`: that of the command in the lab (0 for an interactive shell), 2 wrong usage, 3
+the lab's surroundings failed, 130/143 interrupted/terminated.
 """
 
 from __future__ import annotations
@@ -16,18 +18,33 @@ from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
 
+OF_A_DISTRO = ("check", "fix")
+
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line and return its exit status."""
     return run(command, "lab", argv)
 
 
+def run_in_lab(name: str) -> int:
+    """Run the grader's command `name` with this process' arguments; return its exit status.
+
+    `check` and `fix` use the distro of this terminal unless --distro is given.
+    """
+    from grader.cli.main import main as run_grader  # noqa: PLC0415
+
+    words = sys.argv[1:]
+    if name in OF_A_DISTRO and not any(word.startswith("--distro") for word in words):
+        words = ["--distro", os.environ.get("ROS_DISTRO", "jazzy"), *words]
+    return run_grader([name, *words])
+
+
 @click.command(
     context_settings=options.CONTEXT,
     help=msg(
-        "Open a ROS 2 terminal with your workspace in it; with a COMMAND, run that there instead.\n\n"
-        "The workspace is a folder of this machine and stays when the lab is closed. A second lab "
-        "on the same workspace is a second terminal."
+        "Open a ROS 2 terminal with your workspace, or run COMMAND in it.\n\n"
+        "The workspace is a folder on this machine and is kept when the lab is closed. A second lab "
+        "with the same workspace is a second terminal."
     ),
 )
 @click.version_option(grader.__version__, "-V", "--version", prog_name="lab")
@@ -38,14 +55,14 @@ def main(argv: list[str] | None = None) -> int:
     "--workspace",
     type=click.Path(path_type=Path),
     help=msg(
-        "Where the workspace is on this machine; made if it is not there. [default: ~/ros2_ws]"
+        "The folder of the workspace on this machine; created if missing. [default: ~/ros2_ws]"
     ),
 )
 @click.option(
     "--sandbox",
     default="auto",
     show_default=True,
-    help=msg("What the lab is made of: auto, docker or bubblewrap."),
+    help=msg("How the lab is opened: auto, docker or bubblewrap."),
 )
 @options.assignment
 @options.lang
@@ -59,22 +76,24 @@ def command(
     words: tuple[str, ...],
 ) -> int:
     """Open the lab on this terminal."""
-    from grader.ros.distro import find_distro  # noqa: PLC0415 - --help must not pay for it
+    from grader.ros.distro import find_distro  # noqa: PLC0415 - keeps --help fast
     from lab.choose import choose  # noqa: PLC0415
-    from lab.lesson import lesson_meant  # noqa: PLC0415
-    from lab.visit import Visit  # noqa: PLC0415
+    from lab.config import LabConfig  # noqa: PLC0415
+    from lab.lesson import chosen_lesson  # noqa: PLC0415
     from lab.workspace import prepare  # noqa: PLC0415
 
     translate = Translator(lang or chosen_language(os.environ))
     with errors_in(translate.lang):
         found = find_distro(distro)
-        lesson = lesson_meant(assignment)
-        enter = choose(sandbox, found, tell=lambda text: _tell(translate(text)))
-        visit = Visit(found, prepare(workspace), lesson, command=words, lang=translate.lang)
-        status = enter(visit)
+        lesson = chosen_lesson(assignment)
+        enter = choose(sandbox, found, notify=lambda text: _notify(translate(text)))
+        config = LabConfig(found, prepare(workspace), lesson, command=words, lang=translate.lang)
+        status = enter(config)
     interactive = not words and sys.stdin.isatty()
-    return 0 if interactive else status  # what a shell's last command said is no fault of the lab
+    return (
+        0 if interactive else status
+    )  # a shell returns its last command's status, which is not the lab's
 
 
-def _tell(text: str) -> None:
+def _notify(text: str) -> None:
     click.echo(f"lab: {text}", err=True)

@@ -1,5 +1,5 @@
-"""The lab in a Docker container: one container for one workspace, distro and course, and as many
-terminals in it as are opened. It ends with the last of them (`lab/keeper.py`).
+"""The lab in Docker: one container for each workspace, distro and course, with any number of
+terminals. It ends when the last terminal closes (`lab/supervisor.py`).
 """
 
 from __future__ import annotations
@@ -25,94 +25,94 @@ from docker.types import Mount
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.sandbox.base import HOME
+from lab.config import LAB_ROOT, WORKSPACE, LabConfig, accounts
 from lab.exec_stream import ExecStream
-from lab.keeper import LAST, READY, VARIABLE
-from lab.visit import ROOM, WORKSPACE, Visit, accounts
+from lab.supervisor import LAST, READY, VARIABLE
 from lab.workspace import Student
 
 LABEL = "ros2-teaching-lab.lab"
-KEEPER = ["/usr/bin/python3", "-I", "-S", f"{ROOM}/lab/keeper.py"]
-IMAGE_USER = Student(1000, 1000)  # `student` of the images
+SUPERVISOR = ["/usr/bin/python3", "-I", "-S", f"{LAB_ROOT}/lab/supervisor.py"]
+IMAGE_USER = Student(1000, 1000)  # `student` in the images
 SHARED_MEMORY = "256m"
-HERE = ("localhost", "127.0.0.1", "::1")  # (the SDK calls a Unix socket localhost, too)
+LOCAL_HOSTS = ("localhost", "127.0.0.1", "::1")  # (the SDK also calls a Unix socket localhost)
 OPEN_SECONDS = 30.0
 END_SECONDS = 15.0
 POLL_SECONDS = 0.05
 
 
 class ContainerLab:
-    """The lab as a container of an image's."""
+    """A lab in a container of a lab image."""
 
     def __init__(self, client: docker.DockerClient, image: Image) -> None:
         self._client = client
         self._image = image
 
-    def enter(self, visit: Visit) -> int:
-        """Open a terminal in the workspace's lab and return the exit status of what ran in it.
+    def enter(self, config: LabConfig) -> int:
+        """Open a terminal in the lab's container and return the exit status of its command.
 
-        Raises SurroundingsError where Docker cannot do it, or ends it from outside.
+        Raises SurroundingsError if Docker cannot open it or the container is killed from outside.
         """
         try:
-            _must_be_here(self._client)
+            _require_local_daemon(self._client)
             mark = secrets.token_hex(8)
-            container, lease = self._open(visit, mark)
+            container, lease = self._open(config, mark)
             try:
-                return self._run(container, visit, mark)
+                return self._run(container, config, mark)
             finally:
                 _leave(container, lease)
         except (DockerException, requests.RequestException) as error:
             raise _failed(error) from error
 
-    def _run(self, container: Container, visit: Visit, mark: str) -> int:
+    def _run(self, container: Container, config: LabConfig, mark: str) -> int:
         tty = sys.stdin.isatty() and sys.stdout.isatty()
         stream = ExecStream(
             self._client.api,
             str(container.id),
-            visit.words,
+            config.words,
             tty=tty,
-            user=_user(visit),
+            user=_user(config),
             workdir=WORKSPACE,
-            environment={**visit.environment(os.environ), VARIABLE: mark},
+            environment={**config.environment(os.environ), VARIABLE: mark},
         )
         try:
             return stream.run()
         finally:
             stream.close()
 
-    def _open(self, visit: Visit, mark: str) -> tuple[Container, ExecStream]:
-        """Return the lab's container and a lease on it; made anew if the last is just ending."""
+    def _open(self, config: LabConfig, mark: str) -> tuple[Container, ExecStream]:
+        """Return the lab's container and a lease on it; start a new one if the old one ends."""
         deadline = time.monotonic() + OPEN_SECONDS
         while True:
-            container = self._running(visit) or self._start(visit)
-            lease = self._lease(container, visit, mark) if container is not None else None
+            container = self._running(config) or self._start(config)
+            lease = self._lease(container, config, mark) if container is not None else None
             if container is not None and lease is not None:
                 return container, lease
             if time.monotonic() > deadline:
                 raise SurroundingsError(
-                    say("the lab's container does not start"), remedy=_remedy_for(visit)
+                    say("the lab's container does not start"), remedy=_remedy_for(config)
                 )
             time.sleep(POLL_SECONDS)
 
-    def _running(self, visit: Visit) -> Container | None:
+    def _running(self, config: LabConfig) -> Container | None:
         try:
-            found = self._client.containers.get(_name(visit))
+            found = self._client.containers.get(_name(config))
         except NotFound:
             return None
         return found if found.status == "running" else None
 
-    def _start(self, visit: Visit) -> Container | None:
-        """Make and start the container; None if another lab has been faster."""
-        owner = visit.workspace.owner
+    def _start(self, config: LabConfig) -> Container | None:
+        """Create and start the container; return None if another lab was faster."""
+        owner = config.workspace.owner
         try:
             made = self._client.containers.create(
                 self._image,
-                KEEPER,
+                SUPERVISOR,
                 entrypoint=[],
-                name=_name(visit),
-                hostname=visit.hostname,
-                user=_user(visit),
+                name=_name(config),
+                hostname=config.hostname,
+                user=_user(config),
                 working_dir="/",
-                labels={LABEL: _hash(visit)},
+                labels={LABEL: _hash(config)},
                 init=True,
                 auto_remove=True,
                 cap_drop=["ALL"],
@@ -120,11 +120,11 @@ class ContainerLab:
                 network_mode="bridge",
                 shm_size=SHARED_MEMORY,
                 tmpfs={HOME: f"exec,mode=0755,uid={owner.uid},gid={owner.gid}"},
-                mounts=list(_mounts(visit)),
+                mounts=list(_mounts(config)),
             )
         except APIError as error:
             if error.status_code == 409:  # the name is taken
-                self._clear_away(visit)
+                self._remove_stale(config)
                 return None
             raise
         try:
@@ -136,25 +136,25 @@ class ContainerLab:
             raise
         return made
 
-    def _clear_away(self, visit: Visit) -> None:
-        """Remove a container of ours that has ended and was left (a daemon that was killed)."""
+    def _remove_stale(self, config: LabConfig) -> None:
+        """Remove an ended container of this lab that the daemon left behind when it was killed."""
         try:
-            found = self._client.containers.get(_name(visit))
+            found = self._client.containers.get(_name(config))
         except NotFound:
             return
-        if found.status in ("exited", "dead") and found.labels.get(LABEL) == _hash(visit):
+        if found.status in ("exited", "dead") and found.labels.get(LABEL) == _hash(config):
             _remove(found)
 
-    def _lease(self, container: Container, visit: Visit, mark: str) -> ExecStream | None:
+    def _lease(self, container: Container, config: LabConfig, mark: str) -> ExecStream | None:
         try:
             lease = ExecStream(
                 self._client.api,
                 str(container.id),
-                [*KEEPER, "lease", mark],
-                user=_user(visit),
+                [*SUPERVISOR, "lease", mark],
+                user=_user(config),
                 workdir="/",
             )
-        except APIError:  # it has ended meanwhile
+        except APIError:  # the container has ended meanwhile
             return None
         if lease.read_line(OPEN_SECONDS) == READY:
             return lease
@@ -163,7 +163,7 @@ class ContainerLab:
 
 
 def _leave(container: Container, lease: ExecStream) -> None:
-    """End the lease; after the last one, wait until the container is gone."""
+    """End the lease; if it was the last one, wait until the container is removed."""
     lease.end_input()
     last = lease.read_line(END_SECONDS) == LAST
     lease.close()
@@ -173,62 +173,62 @@ def _leave(container: Container, lease: ExecStream) -> None:
             container.reload()
         except NotFound:
             return
-        time.sleep(POLL_SECONDS)  # (`wait` answers an error if it is removed in between)
+        time.sleep(POLL_SECONDS)  # (`wait` fails if the container is removed meanwhile)
 
 
 def _remove(container: Container) -> None:
     try:
         container.remove(force=True)
     except APIError:
-        return  # it removes itself
+        return  # it is being removed
 
 
-def _must_be_here(client: docker.DockerClient) -> None:
-    """Refuse a daemon that cannot mount this machine's folders as the student's."""
+def _require_local_daemon(client: docker.DockerClient) -> None:
+    """Raise SurroundingsError if the daemon cannot mount this machine's folders for the student."""
     address = str(client.api.base_url)
     options = client.info().get("SecurityOptions") or []
-    if urlsplit(address).hostname not in HERE:
+    if urlsplit(address).hostname not in LOCAL_HOSTS:
         raise SurroundingsError(
             say(
-                "Docker's daemon is not on this machine ({address}): the workspace cannot be "
-                "mounted",
+                "the Docker daemon is not on this machine ({address}), so it cannot mount the "
+                "workspace",
                 address=address,
             ),
             remedy=say("Unset DOCKER_HOST, or use SANDBOX=bubblewrap."),
         )
     if any("rootless" in str(option) for option in options):
         raise SurroundingsError(
-            say("Docker runs rootless here: files made in the lab would belong to another user id"),
+            say("Docker runs rootless: files created in the lab would belong to another user id"),
             remedy=say("Use SANDBOX=bubblewrap."),
         )
 
 
-def _user(visit: Visit) -> str:
-    return f"{visit.workspace.owner.uid}:{visit.workspace.owner.gid}"
+def _user(config: LabConfig) -> str:
+    return f"{config.workspace.owner.uid}:{config.workspace.owner.gid}"
 
 
-def _mounts(visit: Visit) -> Iterator[Mount]:
-    yield Mount(WORKSPACE, str(visit.workspace.path), type="bind")
-    if visit.lesson.folder is not None:
-        lesson = str(visit.lesson.folder)
-        yield Mount(visit.lesson.place, lesson, type="bind", read_only=True)
+def _mounts(config: LabConfig) -> Iterator[Mount]:
+    yield Mount(WORKSPACE, str(config.workspace.path), type="bind")
+    if config.lesson.folder is not None:
+        lesson = str(config.lesson.folder)
+        yield Mount(config.lesson.path_inside, lesson, type="bind", read_only=True)
 
 
-def _hash(visit: Visit) -> str:
-    """Return what tells labs apart: what is mounted in a container cannot be changed any more."""
-    owner = visit.workspace.owner
-    text = f"{visit.workspace.path}\0{owner.uid}\0{owner.gid}"
-    if visit.lesson.folder is not None:
-        text += f"\0{visit.lesson.folder}"
+def _hash(config: LabConfig) -> str:
+    """Return a hash of the mounts and the owner, which cannot change in a running container."""
+    owner = config.workspace.owner
+    text = f"{config.workspace.path}\0{owner.uid}\0{owner.gid}"
+    if config.lesson.folder is not None:
+        text += f"\0{config.lesson.folder}"
     return hashlib.sha256(os.fsencode(text)).hexdigest()[:16]
 
 
-def _name(visit: Visit) -> str:
-    return f"ros2-teaching-lab-{visit.distro.name}-{_hash(visit)}"
+def _name(config: LabConfig) -> str:
+    return f"ros2-teaching-lab-{config.distro.name}-{_hash(config)}"
 
 
 def _packed_accounts(owner: Student) -> bytes:
-    """Return a tar with the files of the lab's accounts."""
+    """Return a tar archive with passwd and group."""
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w") as archive:
         for name, text in accounts(owner).items():
@@ -241,16 +241,16 @@ def _packed_accounts(owner: Student) -> bytes:
 def _failed(error: Any) -> SurroundingsError:
     if isinstance(error, ImageNotFound):
         return SurroundingsError(
-            say("the lab's image has been removed"), remedy=say("Make it again: make images")
+            say("the lab's image was removed"), remedy=say("Build it again: make images")
         )
     said = error.explanation if isinstance(error, APIError) and error.explanation else str(error)
     return SurroundingsError(
-        say("Docker could not go on with the lab: {problem}", problem=said),
-        remedy=say("Is the daemon still running (docker info)? Without it: SANDBOX=bubblewrap"),
+        say("Docker could not run the lab: {problem}", problem=said),
+        remedy=say("Check that the daemon is running (docker info), or use SANDBOX=bubblewrap."),
     )
 
 
-def _remedy_for(visit: Visit) -> str:
+def _remedy_for(config: LabConfig) -> str:
     return say(
-        "See: docker logs {name}; then docker rm -f {name}, and try again.", name=_name(visit)
+        "Look at docker logs {name}, run docker rm -f {name}, and try again.", name=_name(config)
     )

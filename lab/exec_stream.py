@@ -1,8 +1,8 @@
-"""What runs in a container by `docker exec`, joined to this program's own input and output.
+"""Connects a command started with `docker exec` to this program's input and output.
 
-The Docker SDK hands out the raw connection and no more. Source of its form: Docker Engine API,
-"Attach to a container": with a terminal the bytes as they are, without one frames with a header of
-8 bytes (stream, 0, 0, 0, length).
+The Docker SDK returns only the raw connection. Its format is defined in the Docker Engine API,
+"Attach to a container": with a terminal plain bytes, without one frames with a header of 8 bytes
+(stream, 0, 0, 0, length).
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from docker.errors import APIError
 
 from grader.base.errors import SurroundingsError
 from grader.sandbox.execs import Frames, already_read, socket_of
-from lab.terminal import TERMINAL, on_new_size, raw
+from lab.terminal import TERMINAL, on_resize, raw_mode
 
 STDOUT, STDERR = 1, 2
 CHUNK = 65536
 STATUS_SECONDS = 10.0
 POLL_SECONDS = 0.01
-# Keys that end an attachment instead of going through. Docker's default begins with Ctrl+P, which
-# is a shell's "line before"; these begin with one that nothing here uses. It cannot be switched off.
+# Keys that detach. They cannot be disabled; Docker's default begins with Ctrl+P, which is "previous
+# line" in a shell, so these begin with a key that nothing here uses.
 DETACH_KEYS = "ctrl-^,ctrl-@"
 
 
 class ExecStream:
-    """A command in a container that has been started, and the connection to it."""
+    """A command started in a container, and the connection to it."""
 
     def __init__(
         self, api: docker.APIClient, container: str, words: list[str], **options: Any
@@ -42,18 +42,18 @@ class ExecStream:
         self._id: str = made["Id"]
         connection: Any = api.exec_start(self._id, tty=self._tty, socket=True)
         self._socket: socket.socket = socket_of(connection)
-        self._connection = connection  # (it would close the socket if it were let go)
+        self._connection = connection  # (garbage collection would close the socket)
         self._rest = already_read(connection, self._socket)
 
     def close(self) -> None:
-        """Let go of it: its input ends."""
+        """Close the connection, which also ends the command's input."""
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_RDWR)
         self._connection.close()
         self._socket.close()
 
     def end_input(self) -> None:
-        """End its standard input; what it says can still be read."""
+        """End its standard input; its output can still be read."""
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_WR)
 
@@ -83,9 +83,9 @@ class ExecStream:
         return text
 
     def run(self) -> int:
-        """Join it to this program's input and output until it ends; return its exit status."""
+        """Forward input and output until the command ends; return its exit status."""
         if self._tty:
-            with on_new_size(self._resize), raw():
+            with on_resize(self._resize), raw_mode():
                 self._resize()
                 self._pump()
         else:
@@ -105,14 +105,14 @@ class ExecStream:
                 data = self.read()
                 if not data:
                     return
-                if not sized:  # before its first words it may not have been there to be told
+                if not sized:  # before its first output it may not have been able to resize
                     self._resize()
                     sized = True
                 _write_out(data, frames)
             if TERMINAL in ready:
                 try:
                     keys = os.read(TERMINAL, CHUNK)
-                except OSError:  # the terminal has gone
+                except OSError:  # the terminal is closed
                     keys = b""
                 if keys:
                     with contextlib.suppress(BrokenPipeError):
@@ -132,11 +132,11 @@ class ExecStream:
     def _status(self) -> int:
         deadline = time.monotonic() + STATUS_SECONDS
         while time.monotonic() < deadline:
-            told = self._api.exec_inspect(self._id)
-            if not told["Running"] and told["ExitCode"] is not None:
-                return int(told["ExitCode"])
-            time.sleep(POLL_SECONDS)  # the connection is shut: only the status is to come
-        raise SurroundingsError("Docker does not say how the command in the lab ended")
+            state = self._api.exec_inspect(self._id)
+            if not state["Running"] and state["ExitCode"] is not None:
+                return int(state["ExitCode"])
+            time.sleep(POLL_SECONDS)  # the connection is closed; only the status is missing
+        raise SurroundingsError("Docker does not report the exit status of the command in the lab")
 
 
 def _write_out(data: bytes, frames: Frames | None) -> None:

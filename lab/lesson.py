@@ -1,4 +1,4 @@
-"""The lesson that a lab is opened for: which one it is, and where the lab has it."""
+"""The lesson that a lab is opened for, and its path in the lab."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ INSIDE = "/opt/ros2_teaching_lab/course"
 
 @dataclass(frozen=True)
 class OpenedLesson:
-    """A lesson: its assignment's `file` on this machine; `own` if it is of our own course.
+    """A lesson: its assignment's `file` on this machine; `own` if it belongs to our own course.
 
-    The lab has our own course in any case. Of another course it is given this lesson's folder,
-    read-only, and nothing of what lies beside it.
+    The lab always contains our own course. Of another course, only this lesson's folder is mounted,
+    read-only.
     """
 
     file: Path
@@ -25,26 +25,26 @@ class OpenedLesson:
 
     @property
     def folder(self) -> Path | None:
-        """The folder that the lab is given; None if it has the lesson already."""
+        """The folder to mount; None if the lab contains the lesson already."""
         return None if self.own else self.file.parent
 
     @property
-    def place(self) -> str:
-        """Where the lab has that folder."""
+    def path_inside(self) -> str:
+        """The path of that folder in the lab."""
         return f"{INSIDE}/{self.file.parent.name}"
 
     @property
     def environment(self) -> dict[str, str]:
-        """The variables by which `guide`, `check`, `fix` and `explain` know the lesson."""
+        """The variables that select the lesson for `guide`, `check`, `fix` and `explain`."""
         if self.own:
             return {LESSON: self.file.parent.name}
-        return {COURSE: INSIDE, LESSON: f"{self.place}/{self.file.name}"}
+        return {COURSE: INSIDE, LESSON: f"{self.path_inside}/{self.file.name}"}
 
 
-def lesson_meant(assignment: str | None) -> OpenedLesson:
-    """Return the lesson that is meant (see `grader.course.find.chosen`).
+def chosen_lesson(assignment: str | None) -> OpenedLesson:
+    """Return the chosen lesson (see `grader.course.find.chosen`).
 
-    UsageError if there is no such lesson, or if its folder is all that this person has.
+    UsageError if there is no such lesson, or if its folder contains the user's home folder.
     """
     file = assignment_file(assignment)
     if not is_file(file):
@@ -53,8 +53,8 @@ def lesson_meant(assignment: str | None) -> OpenedLesson:
     home = Path.home().resolve()
     if file.parent == home or file.parent in home.parents:
         raise UsageError(
-            say("{file} is not in a folder of its own", file=str(file)),
-            remedy=say("Put it into a folder that holds the lesson and nothing else."),
+            say("{file} does not have a folder of its own", file=str(file)),
+            remedy=say("Put it into a folder that contains only the lesson."),
         )
     own = file.name == FILE and file.parent.parent == own_course().resolve()
     return OpenedLesson(file, own)

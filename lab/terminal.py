@@ -1,4 +1,4 @@
-"""The calling terminal: signals while something else has it, and having it back afterwards."""
+"""Context managers for the calling terminal: signals, foreground process group, raw mode, size."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ TERMINAL = 0  # standard input
 
 @contextlib.contextmanager
 def ignoring_interrupts() -> Iterator[None]:
-    """Leave Ctrl+C to what runs on the terminal; what is started in the block ignores it too."""
+    """Ignore Ctrl+C in this process and in processes started in the block."""
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         yield
@@ -24,11 +24,11 @@ def ignoring_interrupts() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def foreground_again() -> Iterator[None]:
-    """Take the terminal back at the end.
+def restoring_foreground() -> Iterator[None]:
+    """Make this process group the terminal's foreground group again at the end.
 
-    A shell in a PID namespace makes itself the terminal's foreground group, and cannot hand it
-    back at its end: the group that it took it from has no number in there.
+    A shell in a PID namespace makes itself the foreground group and cannot restore the previous
+    one, which has no id in its namespace.
     """
     try:
         ours = os.tcgetpgrp(TERMINAL) == os.getpgrp()
@@ -45,8 +45,8 @@ def foreground_again() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def raw() -> Iterator[None]:
-    """Hand every key on as it is, Ctrl+C included; the terminal is as before afterwards."""
+def raw_mode() -> Iterator[None]:
+    """Put the terminal into raw mode: every key, also Ctrl+C, is read as bytes."""
     before = termios.tcgetattr(TERMINAL)
     try:
         tty.setraw(TERMINAL)
@@ -56,12 +56,12 @@ def raw() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def on_new_size(tell: Callable[[], None]) -> Iterator[None]:
-    """Call `tell` whenever the terminal's window has another size."""
+def on_resize(callback: Callable[[], None]) -> Iterator[None]:
+    """Call `callback` whenever the size of the terminal changes."""
 
     def changed(number: int, frame: FrameType | None) -> None:
         del number, frame
-        tell()
+        callback()
 
     before = signal.signal(signal.SIGWINCH, changed)
     try:

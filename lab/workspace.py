@@ -1,4 +1,4 @@
-"""The student's workspace on this machine: found or made, theirs, and never overwritten."""
+"""Finds or creates the student's workspace on this machine; existing files are never changed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FIRST_USER = 1000  # the first ordinary user of Debian, Ubuntu and the images
 
 @dataclass(frozen=True)
 class Student:
-    """Whose files these are: numeric ids, never root's."""
+    """The numeric ids of the workspace's owner, never root's."""
 
     uid: int
     gid: int
@@ -24,48 +24,48 @@ class Student:
 
 @dataclass(frozen=True)
 class Workspace:
-    """A workspace that is there and can be written: `path` on this machine, without links."""
+    """A writable workspace; `path` on this machine, with links resolved."""
 
     path: Path
     owner: Student
 
 
-def prepare(asked: Path | None) -> Workspace:
-    """Return the workspace (default: ~/ros2_ws of the caller), made with `src` if need be.
+def prepare(folder: Path | None) -> Workspace:
+    """Return the workspace (default: the caller's ~/ros2_ws); create it and its `src` if missing.
 
-    What is in it stays as it is. UsageError for a path that can be no workspace, or that its
-    student could not write to.
+    Existing files are not changed. UsageError for a path that cannot be a workspace or that the
+    student cannot write to.
     """
-    path = asked.expanduser() if asked is not None else _home() / "ros2_ws"
+    path = folder.expanduser() if folder is not None else _home() / "ros2_ws"
     try:
         path = path.resolve()
-        _refuse_what_is_none(path)
+        _check_path(path)
         owner = _student(path)
         _make(path, owner)
         _make(path / "src", owner)
     except (OSError, RuntimeError) as error:  # (RuntimeError: links in a circle, on Python 3.10)
         said = str(error.strerror if isinstance(error, OSError) else error)
         raise UsageError(
-            say("the workspace {path} cannot be made: {problem}", path=str(path), problem=said),
-            remedy=say("Name a folder of yours: make lab WORKSPACE=path"),
+            say("the workspace {path} cannot be created: {problem}", path=str(path), problem=said),
+            remedy=say("Choose a folder of your own: make lab WORKSPACE=path"),
         ) from error
-    for folder in (path, path / "src"):
-        _must_be_writable(folder, owner)
+    for each in (path, path / "src"):
+        _check_writable(each, owner)
     return Workspace(path, owner)
 
 
 def _home() -> Path:
-    """Return the home of the person who called: behind sudo it is not root's."""
-    behind = _sudo()
-    if behind is not None:
+    """Return the caller's home folder; with sudo, that of the user who called it."""
+    sudo_user = _sudo_user()
+    if sudo_user is not None:
         try:
-            return Path(pwd.getpwuid(behind.uid).pw_dir)
+            return Path(pwd.getpwuid(sudo_user.uid).pw_dir)
         except KeyError:
             pass
     return Path.home()
 
 
-def _sudo() -> Student | None:
+def _sudo_user() -> Student | None:
     uid, gid = os.environ.get("SUDO_UID", ""), os.environ.get("SUDO_GID", "")
     if os.geteuid() != 0 or not (uid.isdecimal() and gid.isdecimal()) or int(uid) == 0:
         return None
@@ -73,32 +73,33 @@ def _sudo() -> Student | None:
 
 
 def _student(path: Path) -> Student:
-    """Return who the lab's commands run as: the caller, the one behind sudo, or the owner."""
+    """Return the user of the lab's commands: caller, user of sudo, or owner of the folder."""
     if os.geteuid() != 0:
         return Student(os.geteuid(), os.getegid())
-    behind = _sudo()
-    if behind is not None:
-        return behind
+    sudo_user = _sudo_user()
+    if sudo_user is not None:
+        return sudo_user
     if path.exists() and path.stat().st_uid != 0:
         return Student(path.stat().st_uid, path.stat().st_gid)
     return Student(FIRST_USER, FIRST_USER)
 
 
-def _refuse_what_is_none(path: Path) -> None:
-    remedy = say("Name a folder for it: make lab WORKSPACE=~/ros2_ws")
+def _check_path(path: Path) -> None:
+    """Raise UsageError for a file, the home folder or a folder above it."""
+    remedy = say("Choose a folder for it: make lab WORKSPACE=~/ros2_ws")
     if path.exists() and not path.is_dir():
         raise UsageError(say("the workspace {path} is a file", path=str(path)), remedy=remedy)
     home = _home().resolve()
     if path == home:
-        whole = say("{path} is no workspace: it is your whole home folder", path=str(path))
+        whole = say("{path} cannot be a workspace: it is your home folder", path=str(path))
         raise UsageError(whole, remedy=remedy)
     if path in home.parents:
-        above = say("{path} is no workspace: it is above your home folder", path=str(path))
+        above = say("{path} cannot be a workspace: it is above your home folder", path=str(path))
         raise UsageError(above, remedy=remedy)
 
 
 def _make(folder: Path, owner: Student) -> None:
-    """Make a folder, and those above it that are missing, as the student's own."""
+    """Create a folder and its missing parents, owned by the student."""
     if folder.is_dir():
         return
     _make(folder.parent, owner)
@@ -107,8 +108,8 @@ def _make(folder: Path, owner: Student) -> None:
         os.chown(folder, owner.uid, owner.gid)
 
 
-def _must_be_writable(folder: Path, owner: Student) -> None:
-    """Try it as the student: root may write everywhere, and mode bits do not tell all."""
+def _check_writable(folder: Path, owner: Student) -> None:
+    """Test it as the student: root can write everywhere, and mode bits are not sufficient."""
     test = ["test", "-w", ".", "-a", "-x", "."]
     root = os.geteuid() == 0
     try:
@@ -118,17 +119,17 @@ def _must_be_writable(folder: Path, owner: Student) -> None:
             )
         else:
             done = subprocess.run(test, cwd=folder, check=False)
-    except PermissionError:  # not even entered
+    except PermissionError:  # the folder cannot even be entered
         done = None
     if done is None or done.returncode:
         raise UsageError(
             say(
-                "the workspace's folder {path} cannot be written by its student (user id {uid})",
+                "the student (user id {uid}) cannot write to the workspace folder {path}",
                 path=str(folder),
                 uid=owner.uid,
             ),
             remedy=say(
-                "Make it theirs (sudo chown -R {uid}:{gid} …), or name another folder: make lab "
+                "Change its owner (sudo chown -R {uid}:{gid} …), or choose another folder: make lab "
                 "WORKSPACE=path",
                 uid=owner.uid,
                 gid=owner.gid,

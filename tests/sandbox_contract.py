@@ -209,8 +209,8 @@ def test_memory_is_limited_over_all_processes(make_sandbox: Make) -> None:
     with make_sandbox(Limits(memory=80 * MEGABYTE)) as small:
         _, said = shell(small, f'/usr/bin/env python3 -S -c "{hog}"; /usr/bin/python3 -c "{hog}"')
         assert "had it" not in said
-        if small.held()["memory"] == "cgroup":
-            assert small.resource_met() == "memory"
+        if small.held_by()["memory"] == "cgroup":
+            assert small.resource_limit_hit() == "memory"
 
 
 def test_processes_are_limited_over_the_whole_submission(make_sandbox: Make) -> None:
@@ -218,8 +218,8 @@ def test_processes_are_limited_over_the_whole_submission(make_sandbox: Make) -> 
     with make_sandbox(Limits(processes=60)) as small:
         _, said = shell(small, bomb, seconds=4)
         assert "started all" not in said or "Resource temporarily unavailable" in said
-        if small.held()["processes"] == "cgroup":
-            assert small.resource_met() == "processes"
+        if small.held_by()["processes"] == "cgroup":
+            assert small.resource_limit_hit() == "processes"
 
 
 def test_the_report_says_what_held(sandbox: Sandbox) -> None:

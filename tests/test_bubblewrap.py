@@ -115,7 +115,7 @@ def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
         "    bomb = opened.run(['bash', '-c', 'for i in $(seq 200); do sleep 50 & done; "
         "echo all'], seconds=4)\n"
         "    print(json.dumps([said.output.decode(), probe.output.decode(), "
-        "bomb.output.decode(), opened.held()]))\n"
+        "bomb.output.decode(), opened.held_by()]))\n"
     )
     done = stage.run(stage.as_user([sys.executable, "-c", code]))
     assert done.returncode == 0, done.stderr

@@ -70,7 +70,7 @@ class NoSandbox:
     def __init__(self, *, works: bool) -> None:
         self._works = works
 
-    def resource_met(self) -> str:
+    def resource_limit_hit(self) -> str:
         return ""
 
     def run(self, argv: Sequence[str], *, seconds: float) -> Outcome:

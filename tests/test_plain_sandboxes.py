@@ -17,7 +17,7 @@ from grader.ros.prefix import Ros, prefix_path
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
-from grader.sandbox.plain import Bare
+from grader.sandbox.plain import NoSandbox
 from tests import sandbox_contract as contract
 from tests import stage
 from tests.test_cli import solution
@@ -27,9 +27,9 @@ import json, sys
 from grader.sandbox.limits import Limits
 from grader.ros.distro import find_distro
 from grader.sandbox.proof import proven_ros
-from grader.sandbox.plain import Account
+from grader.sandbox.plain import AccountSandbox
 mark = sys.argv[1]
-with Account(proven_ros(find_distro("jazzy")), Limits(processes=60)) as opened:
+with AccountSandbox(proven_ros(find_distro("jazzy")), Limits(processes=60)) as opened:
     def said(script, role="student", seconds=20):
         return opened.run(["bash", "-c", script], role=role, seconds=seconds).output.decode()
     out = {
@@ -72,15 +72,15 @@ TWO_ACCOUNTS = """
 from pathlib import Path
 from grader.sandbox.limits import Limits
 from grader.ros.distro import find_distro
-from grader.sandbox.plain import Account
+from grader.sandbox.plain import AccountSandbox
 from grader.sandbox.proof import proven_ros
 distro = find_distro("jazzy")
 link = Path("/opt/ros/jazzy")
 link.parent.mkdir()
 link.symlink_to("/what/a/killed/grader/left")
 for _ in range(2):
-    with Account(proven_ros(distro), Limits()) as first:
-        with Account(proven_ros(distro), Limits()) as second:
+    with AccountSandbox(proven_ros(distro), Limits()) as first:
+        with AccountSandbox(proven_ros(distro), Limits()) as second:
             first.close()
             script = '. "%s/setup.bash"; ros2 pkg prefix rclpy' % second.ros_path
             said = second.run(["bash", "-c", script], seconds=20)
@@ -106,7 +106,7 @@ def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
     mark = f"sleep 94{secrets.randbelow(10**6)}"
-    with Bare(ros_jazzy, Limits()) as opened:
+    with NoSandbox(ros_jazzy, Limits()) as opened:
         # it says up when it has left the group, which ends with the command
         escaped = f"setsid sh -c 'echo up; exec {mark} > /dev/null 2>&1 < /dev/null'"
         outcome = opened.run(["bash", "-c", f"read < <({escaped}); pwd"], seconds=10)
@@ -121,7 +121,7 @@ def test_without_a_sandbox_the_environment_is_still_a_list(
     ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", "/own")
-    with Bare(ros_jazzy, Limits()) as opened:
+    with NoSandbox(ros_jazzy, Limits()) as opened:
         said = opened.run(["env"], seconds=10).output.decode()
         assert "PYTHONPATH" not in said
         ros = opened.run(
@@ -158,7 +158,7 @@ def test_no_sandbox_needs_a_tame_path(
 def test_without_a_sandbox_no_output_extends_a_wait(
     ros_jazzy: Ros, holds: Callable[[Sandbox], None]
 ) -> None:
-    with Bare(ros_jazzy, Limits()) as opened:
+    with NoSandbox(ros_jazzy, Limits()) as opened:
         holds(opened)
 
 

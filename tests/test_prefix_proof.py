@@ -194,7 +194,7 @@ def test_a_proof_that_is_not_finished_removes_nothing(
     folder = maker(0).find()
     monkeypatch.setattr(proof, "SECONDS", 0.0)
     made = Ros(JAZZY, "wheels", folder, base_interpreter(), {})
-    untested = pytest.raises(SurroundingsError, match="could not be tested")
+    untested = pytest.raises(SurroundingsError, match="cannot test whether")
     with Bubblewrap(made, Limits()) as sandbox, untested as caught:
         prove_again(sandbox)
     assert not isinstance(caught.value, BrokenRosError)
@@ -248,7 +248,7 @@ def test_a_program_of_ours_that_does_not_run_is_nobodys_mistake(
     done = stage.run([*command, "--out", tmp_path / "out"])
     assert done.returncode == 3, done.stdout + done.stderr
     assert "a program of ROS jazzy does not run" in done.stderr
-    assert "Run the command again: it makes a new one first." in done.stderr
+    assert "Run the command again to make a new one." in done.stderr
     assert "Traceback (most recent call last)" not in done.stdout
     assert list((tmp_path / "out").rglob("report.json")) == []
     assert not folder.exists()  # so the next command makes it anew

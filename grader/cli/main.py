@@ -170,7 +170,7 @@ def images(
     """
     from grader.ros.distro import find_distro  # noqa: PLC0415
     from grader.ros.image_build import Network, build_image  # noqa: PLC0415
-    from grader.ros.images import connect, table  # noqa: PLC0415
+    from grader.ros.images import connect, image_table  # noqa: PLC0415
 
     wanted = [find_distro(word.strip()) for word in (distro or "").split(",") if word.strip()]
     network = Network(apt_mirror=apt_mirror, pip_index=pip_index, extra_ca=extra_ca)
@@ -187,7 +187,9 @@ def images(
                 network=network,
                 say=lambda text: click.echo(text, err=True),
             )
-    rows = [row for row in table(client) if not wanted or row.distro in {d.name for d in wanted}]
+    rows = [
+        row for row in image_table(client) if not wanted or row.distro in {d.name for d in wanted}
+    ]
     width = max(len(row.name) for row in rows)
     for row in rows:
         size = f"{row.size / 1e6:,.0f} MB" if row.size is not None else "not here"

@@ -1,1 +1,1 @@
-"""ROS 2 distros, and the prefixes that stand for them."""
+"""ROS 2 distros, their installations (prefixes) and their Docker images."""

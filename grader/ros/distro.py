@@ -1,4 +1,4 @@
-"""The ROS 2 releases that are known: one row of `distros.toml` each."""
+"""The known ROS 2 releases, read from `distros.toml`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from grader.base.i18n.message import joined, say
 
 if sys.version_info >= (3, 11):
     import tomllib
-else:  # pragma: no cover - the same reader under its old name
+else:  # pragma: no cover - the backport
     import tomli as tomllib
 
 DEFAULT = "jazzy"
@@ -23,10 +23,10 @@ HERE = Path(__file__).resolve().parent
 
 @dataclass(frozen=True)
 class Distro:
-    """One release. `lock` is the lock file of its wheels prefix, None where PyPI has no wheels.
+    """A ROS 2 release.
 
-    `documentation` is the address of its pages, `dds_profile` the variable that names a profile of
-    Fast DDS.
+    `lock` is the lock file of its wheels prefix, None if PyPI has no wheels; `documentation` is a
+    URL; `dds_profile` is the environment variable that names a Fast DDS profile.
     """
 
     name: str
@@ -44,13 +44,13 @@ class Distro:
 
     @property
     def pinned_image(self) -> str:
-        """The official image; by its digest where distros.toml has one (docker/pin.sh)."""
+        """The official image, with its digest if distros.toml has one (docker/pin.sh)."""
         return f"{self.image}@{self.digest}" if self.digest else self.image
 
 
 @lru_cache(maxsize=1)
 def distros() -> dict[str, Distro]:
-    """Return every known distro by name, in the order of their release."""
+    """Return the known distros by name, oldest first."""
     rows = tomllib.loads((HERE / "distros.toml").read_text(encoding="utf-8"))
     known = {}
     for name, row in rows.items():
@@ -61,12 +61,12 @@ def distros() -> dict[str, Distro]:
 
 
 def sourced(environment: Mapping[str, str]) -> Distro:
-    """Return the distro that a terminal has sourced; the default one if it is none that is known."""
+    """Return the distro of a terminal's environment, the default one if it is not known."""
     return distros().get(environment.get("ROS_DISTRO", ""), distros()[DEFAULT])
 
 
 def find_distro(name: str) -> Distro:
-    """Return the distro of that name; UsageError (with a "did you mean") if it is not known."""
+    """Return the distro of that name; UsageError (with a "did you mean") if it is unknown."""
     known = distros()
     if name in known:
         return known[name]

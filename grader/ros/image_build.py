@@ -1,4 +1,4 @@
-"""Builds the images with the Docker SDK: no `docker` command is needed."""
+"""Builds the Docker images with the Docker SDK, without the `docker` command."""
 
 from __future__ import annotations
 
@@ -27,14 +27,15 @@ WHEELS_BASE = "debian:trixie-slim"
 PROXIES = ("HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY", "http_proxy", "https_proxy", "no_proxy")
 CONTEXT = ("docker", "grader", "lab", ".dockerignore")
 STEP = re.compile(r"^Step (\d+/\d+) : (\S+) *(.*)")
-TAIL = 12  # lines of output that an error shows
+TAIL = 12  # lines of output in an error message
 
 
 @dataclass(frozen=True)
 class Network:
-    """How a build reaches the world. `extra_ca`: a PEM file that only builder stages see.
+    """The network settings of a build.
 
-    `wheels_base` and `ros_base` name other images to start from (a local one, or a digest).
+    `extra_ca` is a PEM file that only builder stages see. `wheels_base` and `ros_base` name other
+    base images (a local one, or a digest).
     """
 
     apt_mirror: str = ""
@@ -44,7 +45,7 @@ class Network:
     ros_base: str = ""
 
     def arguments(self) -> dict[str, str]:
-        """Return the build arguments, with the proxies of this process' environment."""
+        """Return the build arguments, including the proxies of this process' environment."""
         own = {"APT_MIRROR": self.apt_mirror, "PIP_INDEX_URL": self.pip_index}
         proxies = {name: os.environ[name] for name in PROXIES if os.environ.get(name)}
         return proxies | {name: value for name, value in own.items() if value}
@@ -59,9 +60,9 @@ def build_image(
     network: Network,
     say: Say,
 ) -> str:
-    """Build one image (and the base under it), tag it, and return its id.
+    """Build an image (and its wheels base), tag it, and return its id.
 
-    Raises UsageError where the distro has no wheels, SurroundingsError where the build fails.
+    Raises UsageError if the distro has no wheels, SurroundingsError if the build fails.
     """
     arguments = {**network.arguments(), "DISTRO": distro.name, "VERSION": grader.__version__}
     if base == "wheels":
@@ -120,7 +121,7 @@ def _build(
 
 
 class _BuildError(Exception):
-    """What the daemon says of a step that failed."""
+    """A build step failed; the message is the daemon's."""
 
 
 def _texts(lines: Iterator[dict[str, object]]) -> Iterator[str]:
@@ -136,7 +137,7 @@ def _failed(name: str, said: str, tail: list[str], arguments: dict[str, str]) ->
     base = arguments.get("BASE") or arguments.get("WHEELS_BASE", "")
     words = "\n".join([*tail, said])
     if "no space left" in words:
-        remedy = "Free some space for Docker: `docker system df` shows what takes it."
+        remedy = "Free some disk space for Docker: `docker system df` shows what uses it."
     elif (
         (base and base in said)
         or "pull access denied" in said
@@ -144,33 +145,33 @@ def _failed(name: str, said: str, tail: list[str], arguments: dict[str, str]) ->
         or "manifest" in said
     ):
         remedy = (
-            f"The base {base} could not be had. Where no registry can be reached: "
+            f"The base image {base} is not available. If you cannot reach a registry: "
             "docker/make_base.sh makes a base with debootstrap, and `make images BASE=wheels` needs "
             "no official image (docs/images.md)."
         )
     else:
         remedy = (
             "Check the network (HTTPS_PROXY, APT_MIRROR, EXTRA_CA=file.pem; docs/images.md), then "
-            "run the command again: finished steps are kept."
+            "run the command again; finished steps are cached."
         )
-    return SurroundingsError(f"{name} could not be built:\n{words}", remedy=remedy)
+    return SurroundingsError(f"cannot build {name}:\n{words}", remedy=remedy)
 
 
 def root() -> Path:
-    """Return the folder that is the build's context: this checkout, or the installed share."""
+    """Return the folder of the build context: this checkout, or the installed share."""
     found = next(
         (place for place in (CHECKOUT, *SHARES) if (place / "docker" / "Dockerfile").is_file()),
         None,
     )
     if found is None:
         raise SurroundingsError(
-            "the Dockerfiles are not here", remedy="Build images from a checkout of the project."
+            "the Dockerfiles are missing", remedy="Build images from a checkout of the project."
         )
     return found
 
 
 def _pack(stream: IO[bytes], network: Network) -> None:
-    """Write the build's context: what .dockerignore leaves, and the extra certificate."""
+    """Write the build context: the files that .dockerignore admits, and the extra certificate."""
     folder = root()
     rules = (folder / ".dockerignore").read_text(encoding="utf-8").splitlines()
     with tarfile.open(fileobj=stream, mode="w") as archive:
@@ -179,13 +180,13 @@ def _pack(stream: IO[bytes], network: Network) -> None:
                 name = path.relative_to(folder).as_posix()
                 dockerfile = top in ("docker", ".dockerignore") and path.is_file()
                 if not path.is_dir() and (dockerfile or not is_ignored(name, rules)):
-                    archive.add(path, name, recursive=False, filter=_nobody)
+                    archive.add(path, name, recursive=False, filter=_anonymous)
         if network.extra_ca is not None:
             _add(archive, "docker/ca/extra.crt", _certificates(network.extra_ca))
 
 
 def is_ignored(name: str, rules: list[str]) -> bool:
-    """Whether .dockerignore leaves a file out: the last rule that matches it decides."""
+    """Whether .dockerignore excludes a file; the last matching rule decides."""
     ignored = False
     folders = [name, *(parent.as_posix() for parent in Path(name).parents)]
     for rule in rules:
@@ -202,14 +203,14 @@ def _certificates(file: Path) -> bytes:
     try:
         data = file.read_bytes()
     except OSError as error:
-        raise UsageError(f"the certificate {file} cannot be read: {error.strerror}") from None
+        raise UsageError(f"cannot read the certificate {file}: {error.strerror}") from None
     if b"-----BEGIN CERTIFICATE-----" not in data:
-        raise UsageError(f"{file} is no certificate in PEM form")
+        raise UsageError(f"{file} is not a certificate in PEM format")
     return data
 
 
-def _nobody(entry: tarfile.TarInfo) -> tarfile.TarInfo:
-    """Leave out whose files these are and when they were made: the cache compares contents."""
+def _anonymous(entry: tarfile.TarInfo) -> tarfile.TarInfo:
+    """Remove owner and time, so that the build cache compares only contents."""
     entry.uid = entry.gid = entry.mtime = 0
     entry.uname = entry.gname = ""
     entry.mode = 0o755 if entry.mode & 0o100 else 0o644

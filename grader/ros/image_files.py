@@ -1,6 +1,6 @@
 """Writes docker/docker-bake.json from distros.toml, so that a distro is added in one place.
 
-`python -m grader.ros.image_files` writes it, `--check` says whether it is as it would be written.
+`python -m grader.ros.image_files` writes the file, `--check` tests whether it is up to date.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ STAGES = ("grade", "lab")
 
 
 def bake_file() -> str:
-    """Return the text of the bake file: a target for each distro, base and stage, and groups."""
+    """Return the text of the bake file: a target per distro, base and stage, and the groups."""
     targets: dict[str, object] = {}
     groups: dict[str, list[str]] = {"default": ["lab-jazzy"]}
     for distro in distros().values():
@@ -70,7 +70,7 @@ def main() -> int:
     if sys.argv[1:] == ["--check"]:
         if BAKE.read_text(encoding="utf-8") == bake_file():
             return 0
-        print(f"{BAKE} is not what distros.toml says: python -m grader.ros.image_files")
+        print(f"{BAKE} does not match distros.toml: run python -m grader.ros.image_files")
         return 1
     BAKE.write_text(bake_file(), encoding="utf-8")
     return 0

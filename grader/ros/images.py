@@ -1,4 +1,4 @@
-"""The Docker images of the distros: their names, which of them are here, and what is in them."""
+"""The Docker images of the distros: names, availability and versions."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ ROS_LABEL = "ros2-teaching-lab.ros"
 STAGE_LABEL = "ros2-teaching-lab.stage"
 VERSIONS = "/opt/ros/versions.json"
 OLDEST_API = (1, 40)  # Docker 19.03
-FIRST_ANSWER_SECONDS = 20.0  # a daemon that hangs must not hang us
-ANSWER_SECONDS = 120.0
+CONNECT_SECONDS = 20.0  # a daemon that hangs must not block us
+REQUEST_SECONDS = 120.0
 WITHOUT = say("Without Docker: SANDBOX=bubblewrap.")
 
 
 def image_name(distro: Distro, stage: Stage | Literal["base"], base: Base) -> str:
-    """Return an image's name; $GRADER_IMAGES names another repository."""
+    """Return the name of an image; $GRADER_IMAGES sets another repository."""
     repository = os.environ.get(REPOSITORY_VARIABLE) or REPOSITORY
     return f"{repository}:{stage}-{distro.name}" + ("-wheels" if base == "wheels" else "")
 
@@ -41,19 +41,19 @@ def image_name(distro: Distro, stage: Stage | Literal["base"], base: Base) -> st
 def connect() -> DockerClient:
     """Return a connection to the Docker daemon.
 
-    Raises SurroundingsError where none answers, the socket is closed to this user, or the daemon
-    is older than what is needed.
+    Raises SurroundingsError if no daemon answers, this user may not use its socket, or the daemon
+    is too old.
     """
-    # a command that needs no Docker must not pay for its library
+    # imported lazily: most commands do not need Docker
     import docker  # noqa: PLC0415
     import docker.errors  # noqa: PLC0415
 
     try:
-        client = docker.from_env(timeout=int(FIRST_ANSWER_SECONDS))
+        client = docker.from_env(timeout=int(CONNECT_SECONDS))
         version = str(client.version(api_version=False)["ApiVersion"])
     except (docker.errors.DockerException, OSError) as error:
         raise _unreachable(str(error)) from None
-    client.api.timeout = int(ANSWER_SECONDS)
+    client.api.timeout = int(REQUEST_SECONDS)
     if tuple(int(part) for part in version.split(".")[:2]) < OLDEST_API:
         raise SurroundingsError(
             say(
@@ -69,11 +69,11 @@ def connect() -> DockerClient:
 def _unreachable(said: str) -> SurroundingsError:
     if "Permission denied" in said or "PermissionError" in said:
         return SurroundingsError(
-            say("you may not use the Docker daemon: its socket is closed to this user"),
+            say("this user has no permission to use the Docker daemon's socket"),
             remedy=joined(
                 say(
-                    "Join the group `docker` (sudo usermod -aG docker $USER, then log in again; "
-                    "that is as good as root), or use rootless Docker."
+                    "Join the group `docker` (sudo usermod -aG docker $USER, then log in again; its "
+                    "members have the power of root), or use rootless Docker."
                 ),
                 WITHOUT,
             ),
@@ -92,7 +92,7 @@ def _unreachable(said: str) -> SurroundingsError:
 
 
 def find_image(client: DockerClient, distro: Distro, stage: Stage = "grade") -> Image | None:
-    """Return the image of a distro that is here, the one on the official base first."""
+    """Return a distro's local image, preferably on the official base; None if there is none."""
     import docker.errors  # noqa: PLC0415
 
     for base in get_args(Base):
@@ -104,13 +104,13 @@ def find_image(client: DockerClient, distro: Distro, stage: Stage = "grade") -> 
 
 
 def image_versions(client: DockerClient, image: Image) -> dict[str, str]:
-    """Return what an image says of itself: rclpy, rmw, colcon, setuptools and python.
+    """Return an image's versions of rclpy, rmw, colcon, setuptools and python.
 
-    Asked once for each image and kept in the cache, since it takes a container to ask.
+    They are cached for each image, because reading them needs a container.
     """
-    kept = cache_root() / "images" / f"{str(image.id).replace(':', '-')}.json"
-    if kept.is_file():
-        found: dict[str, str] = json.loads(kept.read_text(encoding="utf-8"))
+    cached = cache_root() / "images" / f"{str(image.id).replace(':', '-')}.json"
+    if cached.is_file():
+        found: dict[str, str] = json.loads(cached.read_text(encoding="utf-8"))
         return found
     container = client.api.create_container(str(image.id), ["true"])["Id"]
     try:
@@ -122,16 +122,16 @@ def image_versions(client: DockerClient, image: Image) -> dict[str, str]:
     finally:
         client.api.remove_container(container, force=True, v=True)
     versions = {str(key): str(value) for key, value in json.loads(text).items()}
-    kept.parent.mkdir(parents=True, exist_ok=True)
-    half = kept.with_suffix(f".{os.getpid()}")
-    half.write_text(json.dumps(versions), encoding="utf-8")
-    half.replace(kept)
+    cached.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = cached.with_suffix(f".{os.getpid()}")
+    unfinished.write_text(json.dumps(versions), encoding="utf-8")
+    unfinished.replace(cached)
     return versions
 
 
 @dataclass(frozen=True)
-class Row:
-    """One image that could be: `size` in bytes, None where it is not here."""
+class ImageRow:
+    """An image that can be built: `size` in bytes, None if it does not exist."""
 
     distro: str
     stage: Stage
@@ -141,8 +141,8 @@ class Row:
     id: str = ""
 
 
-def table(client: DockerClient) -> list[Row]:
-    """Return a row for every image that the known distros could have."""
+def image_table(client: DockerClient) -> list[ImageRow]:
+    """Return a row for every image that can be built for the known distros."""
     here = {tag: image for image in client.images.list() for tag in image.tags}
     rows = []
     for distro in distros().values():
@@ -152,6 +152,8 @@ def table(client: DockerClient) -> list[Row]:
                 name = image_name(distro, stage, base)
                 image = here.get(name)
                 size = int(image.attrs["Size"]) if image else None
-                row = Row(distro.name, stage, base, name, size, image.short_id if image else "")
+                row = ImageRow(
+                    distro.name, stage, base, name, size, image.short_id if image else ""
+                )
                 rows.append(row)
     return rows

@@ -1,11 +1,11 @@
-"""A ROS prefix made of PyPI's wheels: no root, no Docker, one folder in the cache.
+"""ROS installations: the system's, or a prefix made from PyPI's wheels without root and Docker.
 
-It is laid out like `/opt/ros/<distro>` of the Debian packages (`lib/pythonX.Y/site-packages` found
-by PYTHONPATH, shared libraries in `lib`), not as a virtual environment: so colcon and setup.py
-behave as under ROS's own, and no Python is started twice by the wheels' `.pth` file.
+The wheels prefix has the layout of `/opt/ros/<distro>` in the Debian packages
+(`lib/pythonX.Y/site-packages` on PYTHONPATH, shared libraries in `lib`) instead of a virtual
+environment's: colcon and setup.py behave as with the Debian packages, and the wheels' `.pth` file
+does not start Python twice.
 
-A folder of that name in the cache is a prefix whose programs have been seen to run: it gets its
-name after that.
+A prefix gets its name in the cache only after its programs have run once.
 """
 
 from __future__ import annotations
@@ -23,19 +23,32 @@ from pathlib import Path
 
 from grader.base.cache import Say, cache_root, discard, make_once
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import Message
-from grader.ros import prefix_texts as texts
+from grader.base.i18n.message import Message, msg
 from grader.ros.distro import HERE, Distro
-from grader.ros.making import COMMAND, SUPPLY, make_prefix
+from grader.ros.prefix_build import COMMAND, VERSION_NAMES, make_prefix
 
-FORMAT = 2  # raise it when what `making` does changes
-PYTHONS = ("3.10", "3.11", "3.12", "3.13")  # those that PyPI has ROS wheels for
-PROGRAMS = ("python3", "colcon", "ros2")  # of bin: those that a verdict starts
+FORMAT = 2  # increment it when `prefix_build` makes something else
+PYTHONS = ("3.10", "3.11", "3.12", "3.13")  # with ROS wheels on PyPI
+PROGRAMS = ("python3", "colcon", "ros2")  # in bin, used by a verdict
+NO_ROS = msg("there is no ROS {distro} at {path}")
+INSTALL = msg("Install it, or unset GRADER_ROS to use PyPI's wheels.")
+NO_WHEELS = msg("PyPI has no ROS wheels for {distro}")
+OTHER_DISTRO = msg(
+    "Use DISTRO=jazzy or DISTRO=kilted, or a machine that has ROS {distro} at /opt/ros/{distro}."
+)
+OTHER_PLATFORM = msg(
+    "PyPI's ROS wheels are for Linux x86_64 and Python {versions}; this is {system} and Python "
+    "{python}"
+)
+OTHER_PYTHON = msg("Run the grader with one of those Pythons, e.g. `make setup PYTHON=python3.12`.")
+MAKING = msg("making the ROS {distro} prefix from PyPI's wheels (300 MB, once)")
+MAKING_AGAIN = msg("{reason}\nmaking the prefix once more")
+READY = msg("ROS {distro} is ready in {path}")
 
 
 @dataclass(frozen=True)
 class Ros:
-    """A ROS installation: `path` on this machine, `interpreter` the Python that it runs on."""
+    """A ROS installation: `path` on this machine, `interpreter` its Python."""
 
     distro: Distro
     kind: str  # wheels | system | image
@@ -45,7 +58,7 @@ class Ros:
 
     @property
     def inside(self) -> str:
-        """Where student commands see it."""
+        """Its path in a sandbox."""
         return f"/opt/ros/{self.distro.name}"
 
 
@@ -54,11 +67,11 @@ class BrokenRosError(SurroundingsError):
 
 
 Prove = Callable[[Ros], None]
-"""What starts the programs of a ROS installation and raises BrokenRosError if one does not run."""
+"""Starts the programs of a ROS installation; raises BrokenRosError if one does not run."""
 
 
 def base_interpreter() -> Path:
-    """Return the Python behind the running (virtual) environment."""
+    """Return the base Python of the current (virtual) environment."""
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
     for name in (f"python{version}", "python3"):
         found = Path(sys.base_prefix) / "bin" / name
@@ -68,10 +81,10 @@ def base_interpreter() -> Path:
 
 
 def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
-    """Return the ROS installation for a distro; the wheels prefix is made and proven if need be.
+    """Return the ROS installation for a distro; make and test the wheels prefix if necessary.
 
-    $GRADER_ROS chooses: `wheels`, `system` (an existing /opt/ros/<distro>) or `auto` (the system's
-    if it is there). Raises SurroundingsError if neither is available.
+    $GRADER_ROS selects `wheels`, `system` (an existing /opt/ros/<distro>) or `auto` (the system's
+    if it exists, else wheels). Raises SurroundingsError if neither is available.
     """
     choice = os.environ.get("GRADER_ROS", "auto")
     system = Path("/opt/ros") / distro.name
@@ -80,36 +93,36 @@ def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
     if choice == "system" or (choice == "auto" and is_system):
         if not is_system:
             raise SurroundingsError(
-                Message(texts.NO_ROS, {"distro": distro.name, "path": str(system)}),
-                remedy=Message(texts.INSTALL),
+                Message(NO_ROS, {"distro": distro.name, "path": str(system)}),
+                remedy=Message(INSTALL),
             )
         python = Path("/usr/bin/python3").resolve()
         return Ros(distro, "system", system, python, _system_versions(system))
-    # a link is the `account` sandbox's, which removes it again
+    # a symlink belongs to the `account` sandbox, which removes it again
     if choice in ("auto", "wheels") and is_wheels and not system.is_symlink():
-        return _wheels(distro, system, (system / "bin" / "python3").resolve())  # an image of ours
+        return _wheels(distro, system, (system / "bin" / "python3").resolve())  # in an image
     return _wheels(distro, wheels_prefix(distro, prove=prove, say=say), base_interpreter())
 
 
 def prefix_path(distro: Distro) -> Path:
-    """Return where the wheels prefix of a distro is, made or not: keyed by all that it is made of."""
+    """Return the path of a distro's wheels prefix; its name has a hash of all its inputs."""
     python = ".".join(platform.python_version_tuple()[:2])
     if distro.lock is None:
         raise SurroundingsError(
-            Message(texts.NO_WHEELS, {"distro": distro.name}),
-            remedy=Message(texts.OTHER_DISTRO, {"distro": distro.name}),
+            Message(NO_WHEELS, {"distro": distro.name}),
+            remedy=Message(OTHER_DISTRO, {"distro": distro.name}),
         )
     if platform.machine() != "x86_64" or sys.platform != "linux" or python not in PYTHONS:
         raise SurroundingsError(
             Message(
-                texts.OTHER_PLATFORM,
+                OTHER_PLATFORM,
                 {
                     "versions": ", ".join(PYTHONS),
                     "system": f"{sys.platform} {platform.machine()}",
                     "python": python,
                 },
             ),
-            remedy=Message(texts.OTHER_PYTHON),
+            remedy=Message(OTHER_PYTHON),
         )
     key = hashlib.sha256(b"%d " % FORMAT + os.fsencode(base_interpreter()))
     key.update(distro.lock.read_bytes())
@@ -122,22 +135,22 @@ def prefix_path(distro: Distro) -> Path:
 
 
 def wheels_prefix(distro: Distro, *, prove: Prove, say: Say = print) -> Path:
-    """Return the wheels prefix of a distro, made and proven now if it is not in the cache.
+    """Return the wheels prefix of a distro; make and test it if it is not in the cache.
 
-    Raises BrokenRosError if a program of it does not run, however often it is made.
+    Raises BrokenRosError if a program does not run even after the prefix was made twice.
     """
     folder = prefix_path(distro)
-    if folder.is_dir() and not _is_whole(folder):
-        discard(folder, unless=_is_whole, say=say)
+    if folder.is_dir() and not _is_complete(folder):
+        discard(folder, unless=_is_complete, say=say)
     if not folder.is_dir():
-        say(Message(texts.MAKING, {"distro": distro.name}))
+        say(Message(MAKING, {"distro": distro.name}))
         make_once(folder, lambda staging: _make(distro, staging, prove, say), say=say)
-        say(Message(texts.READY, {"distro": distro.name, "path": str(folder)}))
+        say(Message(READY, {"distro": distro.name, "path": str(folder)}))
     return folder
 
 
 def is_in_cache(ros: Ros) -> bool:
-    """Whether a ROS installation was made by the grader, which can make it again."""
+    """Whether a ROS installation is in the grader's cache, so that it can be made again."""
     return ros.path.parent == _prefixes()
 
 
@@ -145,25 +158,25 @@ def _prefixes() -> Path:
     return cache_root() / "prefixes"
 
 
-def _is_whole(folder: Path) -> bool:
-    """Whether the programs are there (the Python behind them may have been removed)."""
+def _is_complete(folder: Path) -> bool:
+    """Whether the programs exist (the Python that they link to may have been removed)."""
     return all(os.access(folder / "bin" / name, os.X_OK) for name in PROGRAMS)
 
 
 def _make(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
     try:
-        _make_proven(distro, staging, prove, say)
+        _make_and_prove(distro, staging, prove, say)
     except BrokenRosError as broken:
-        say(Message(texts.MAKING_AGAIN, {"reason": broken.message}))
+        say(Message(MAKING_AGAIN, {"reason": broken.message}))
         for entry in staging.iterdir():
             if entry.is_dir() and not entry.is_symlink():
                 shutil.rmtree(entry)
             else:
                 entry.unlink()
-        _make_proven(distro, staging, prove, say)
+        _make_and_prove(distro, staging, prove, say)
 
 
-def _make_proven(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
+def _make_and_prove(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
     interpreter = base_interpreter()
     make_prefix(distro, staging, interpreter, say=say)
     prove(_wheels(distro, staging, interpreter))
@@ -175,7 +188,7 @@ def _wheels(distro: Distro, path: Path, interpreter: Path) -> Ros:
 
 
 def _system_versions(system: Path) -> dict[str, str]:
-    versions = dict.fromkeys(SUPPLY, "")
+    versions = dict.fromkeys(VERSION_NAMES, "")
     manifest = system / "share" / "rclpy" / "package.xml"
     if manifest.is_file():
         match = re.search(

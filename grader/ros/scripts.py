@@ -1,12 +1,12 @@
-"""The Python programs of a prefix: each is run by the `python3` beside it, wherever both are seen.
+"""Makes the Python programs of a prefix run with the `python3` in their own folder.
 
-pip names the Python that it ran on, which is one of the checkout's environment: the prefix outlives
-it. The base interpreter cannot be named either. A `#!` line ends at the first space and after 127
-bytes (255 from Linux 5.1 on), so pip itself writes three lines of shell instead if that Python's
-path does not fit. And the path by which a program's Python was started is what setuptools writes
-into the `#!` line of the student's own executables, and what colcon writes, without quotes, into
-`install/local_setup.sh`. So it has to be a path that fits: the one below the prefix, which students
-see at `/opt/ros/<distro>`.
+pip writes the path of its own Python into them, which belongs to the checkout's environment; the
+prefix outlives that. The path of the base interpreter does not work either: a `#!` line ends at the
+first space and after 127 bytes (255 since Linux 5.1), so pip writes three lines of shell if the
+path does not fit. In addition, setuptools writes the path by which its Python was started into the
+`#!` line of the student's executables, and colcon writes it, unquoted, into
+`install/local_setup.sh`. So the path must be short and plain: it is the one in the prefix, which is
+`/opt/ros/<distro>` for students.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ HEADER = b"""\
 '''exec' "${0%/*}/python3" "$0" "$@"
 ' '''
 """
-"""sh replaces itself by Python; Python reads the lines below the first as a string."""
+"""For sh, line 2 executes Python; for Python, lines 2 and 3 are a string."""
 
 SHELL_FORM = re.compile(rb"#!/bin/sh\n'''exec' .*?\n' '''\n", re.DOTALL)
 LINE_FORM = re.compile(rb'#(?=!)[^\n]*[!/ "]python[\d.]*"?(?:[ \t][^\n]*)?\n')
 
 
 def use_own_python(folder: Path, installer: str) -> None:
-    """Have the Python programs in a folder run by the `python3` in it.
+    """Make the Python programs in a folder run with the `python3` in it.
 
-    `installer` is the Python that has installed them; pip names it in every form that it writes.
+    `installer` is the Python that installed them, whose path pip has written into them.
     """
     for script in folder.iterdir():
         if script.is_file() and not script.is_symlink():
@@ -39,9 +39,9 @@ def use_own_python(folder: Path, installer: str) -> None:
 
 
 def without_header(script: bytes, installer: str) -> bytes | None:
-    """Return a Python program without the lines that name its Python, None for any other program.
+    """Return a Python program without the lines that name its Python, None if it is not Python.
 
-    (The installer's own name comes first: a newline in it makes two lines of the `#!` line.)
+    (The installer's path is tried first: a newline in it splits the `#!` line in two.)
     """
     named = re.compile(rb"#!" + re.escape(os.fsencode(installer)) + rb"[^\n]*\n")
     for form in (named, SHELL_FORM, LINE_FORM):

@@ -106,7 +106,7 @@ def observe(
         overdue = time.monotonic() - begin > longest
         terminal.read()  # so that it is known whether the node runs on
         overdue = overdue and not terminal.ended
-        run.resource = sandbox.probe_met() or ("wall time" if overdue else "")
+        run.resource = sandbox.probe_limit_hit() or ("wall time" if overdue else "")
         if not run.resource:
             raise
     finally:

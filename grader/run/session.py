@@ -93,7 +93,7 @@ class Session:
         while tries < RUNS and self._has_room():
             tries += 1
             self._probe = self._probe or ProbeLink(self.sandbox)
-            until = min(time.monotonic() + self.sandbox.limits.a_run, self._ceiling)
+            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._ceiling)
             try:
                 run = observe(
                     self.sandbox, self.assignment, self._probe, tell, until=until, fine=fine
@@ -102,7 +102,7 @@ class Session:
                 failure = error
                 self._drop_probe()
                 continue
-            run.resource = run.resource or self.sandbox.resource_met()
+            run.resource = run.resource or self.sandbox.resource_limit_hit()
             if run.ended_by_itself and not run.nodes and not run.resource and not self._works():
                 failure = ProbeError(f"the sandbox starts no command any more:\n{run.transcript}")
                 continue
@@ -118,7 +118,7 @@ class Session:
 
     def _has_room(self) -> bool:
         """Whether the verdict's ceiling leaves time for a whole run."""
-        return self._ceiling - time.monotonic() >= self.sandbox.limits.a_run
+        return self._ceiling - time.monotonic() >= self.sandbox.limits.max_run_seconds
 
     def _doubtful(self, run: Run) -> bool:
         """Whether load could have made this run look worse than the node is."""
@@ -146,7 +146,7 @@ class Session:
         return second
 
     def _resource(self, status: int | None) -> str:
-        return self.sandbox.resource_met() if status not in (0, None) else ""
+        return self.sandbox.resource_limit_hit() if status not in (0, None) else ""
 
     def _drop_probe(self) -> None:
         probe, self._probe = self._probe, None

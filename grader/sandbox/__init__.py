@@ -1,4 +1,4 @@
-"""Where a submission's commands may run: `bubblewrap`, `account`, `none` (and `docker`).
+"""The sandboxes in which a submission's commands run: `docker`, `bubblewrap`, `account`, `none`.
 
-All offer the interface of `grader.sandbox.base.Sandbox`; `grader.sandbox.choose` picks one.
+All implement `grader.sandbox.base.Sandbox`; `grader.sandbox.choose` selects one.
 """

@@ -1,4 +1,4 @@
-"""The small interface that every sandbox offers: open it, start commands, stop them all, close."""
+"""The interface of every sandbox: open it, start commands, end them all, close it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ HOME = "/home/student"
 WORKSPACE = f"{HOME}/ros2_ws"
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 ROWS, COLUMNS = 40, 160  # of a pseudo-terminal
-UNRUNNABLE = (126, 127)  # a shell's status for a program that it cannot run (POSIX, sh: 2.8.2)
+UNRUNNABLE = (126, 127)  # a shell's exit status for a program that it cannot run (POSIX sh, 2.8.2)
 
 DISCOVERY_PROFILE = """<?xml version="1.0" encoding="UTF-8"?>
 <profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
@@ -46,13 +46,13 @@ DISCOVERY_PROFILE = """<?xml version="1.0" encoding="UTF-8"?>
   </participant>
 </profiles>
 """
-"""A Fast DDS profile for node and probe: UDP alone, since shared memory does not reach across
-namespaces, and quick announcements, since a lost first one costs 3 s otherwise."""
+"""The Fast DDS profile of node and probe: only UDP, because shared memory does not cross
+namespaces, and frequent announcements, because otherwise losing the first one costs 3 s."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a command ended: `status` is None where a limit ended it, `stopped_by` says which."""
+    """How a command ended; `status` is None if a limit ended it, `stopped_by` names that limit."""
 
     status: int | None
     output: bytes
@@ -61,27 +61,27 @@ class Outcome:
 
 
 class Console(ABC):
-    """A command on a pseudo-terminal of its own."""
+    """A command on its own pseudo-terminal."""
 
     @abstractmethod
     def wait(self, seconds: float) -> bool:
-        """Wait until something has come; return whether it has."""
+        """Wait for output; return whether there is any to read."""
 
     @abstractmethod
     def read(self) -> bytes:
-        """Return what has come, b"" once the last process has let go of the terminal."""
+        """Return the output so far, b"" after the last process has closed the terminal."""
 
     @abstractmethod
     def interrupt(self) -> None:
-        """Press Ctrl+C. Raises OSError where nobody is there any more."""
+        """Send Ctrl+C. Raises OSError if the terminal is closed."""
 
     @abstractmethod
     def poll(self) -> tuple[int | None, int | None] | None:
-        """Return exit status and signal of the command, None while it runs."""
+        """Return the command's exit status and signal, None while it runs."""
 
     @abstractmethod
     def end(self) -> None:
-        """End what still runs on it, and let go of it."""
+        """Kill what still runs on the terminal and close it."""
 
 
 class Pipe(ABC):
@@ -89,27 +89,27 @@ class Pipe(ABC):
 
     @abstractmethod
     def write(self, data: bytes) -> None:
-        """Write to its input. Raises OSError where nobody reads any more."""
+        """Write to its input. Raises OSError if the command no longer reads."""
 
     @abstractmethod
     def read(self, seconds: float) -> bytes | None:
-        """Return what has come on its output, b"" at its end, None if nothing came in time."""
+        """Return its next output, b"" at the end, None if there was none within `seconds`."""
 
     @abstractmethod
     def errors(self) -> bytes:
-        """Return what it said on stderr, once it has ended."""
+        """Return its stderr after it has ended."""
 
     @abstractmethod
     def finish(self, seconds: float) -> None:
-        """Close its input, give it that long to end by itself, then end it and let go of it."""
+        """Close its input, wait up to `seconds` until it exits, kill it and close its pipes."""
 
     @abstractmethod
     def kill(self) -> None:
-        """End it, and what it started, at once."""
+        """Kill it and everything that it started."""
 
 
 class Sandbox(ABC):
-    """A sandbox over one workspace.
+    """A sandbox with one workspace.
 
     Leaving the `with` block ends everything that was started in it.
     """
@@ -133,7 +133,7 @@ class Sandbox(ABC):
 
     @abstractmethod
     def open(self) -> None:
-        """Open it; SurroundingsError with cause and remedy where that cannot be done."""
+        """Open the sandbox; raise SurroundingsError with cause and remedy if that is impossible."""
 
     @abstractmethod
     def run(
@@ -145,14 +145,15 @@ class Sandbox(ABC):
         seconds: float,
         output: float | None = None,
     ) -> Outcome:
-        """Run a command to its end, both output streams together, cut while they are read.
+        """Run a command and return its outcome, with stdout and stderr merged.
 
-        Ends it (and all that it started) at `seconds` of wall time or at `output` bytes.
+        The command and all that it started are killed after `seconds` of wall time or `output`
+        bytes.
         """
 
     @abstractmethod
     def console(self, argv: Sequence[str]) -> Console:
-        """Start a command of the student's on a pseudo-terminal."""
+        """Start a command on a pseudo-terminal, as the student."""
 
     @abstractmethod
     def pipe(self, argv: Sequence[str], *, role: Role) -> Pipe:
@@ -160,41 +161,41 @@ class Sandbox(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """End every process that was started in it and remove what it made."""
+        """End every process in the sandbox and remove everything that it created."""
 
     @property
     def workspace(self) -> str:
-        """The workspace's path as commands inside see it."""
+        """The path of the workspace inside the sandbox."""
         return WORKSPACE
 
     @property
     def ros_path(self) -> str:
-        """The ROS prefix's path as commands inside see it."""
+        """The path of the ROS prefix inside the sandbox."""
         return self.ros.inside
 
     @abstractmethod
-    def held(self) -> dict[str, str]:
-        """Return what holds each limit here: cgroup, rlimit, tmpfs, grader or none."""
+    def held_by(self) -> dict[str, str]:
+        """Return what enforces each limit: cgroup, rlimit, tmpfs, grader or none."""
 
-    def resource_met(self) -> str:
-        """Return the limit on the whole submission that its processes ran into, "" if none."""
+    def resource_limit_hit(self) -> str:
+        """Return the limit on the whole submission that its processes hit, "" if none."""
         return ""
 
-    def probe_met(self) -> str:
-        """Return the limit that ended the probe, "" if none: the submission has fed it too much."""
+    def probe_limit_hit(self) -> str:
+        """Return the limit that ended the probe, "" if none (a submission can send it too much)."""
         return ""
 
     def limit_report(self) -> dict[str, LimitInfo]:
-        """Return every limit with what holds it, and the ceiling that follows from them."""
-        by = dict.fromkeys(UNITS, "grader") | {"cpus": "none"} | self.held()
+        """Return every limit with what enforces it, and the total time limit computed from them."""
+        held_by = dict.fromkeys(UNITS, "grader") | {"cpus": "none"} | self.held_by()
         ceiling = LimitInfo(value=self.limits.verdict_seconds, unit="s", held_by="grader")
         return {
-            name: LimitInfo(value=getattr(self.limits, name), unit=unit, held_by=by[name])
+            name: LimitInfo(value=getattr(self.limits, name), unit=unit, held_by=held_by[name])
             for name, unit in UNITS.items()
         } | {"verdict_seconds": ceiling}
 
     def environment(self, role: Role) -> dict[str, str]:
-        """Return the environment of a command inside: this list and nothing else."""
+        """Return the complete environment of a command in the sandbox."""
         base = {
             "HOME": HOME,
             "USER": "student",
@@ -210,9 +211,9 @@ class Sandbox(ABC):
         return base | self.extra_environment()
 
     def extra_environment(self) -> dict[str, str]:
-        """Return what this kind of sandbox adds to (or changes in) the list."""
+        """Return the variables that this kind of sandbox adds or overrides."""
         return {}
 
     @abstractmethod
     def profile_path(self, role: Role) -> str:
-        """Return where the Fast DDS profile is, as a command of that role sees it."""
+        """Return the path of the Fast DDS profile inside the sandbox, for a command of a role."""

@@ -1,11 +1,11 @@
 """The `bubblewrap` sandbox: Linux namespaces, as root or as a user.
 
-A holder owns a network namespace with loopback alone, a read-only system and the workspace (a
-sized tmpfs). Every command enters it and gets PID, mount and IPC namespaces of its own there. The
-holder reads a pipe from the grader: whichever way the grader ends, the pipe closes, the holder
-ends, and the kernel ends every process in its PID namespace.
+A holder process owns a network namespace with only loopback, a read-only system and the workspace
+(a tmpfs with a size limit). Every command enters the holder's namespaces and gets its own PID,
+mount and IPC namespaces inside them. The holder reads a pipe from the grader: however the grader
+ends, the pipe closes, the holder exits, and the kernel kills every process in its PID namespace.
 
-What it does not protect from: faults of the kernel, and heat.
+It does not protect against kernel bugs.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE, HOME, WORKSPACE, Role
 from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import Limits
-from grader.sandbox.local import LocalSandbox, need
+from grader.sandbox.local import LocalSandbox, require_program
 from grader.sandbox.processes import adopt_orphans, children_of, collect_orphans
 
 PROFILE = "/etc/grader/fastdds.xml"
@@ -40,7 +40,7 @@ END_SECONDS = 10.0
 POLL_SECONDS = 0.02
 NOT_ALLOWED = say("unprivileged user namespaces are not allowed here")
 FILTERED = say("namespaces are not allowed here (a container's seccomp filter?)")
-USED_UP = say("the kernel allows no more user namespaces")
+USED_UP = say("the kernel's limit on user namespaces is reached")
 CAUSES = (
     ("setting up uid map", NOT_ALLOWED),
     ("No permissions to create", NOT_ALLOWED),
@@ -57,11 +57,11 @@ class Bubblewrap(LocalSandbox):
     def __init__(self, ros: Ros, limits: Limits) -> None:
         super().__init__(ros, limits)
         self._root = os.geteuid() == 0
-        self._bwrap = need("bwrap", shutil.which("bwrap"))
-        self._nsenter = need("nsenter", shutil.which("nsenter"))
+        self._bwrap = require_program("bwrap", shutil.which("bwrap"))
+        self._nsenter = require_program("nsenter", shutil.which("nsenter"))
         self._holder: subprocess.Popen[bytes] | None = None
-        self._held_pid = 0
-        self._held = -1  # a descriptor of that process: readable when it has ended
+        self._init_pid = 0  # of the first process in the holder's PID namespace
+        self._init_pidfd = -1  # readable after that process has ended
         self._group = Group()
         uid = FIRST_UID + 2 * (os.getpid() % (UIDS // 2))
         self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
@@ -71,7 +71,7 @@ class Bubblewrap(LocalSandbox):
         return PROFILE
 
     def open(self) -> None:
-        """Start the holder; SurroundingsError says why namespaces are refused, and the remedy."""
+        """Start the holder; raise SurroundingsError with the cause if namespaces are refused."""
         adopt_orphans()
         texts = {
             "/etc/passwd": self._passwd(),
@@ -81,10 +81,10 @@ class Bubblewrap(LocalSandbox):
             PROFILE: DISCOVERY_PROFILE,
         }
         descriptors = {path: memory_file(text) for path, text in texts.items()}
-        told, tell = os.pipe()
-        # No --die-with-parent here: its end is that of `cat`'s input. Were the outer bwrap killed
-        # before it lets the inner one go on, that one would wait for it for ever.
-        command = [self._bwrap, "--info-fd", str(tell)]
+        info_reader, info_writer = os.pipe()
+        # No --die-with-parent: the holder ends when the input of `cat` closes. If the outer bwrap
+        # were killed before it releases the inner one, the inner one would wait forever.
+        command = [self._bwrap, "--info-fd", str(info_writer)]
         command += ["--unshare-net", "--unshare-pid", "--unshare-ipc", "--unshare-uts"]
         command += ["--hostname", "lab"]
         if not self._root:
@@ -99,19 +99,19 @@ class Bubblewrap(LocalSandbox):
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
-                # the reading end too: where the grader is gone, writing would kill the outer bwrap
-                pass_fds=[told, tell, *descriptors.values()],
-                start_new_session=True,  # Ctrl+C at the grader's terminal is not the holder's
+                # the reading end too: if the grader has ended, a write would kill the outer bwrap
+                pass_fds=[info_reader, info_writer, *descriptors.values()],
+                start_new_session=True,  # Ctrl+C on the grader's terminal must not reach the holder
                 env={"PATH": "/usr/bin:/bin"},
             )
         finally:
-            for descriptor in (tell, *descriptors.values()):
+            for descriptor in (info_writer, *descriptors.values()):
                 os.close(descriptor)
-        with os.fdopen(told) as stream:
+        with os.fdopen(info_reader) as stream:
             info = stream.read()
         try:
-            self._held_pid = int(json.loads(info)["child-pid"])
-            self._held = os.pidfd_open(self._held_pid)
+            self._init_pid = int(json.loads(info)["child-pid"])
+            self._init_pidfd = os.pidfd_open(self._init_pid)
             self._wait_for_mounts(self._holder)
         except (ValueError, KeyError, ProcessLookupError):
             raise self._refused() from None
@@ -119,7 +119,7 @@ class Bubblewrap(LocalSandbox):
 
     def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
         if self._holder is None or self._holder.poll() is not None:
-            raise SurroundingsError("the sandbox is closed or was ended from outside")
+            raise SurroundingsError("the sandbox is closed or was killed from outside")
         inner = [self._bwrap, *self._own_namespaces(role)]
         for name, value in self.environment(role).items():
             inner += ["--setenv", name, value]
@@ -129,20 +129,20 @@ class Bubblewrap(LocalSandbox):
             inner += ["--cap-add", "CAP_SETPCAP", "--", "setpriv", f"--reuid={uid}"]
             inner += [f"--regid={uid}", "--clear-groups", "--inh-caps=-all", "--bounding-set=-all"]
         inner += ["--", *self._rlimits(role), "env", "--default-signal=INT", *argv]
-        enter = [self._nsenter, "-t", str(self._held_pid), "-m", "-n", "-p", "-i", "-u"]
+        enter = [self._nsenter, "-t", str(self._init_pid), "-m", "-n", "-p", "-i", "-u"]
         if not self._root:
             enter += ["-U", "--preserve-credentials"]
-        # bwrap would die of Ctrl+C and take the node's last words along: it ignores SIGINT, and the
-        # command inside has the default again (env --default-signal)
+        # Ctrl+C would kill bwrap and lose the node's last output. bwrap ignores SIGINT; the command
+        # inside gets the default handler back (env --default-signal).
         script = "trap '' INT; "
         if role == "student":
             script += "".join(f'echo 0 > "{entry}" || exit; ' for entry in self._group.entries)
         return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *enter, "--", *inner]
 
-    def resource_met(self) -> str:
-        return self._group.met()
+    def resource_limit_hit(self) -> str:
+        return self._group.limit_hit()
 
-    def held(self) -> dict[str, str]:
+    def held_by(self) -> dict[str, str]:
         by = {"cpu_seconds": "rlimit", "file_size": "rlimit", "workspace": "tmpfs"}
         by |= {"memory": "rlimit", "processes": "rlimit"}
         return by | dict.fromkeys(self._group.holds, "cgroup")
@@ -153,11 +153,11 @@ class Bubblewrap(LocalSandbox):
             for stream in (holder.stdin, holder.stderr):
                 if stream is not None:
                     stream.close()
-            if self._held_pid > 0:  # 0 would be the grader's own process group
+            if self._init_pid > 0:  # 0 would be the grader's own process group
                 with contextlib.suppress(ProcessLookupError, PermissionError):
-                    # the end of the first process of a PID namespace is the end of all in it
-                    os.kill(self._held_pid, signal.SIGKILL)
-            else:  # interrupted while it opened: `cat` has nothing to read as soon as it starts
+                    # killing the first process of a PID namespace kills every process in it
+                    os.kill(self._init_pid, signal.SIGKILL)
+            else:  # interrupted while opening: `cat` exits at once because its input is closed
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     holder.wait(END_SECONDS)
             if holder.poll() is None:
@@ -167,17 +167,17 @@ class Bubblewrap(LocalSandbox):
         self._group.close()
 
     def _wait_for_the_end(self) -> None:
-        """Wait until the namespace's first process is gone: the kernel has ended all others then."""
-        if self._held < 0:
+        """Wait for the namespace's first process; the kernel has killed the others by then."""
+        if self._init_pidfd < 0:
             return
         deadline = time.monotonic() + END_SECONDS
-        while not select.select([self._held], [], [], POLL_SECONDS)[0]:
-            collect_orphans()  # a submission can kill what would have collected its processes
+        while not select.select([self._init_pidfd], [], [], POLL_SECONDS)[0]:
+            collect_orphans()  # a submission can kill the process that would have reaped them
             if time.monotonic() > deadline:
                 break
-        os.close(self._held)
+        os.close(self._init_pidfd)
         collect_orphans()
-        self._held, self._held_pid = -1, 0
+        self._init_pidfd, self._init_pid = -1, 0
 
     def _passwd(self) -> str:
         uid = self._uids["student"] if self._root else 1000
@@ -201,7 +201,7 @@ class Bubblewrap(LocalSandbox):
     def _own_namespaces(self, role: Role) -> list[str]:
         """Return the mounts and namespaces of one command."""
         scratch = str(int(self.limits.workspace / 10))
-        # without --die-with-parent, what a command leaves in the background would keep it open
+        # without --die-with-parent, a background process would keep bwrap running
         options = ["--die-with-parent", "--unshare-pid", "--unshare-ipc", "--ro-bind", "/", "/"]
         if not self._root:
             uid = "1000" if role == "student" else "1001"
@@ -228,11 +228,11 @@ class Bubblewrap(LocalSandbox):
         return words
 
     def _wait_for_mounts(self, holder: subprocess.Popen[bytes]) -> None:
-        """Wait until `cat` runs in the holder: the mounts are complete then."""
+        """Wait until `cat` runs in the holder: then the mounts are complete."""
         assert holder.stdin is not None
         while holder.poll() is None:
             try:
-                for pid in [self._held_pid, *children_of(self._held_pid)]:
+                for pid in [self._init_pid, *children_of(self._init_pid)]:
                     if Path(f"/proc/{pid}/exe").readlink().name != "bwrap":
                         return
             except OSError:
@@ -247,7 +247,7 @@ class Bubblewrap(LocalSandbox):
         said = stream.read().decode(errors="replace").strip()
         return SurroundingsError(
             say(
-                "bubblewrap cannot make a sandbox: {cause}\n  it said: {output}",
+                "bubblewrap cannot create a sandbox: {cause}\n  its output: {output}",
                 cause=_cause(said),
                 output=said or "-",
             ),
@@ -259,7 +259,7 @@ def _cause(said: str) -> str:
     for mark, cause in CAUSES:
         if mark in said:
             return cause
-    return say("its call failed")
+    return say("bubblewrap failed")
 
 
 def _remedy(said: str) -> str:
@@ -271,17 +271,17 @@ def _remedy(said: str) -> str:
         )
     if Path("/.dockerenv").exists() or Path("/run/.containerenv").exists():
         return say(
-            "Inside a container: start it with `--security-opt seccomp=unconfined "
+            "In a container: start it with `--security-opt seccomp=unconfined "
             "--security-opt apparmor=unconfined --cap-add SYS_ADMIN`, or, if the container is "
-            "thrown away after each submission, use SANDBOX=account as root."
+            "discarded after each submission, use SANDBOX=account as root."
         )
     if _cause(said) in (NOT_ALLOWED, USED_UP):
         return say("Allow them (sysctl user.max_user_namespaces=15000), or run the grader as root.")
-    return say("Report this with its text.")
+    return say("Report this error message.")
 
 
 def system_mounts() -> Iterator[str]:
-    """Yield bwrap's words for the programs and libraries of this machine, read-only."""
+    """Yield the bwrap arguments that mount this machine's programs and libraries read-only."""
     for path in SYSTEM:
         place = Path(path)
         if place.is_symlink():
@@ -291,13 +291,13 @@ def system_mounts() -> Iterator[str]:
 
 
 def parents_of(*paths: str) -> list[str]:
-    """Return the folders above these paths, outermost first."""
+    """Return the parent folders of these paths, outermost first."""
     found = {str(parent) for path in paths for parent in Path(path).parents} - {"/"}
     return sorted(found, key=lambda folder: (folder.count("/"), folder))
 
 
 def memory_file(text: str) -> int:
-    """Return a descriptor from which a text can be read: a file without a name."""
+    """Return a file descriptor of an anonymous file with this text."""
     descriptor = os.memfd_create("grader")
     os.write(descriptor, text.encode())
     os.lseek(descriptor, 0, os.SEEK_SET)

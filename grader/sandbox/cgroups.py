@@ -1,6 +1,6 @@
-"""Control groups: memory and process limits over a whole submission, where the system has them.
+"""Control groups: memory and process limits on a whole submission, if the system provides them.
 
-Version 1 as root, version 2 where the grader's own group is delegated to it. Sources: the kernel's
+Version 1 as root, version 2 if the grader's own group is delegated to it. Sources: the kernel's
 documentation, admin-guide/cgroup-v1 and admin-guide/cgroup-v2.
 """
 
@@ -20,18 +20,18 @@ GROUP = "ros2_grader"
 
 @dataclass
 class Group:
-    """One control group (one folder a controller in version 1); `holds` names its limits."""
+    """A control group (in version 1 one folder per controller); `holds` names its limits."""
 
     folders: list[Path] = field(default_factory=list)
     holds: list[str] = field(default_factory=list)
 
     @property
     def entries(self) -> list[str]:
-        """The files into which a process writes 0 to enter the group."""
+        """The files to which a process writes 0 to enter the group."""
         return [str(folder / "cgroup.procs") for folder in self.folders]
 
     def killed_for_memory(self) -> bool:
-        """Whether the kernel ended a process of the group for want of memory."""
+        """Whether the kernel killed a process of the group because memory ran out."""
         for folder in self.folders:
             for name in ("memory.oom_control", "memory.events"):
                 for line in _read(folder / name).splitlines():
@@ -41,7 +41,7 @@ class Group:
         return False
 
     def hit_process_limit(self) -> bool:
-        """Whether a process of the group was refused a child."""
+        """Whether the kernel refused to create a process in the group."""
         for folder in self.folders:
             for line in _read(folder / "pids.events").splitlines():
                 key, _, value = line.partition(" ")
@@ -49,14 +49,14 @@ class Group:
                     return True
         return False
 
-    def met(self) -> str:
-        """Return which limit the group ran into, "" if none."""
+    def limit_hit(self) -> str:
+        """Return the limit that the group hit, "" if none."""
         if self.killed_for_memory():
             return "memory"
         return "processes" if self.hit_process_limit() else ""
 
     def close(self) -> None:
-        """Remove the group; its processes have been killed already, the kernel may need a moment."""
+        """Remove the group; its processes are already killed, but the kernel may need a moment."""
         for folder in self.folders:
             deadline = time.monotonic() + 5
             while folder.is_dir():
@@ -70,7 +70,7 @@ class Group:
 
 
 def open_group(limits: Limits, *, root: Path = ROOT) -> Group:
-    """Make a control group with these limits; an empty one where the system grants none."""
+    """Create a control group with these limits; an empty one if the system allows none."""
     name = f"{os.getpid()}-{time.monotonic_ns()}"
     group = Group()
     if (root / "cgroup.controllers").is_file():
@@ -97,7 +97,7 @@ def _open_v1(group: Group, limits: Limits, root: Path, name: str) -> None:
             folder.mkdir(parents=True)
         except OSError:
             continue
-        _clear_away(folder.parent)
+        _remove_stale(folder.parent)
         if _set(folder, values):
             group.folders.append(folder)
             group.holds.append(limit)
@@ -105,8 +105,8 @@ def _open_v1(group: Group, limits: Limits, root: Path, name: str) -> None:
             folder.rmdir()
 
 
-def _clear_away(parent: Path) -> None:
-    """Remove the empty groups of graders that were killed: their names begin with a dead process."""
+def _remove_stale(parent: Path) -> None:
+    """Remove the empty groups of killed graders; a group's name begins with the grader's PID."""
     for folder in parent.glob("[0-9]*-[0-9]*"):
         if not Path("/proc", folder.name.partition("-")[0]).exists():
             with contextlib.suppress(OSError):
@@ -140,7 +140,7 @@ def _set(folder: Path, values: dict[str, int]) -> bool:
     for file, value in values.items():
         if not (folder / file).exists():
             if file in ("memory.memsw.limit_in_bytes", "memory.swap.max"):
-                continue  # the kernel counts no swap: there is nothing to limit
+                continue  # the kernel does not account swap: there is nothing to limit
             return False
         try:
             (folder / file).write_text(str(value))

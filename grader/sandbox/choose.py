@@ -1,4 +1,4 @@
-"""Which sandbox marks: `auto`, or the one that was asked for; each is proven by opening it."""
+"""Selects the sandbox for marking. A sandbox is proven to work by opening it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ DOCKER_SOCKET = Path("/var/run/docker.sock")
 
 
 def check_name(name: str) -> None:
-    """Raise UsageError (with a "did you mean") if there is no sandbox of that name."""
+    """Raise UsageError (with a "did you mean") if no sandbox has that name."""
     if name not in NAMES:
         close = difflib.get_close_matches(name.lower(), NAMES, n=1)
         hint = say("did you mean '{name}'?", name=close[0]) if close else ""
@@ -33,21 +33,21 @@ def check_name(name: str) -> None:
 def open_sandbox(
     name: str, distro: Distro, limits: Limits, *, own_code: bool = False, say: Say = print
 ) -> Sandbox:
-    """Return an opened sandbox over a ROS installation of that distro; the caller closes it.
+    """Return an open sandbox with a ROS installation of that distro; the caller closes it.
 
-    `own_code` allows `auto` to end at `none`, for a student's own package. `say` hears of what is
-    made on the way (a prefix, an image). Raises SurroundingsError where no sandbox is to be had,
-    with cause and remedy.
+    `own_code` allows `auto` to fall back to `none`, for a student's own package. `say` is called
+    with progress texts while a prefix or an image is made. Raises SurroundingsError with cause and
+    remedy if no sandbox is available.
     """
     check_name(name)
     tried: list[SurroundingsError] = []
     for choice in _choices(name, own_code=own_code):
         try:
-            sandbox = _make(choice, distro, limits, say, asked=name != "auto")
+            sandbox = _make(choice, distro, limits, say, required=name != "auto")
             if sandbox is not None:
                 return sandbox.__enter__()
         except BrokenRosError:
-            raise  # no other sandbox makes it run
+            raise  # it would not run in another sandbox either
         except SurroundingsError as error:
             tried.append(error)
     raise _none_opened(tried)
@@ -56,7 +56,7 @@ def open_sandbox(
 def _none_opened(tried: Sequence[SurroundingsError]) -> SurroundingsError:
     reasons = joined(*dict.fromkeys(error.message for error in tried), by="\n")
     return SurroundingsError(
-        say("no sandbox to mark in: {reasons}", reasons=reasons),
+        say("no sandbox is available: {reasons}", reasons=reasons),
         remedy=joined(*dict.fromkeys(error.remedy for error in tried), by="\n"),
     )
 
@@ -70,10 +70,12 @@ def _choices(name: str, *, own_code: bool) -> list[str]:
     return [*choices, "none"] if own_code else choices
 
 
-def _make(choice: str, distro: Distro, limits: Limits, say: Say, *, asked: bool) -> Sandbox | None:
-    # each sandbox is loaded only when it is asked for: `grader --help` must not pay for it
+def _make(
+    choice: str, distro: Distro, limits: Limits, say: Say, *, required: bool
+) -> Sandbox | None:
+    # sandboxes are imported lazily to keep `grader --help` fast
     if choice == "docker":
-        return _containers(distro, limits, say, asked=asked)
+        return _docker(distro, limits, say, required=required)
     ros = proven_ros(distro, say=say)
     if choice == "bubblewrap":
         from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
@@ -81,31 +83,33 @@ def _make(choice: str, distro: Distro, limits: Limits, say: Say, *, asked: bool)
         return Bubblewrap(ros, limits)
     from grader.sandbox import plain  # noqa: PLC0415
 
-    return plain.Account(ros, limits) if choice == "account" else plain.Bare(ros, limits)
+    return (
+        plain.AccountSandbox(ros, limits) if choice == "account" else plain.NoSandbox(ros, limits)
+    )
 
 
-def _containers(distro: Distro, limits: Limits, say: Say, *, asked: bool) -> Sandbox | None:
-    """Return the `docker` sandbox; None where `auto` asks and daemon or image are not there.
+def _docker(distro: Distro, limits: Limits, say: Say, *, required: bool) -> Sandbox | None:
+    """Return the `docker` sandbox; None if it is not `required` and daemon or image are missing.
 
-    An image is made only where docker was asked for by name: `auto` never pulls gigabytes.
+    An image is built only if it is required: `auto` never pulls gigabytes.
     """
-    if not asked and not os.environ.get("DOCKER_HOST") and not DOCKER_SOCKET.exists():
+    if not required and not os.environ.get("DOCKER_HOST") and not DOCKER_SOCKET.exists():
         return None
     from grader.ros import image_build, images  # noqa: PLC0415
-    from grader.sandbox.containers import Containers  # noqa: PLC0415
+    from grader.sandbox.docker_sandbox import DockerSandbox  # noqa: PLC0415
 
     try:
         client = images.connect()
     except SurroundingsError:
-        if asked:
+        if required:
             raise
         return None
     image = images.find_image(client, distro)
-    if image is None and asked:
+    if image is None and required:
         network = image_build.Network()
         image_build.build_image(client, distro, stage="grade", base="ros", network=network, say=say)
         image = images.find_image(client, distro)
     if image is None:
         client.close()
         return None
-    return Containers(client, image, distro, limits)
+    return DockerSandbox(client, image, distro, limits)

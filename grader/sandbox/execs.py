@@ -1,4 +1,4 @@
-"""A command in a running container, and the socket over which it talks to us."""
+"""Commands in a running container (`docker exec`) and the sockets connected to them."""
 
 from __future__ import annotations
 
@@ -20,38 +20,38 @@ from grader.sandbox.base import COLUMNS, ROWS, Console, Outcome, Pipe
 if TYPE_CHECKING:
     from docker import APIClient
 
-End = Literal["as asked", "otherwise"]  # whether Ctrl+C ended a command on a console
-HEADER = struct.Struct(">BxxxL")  # of a frame: which stream, how many bytes (Docker's API, attach)
+End = Literal["interrupted", "otherwise"]  # how a command on a console ended
+HEADER = struct.Struct(">BxxxL")  # of a frame: stream number, length (Docker's API, attach)
 STDERR = 2
-MOST_ERRORS = 4_000  # bytes of stderr that are kept
-LOOK_SECONDS = 0.25  # how often it is asked whether a silent command has ended
-DRAIN_SECONDS = 1.0  # of silence after which nothing more comes of a command that has ended
-STATUS_SECONDS = 5.0  # in which the status of a command that has let go of its streams is known
+MAX_STDERR = 4_000  # bytes that are kept
+STATUS_POLL_SECONDS = 0.25  # between two checks whether a silent command has ended
+DRAIN_SECONDS = 1.0  # of silence after which the output of an ended command is complete
+STATUS_SECONDS = 5.0  # to wait for the status of a command that has closed its streams
 POLL_SECONDS = 0.002
-GONE = 137  # the status of a command whose container was killed
+GONE = 137  # the exit status of a command whose container was killed
 
 
 @contextmanager
 def docker_errors(doing: str) -> Iterator[None]:
-    """Turn what the daemon (or its absence) raises into SurroundingsError."""
+    """Turn errors of the daemon and of its connection into SurroundingsError."""
     try:
         yield
     except docker.errors.APIError as error:
         said = str(error.explanation or error)
-        remedy = "Free some space for Docker (`docker system df` says what takes it)."
+        remedy = "Free some disk space for Docker (`docker system df` shows what uses it)."
         raise SurroundingsError(
             f"Docker refused while {doing}: {said}",
-            remedy=remedy if "no space left" in said else "`docker info` tells how the daemon is.",
+            remedy=remedy if "no space left" in said else "Check the daemon with `docker info`.",
         ) from error
     except (docker.errors.DockerException, requests.exceptions.RequestException, OSError) as error:
         raise SurroundingsError(
-            f"the Docker daemon went away while {doing}",
+            f"the connection to the Docker daemon was lost while {doing}",
             remedy="Start it (`sudo systemctl start docker`) and run the command again.",
         ) from error
 
 
 class Exec:
-    """One command in a container. Raises what the Docker SDK raises."""
+    """A command in a container. Raises what the Docker SDK raises."""
 
     def __init__(
         self, api: APIClient, container: str, argv: Sequence[str], *, user: int, tty: bool = False
@@ -66,16 +66,16 @@ class Exec:
             api.exec_resize(self._id, height=ROWS, width=COLUMNS)
 
     def wait_for_output(self, seconds: float) -> bool:
-        """Wait until there is something to read (or the end of it); return whether there is."""
-        patience = self.patience(max(0.0, seconds))
-        return bool(select.select([self.socket], [], [], patience)[0] or self._early)
+        """Wait for output or its end; return whether there is something to read."""
+        timeout = self.timeout(max(0.0, seconds))
+        return bool(select.select([self.socket], [], [], timeout)[0] or self._early)
 
-    def patience(self, seconds: float) -> float:
-        """Return how long to wait for the socket: not at all if something is there already."""
+    def timeout(self, seconds: float) -> float:
+        """Return how long to wait for the socket: 0 if there is output already."""
         return 0 if self._early else seconds
 
     def receive(self) -> bytes:
-        """Return what has come, b"" at the end."""
+        """Return the next output, b"" at the end."""
         if self._early:
             data, self._early = self._early, b""
             return data
@@ -96,26 +96,26 @@ class Exec:
         """Wait for its exit status; None if it did not end in time."""
         deadline = time.monotonic() + seconds
         while (status := self.status()) is None and time.monotonic() < deadline:
-            time.sleep(POLL_SECONDS)  # the API cannot be waited on for the end of an exec
+            time.sleep(POLL_SECONDS)  # the API has no call that waits for the end of an exec
         return status
 
     def close(self) -> None:
-        """Let go of the socket; the command itself ends with its container."""
+        """Close the socket; the command itself ends with its container."""
         self.socket.close()
         self._reply.close()
 
 
 def socket_of(reply: object) -> socket.socket:
-    """Return the socket itself behind what the SDK gives for it (a file-like wrapper)."""
+    """Return the socket behind the file-like wrapper that the SDK returns."""
     found = getattr(reply, "_sock", reply)
     assert isinstance(found, socket.socket)
     return found
 
 
 def already_read(reply: object, line: socket.socket) -> bytes:
-    """Return what came together with the answer's head: it is in the HTTP reader's buffer.
+    """Return the bytes that arrived with the response headers, from the HTTP reader's buffer.
 
-    (The SDK hands out the raw socket under that reader; these bytes would be lost.)
+    (The SDK returns the raw socket below that reader, so these bytes would be lost.)
     """
     response = getattr(reply, "_response", None)
     reader = getattr(getattr(getattr(response, "raw", None), "_fp", None), "fp", None)
@@ -132,13 +132,13 @@ def already_read(reply: object, line: socket.socket) -> bytes:
 
 
 class Frames:
-    """Takes the frames of stdout and stderr apart."""
+    """Splits a stream into the frames of stdout and stderr."""
 
     def __init__(self) -> None:
         self._raw = bytearray()
 
     def feed(self, data: bytes) -> Iterator[tuple[int, bytes]]:
-        """Yield the stream's number and the bytes of each whole frame."""
+        """Yield the stream number and the bytes of each complete frame."""
         self._raw += data
         while len(self._raw) >= HEADER.size:
             stream, size = HEADER.unpack_from(self._raw)
@@ -148,8 +148,8 @@ class Frames:
             del self._raw[: HEADER.size + size]
 
 
-def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outcome:
-    """Feed stdin, read both streams to their end, cut while they are read."""
+def communicate(command: Exec, stdin: bytes, *, seconds: float, max_output: int) -> Outcome:
+    """Write stdin and read both output streams to their end or to a limit."""
     begin = time.monotonic()
     ended: float | None = None
     frames, output, rest = Frames(), bytearray(), memoryview(stdin)
@@ -159,14 +159,14 @@ def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outco
         line.shutdown(socket.SHUT_WR)
 
     def outcome(status: int | None, stopped_by: str = "") -> Outcome:
-        return Outcome(status, bytes(output[:most]), time.monotonic() - begin, stopped_by)
+        return Outcome(status, bytes(output[:max_output]), time.monotonic() - begin, stopped_by)
 
     while True:
         left = begin + seconds - time.monotonic()
         if left <= 0:
             return outcome(None, "wall time")
         can_write = select.select(
-            [line], [line] if rest else [], [], command.patience(min(left, LOOK_SECONDS))
+            [line], [line] if rest else [], [], command.timeout(min(left, STATUS_POLL_SECONDS))
         )[1]
         if can_write:
             rest = _send(line, rest)
@@ -176,11 +176,11 @@ def converse(command: Exec, stdin: bytes, *, seconds: float, most: int) -> Outco
                 break
             for _, text in frames.feed(data):
                 output += text
-            if len(output) >= most:
+            if len(output) >= max_output:
                 return outcome(None, "output")
             ended = None
-        # what it left in the background keeps the streams open: that it has ended is asked for,
-        # and its last words may still be on their way then
+        # a background process keeps the streams open, so the status is polled; output of the ended
+        # command may still arrive
         elif not can_write and ended is None:
             ended = time.monotonic() if command.status() is not None else None
         elif ended is not None and time.monotonic() - ended > DRAIN_SECONDS:
@@ -200,10 +200,10 @@ def _send(line: socket.socket, rest: memoryview) -> memoryview:
 
 
 class ExecConsole(Console):
-    """A command in a container on a pseudo-terminal, by pexpect over the exec's socket.
+    """A command in a container on a pseudo-terminal, with pexpect on the exec's socket.
 
-    (Such a spawn of pexpect has no sendintr, wait or terminate: Ctrl+C is a byte that is sent, the
-    end is the container's.)
+    (pexpect's SocketSpawn has no sendintr, wait or terminate: Ctrl+C is sent as a byte, and the
+    command is killed with its container.)
     """
 
     def __init__(self, command: Exec, *, ended: Callable[[End], None]) -> None:
@@ -231,7 +231,7 @@ class ExecConsole(Console):
         return None if self._status is None else (self._status, None)
 
     def end(self) -> None:
-        how: End = "as asked" if self._interrupted and self.poll() is not None else "otherwise"
+        how: End = "interrupted" if self._interrupted and self.poll() is not None else "otherwise"
         self._command.close()
         self._ended(how)
 
@@ -252,7 +252,7 @@ class ExecPipe(Pipe):
         left, deadline = seconds, time.monotonic() + seconds
         output = b""
         while not output:
-            # frames of stderr alone, however fast they come, do not extend the time
+            # frames of stderr, however many, do not extend the time
             if left < 0 or not self._command.wait_for_output(left):
                 return None
             data = self._command.receive()
@@ -260,7 +260,7 @@ class ExecPipe(Pipe):
                 return b""
             for stream, text in self._frames.feed(data):
                 if stream == STDERR:
-                    self._errors = (self._errors + text)[-MOST_ERRORS:]
+                    self._errors = (self._errors + text)[-MAX_STDERR:]
                 else:
                     output += text
             left = deadline - time.monotonic()

@@ -1,7 +1,8 @@
-"""The limits on a submission: each a number in one place.
+"""The limits on a submission.
 
-Seconds and bytes. An assignment (`limits:`) or the command line (`--limit name=value`) overrides
-any of them; the report says what held each one. Each in time is a deadline that no output extends.
+Units are seconds and bytes. An assignment (`limits:`) or the command line (`--limit name=value`)
+overrides any of them; the report says what enforced each one. Time limits are deadlines that no
+output extends.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import joined, say
 
 MEGABYTE = 1_000_000
-RUNS = 2  # for which a verdict has time: a run, and a second opinion on it
-OVERRUN_SECONDS = 30.0  # of a run, beyond its limits: the probe's answers, and the end of it all
+RUNS = 2  # that fit into a verdict: a run, and a second one to confirm it
+OVERRUN_SECONDS = 30.0  # of a run beyond its limits: the probe's answers and the cleanup
 
 
 @dataclass(frozen=True)
@@ -33,33 +34,33 @@ class Limits:
     cpu_seconds: float = 60
     """Processor time of each process."""
     memory: float = 1_000 * MEGABYTE
-    """Of all processes and files in memory together; of each process where no cgroup is to be had."""
+    """Of all processes and files in memory together; of each process without a cgroup."""
     processes: float = 200
     """Processes and threads."""
     cpus: float = 2
-    """Processors that it may keep busy at once."""
+    """Number of processors."""
     file_size: float = 100 * MEGABYTE
-    """Of one file."""
+    """Size of one file."""
     workspace: float = 300 * MEGABYTE
-    """Of the workspace, a file system in memory; `/tmp`, `/dev/shm` and home have a tenth each."""
+    """Size of the workspace, a file system in memory; `/tmp`, `/dev/shm` and home: a tenth each."""
     output: float = 1 * MEGABYTE
-    """What a command may print before it is stopped."""
+    """Output of a command before it is stopped."""
 
     @property
-    def a_run(self) -> float:
-        """Seconds of wall time that one run has room for; none is begun with less left."""
+    def max_run_seconds(self) -> float:
+        """Seconds of wall time reserved for one run; no run is started with less time left."""
         return self.start_seconds + self.run_seconds + self.stop_seconds + OVERRUN_SECONDS
 
     @property
     def verdict_seconds(self) -> float:
-        """The ceiling of a verdict in seconds of wall time, from the open sandbox to the last check.
+        """The time limit of a verdict in seconds of wall time, from opened sandbox to last check.
 
-        It holds whatever is repeated inside: runs, second opinions, and tries after faults of ours.
+        It includes everything that is repeated: runs, confirming runs, retries after grader faults.
         """
-        return self.build_seconds + OVERRUN_SECONDS + RUNS * self.a_run
+        return self.build_seconds + OVERRUN_SECONDS + RUNS * self.max_run_seconds
 
     def override(self, values: Mapping[str, float]) -> Limits:
-        """Return these limits with some changed; UsageError for an unknown name or no number > 0."""
+        """Return a copy with other values; UsageError for an unknown name or a value <= 0."""
         for name, value in values.items():
             if name not in UNITS:
                 close = difflib.get_close_matches(name, UNITS, n=1)

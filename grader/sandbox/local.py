@@ -1,6 +1,6 @@
-"""What the sandboxes of this machine share: a command becomes one that is started here.
+"""The base of the sandboxes whose commands are child processes of the grader.
 
-So pipes and pseudo-terminals are the grader's own, and the kernel's rules for children hold.
+Pipes and pseudo-terminals are the grader's own.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.sandbox.base import COLUMNS, PATH, ROWS, Console, Outcome, Pipe, Role, Sandbox
 
-END_SECONDS = 2.0  # in which a command that was killed is gone
+END_SECONDS = 2.0  # to wait for a killed command
 KILL_SECONDS = 5.0
-POLL_SECONDS = 0.002  # between two looks at a process that is ending
-MOST_ERRORS = 4_000  # bytes of stderr that are kept
+POLL_SECONDS = 0.002  # between two checks of a process that is ending
+MAX_STDERR = 4_000  # bytes that are kept
 
 
 class LocalSandbox(Sandbox):
@@ -33,10 +33,10 @@ class LocalSandbox(Sandbox):
 
     @abstractmethod
     def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
-        """Return the command that, started here, runs `argv` inside."""
+        """Return the command line that runs `argv` in the sandbox."""
 
     def outer_environment(self, role: Role) -> Mapping[str, str]:
-        """Return the environment for the command that `command` returned."""
+        """Return the environment for the command line that `command` returns."""
         del role
         return {"PATH": PATH, "LANG": "C.UTF-8"}
 
@@ -49,7 +49,7 @@ class LocalSandbox(Sandbox):
         seconds: float,
         output: float | None = None,
     ) -> Outcome:
-        most = int(self.limits.output if output is None else output)
+        max_output = int(self.limits.output if output is None else output)
         command = self.command(argv, role=role)
         started = time.monotonic()
         with subprocess.Popen(
@@ -61,7 +61,7 @@ class LocalSandbox(Sandbox):
             env=self.outer_environment(role),
         ) as process:
             try:
-                text, stopped_by = _converse(process, stdin, started + seconds, most)
+                text, stopped_by = _communicate(process, stdin, started + seconds, max_output)
             finally:
                 self.end(process)
         status = None if stopped_by else process.returncode
@@ -74,9 +74,9 @@ class LocalSandbox(Sandbox):
         return LocalPipe(self, self.command(argv, role=role), self.outer_environment(role))
 
     def end(self, process: subprocess.Popen[bytes]) -> None:
-        """End a process that `command` made, and what it started, at once."""
+        """Kill a process started from `command`, and everything that it started."""
         if process.poll() is None:
-            kill_below(process.pid)
+            kill_children(process.pid)
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(END_SECONDS)
         if process.poll() is None:
@@ -85,7 +85,7 @@ class LocalSandbox(Sandbox):
 
 
 class LocalConsole(Console):
-    """A command of this machine on a pseudo-terminal, by pexpect."""
+    """A local command on a pseudo-terminal, with pexpect."""
 
     def __init__(self, command: Sequence[str], env: Mapping[str, str]) -> None:
         self._spawn = pexpect.spawn(
@@ -105,7 +105,7 @@ class LocalConsole(Console):
     def read(self) -> bytes:
         try:
             return os.read(int(self._spawn.child_fd), 65536)
-        except OSError:  # Linux says EIO when the last process has let go of the terminal
+        except OSError:  # Linux returns EIO after the last process has closed the terminal
             return b""
 
     def interrupt(self) -> None:
@@ -120,7 +120,7 @@ class LocalConsole(Console):
         begin = time.monotonic()
         while self._spawn.isalive() and time.monotonic() < begin + KILL_SECONDS:
             if time.monotonic() < begin + KILL_SECONDS / 2:
-                kill_below(self._spawn.pid)
+                kill_children(self._spawn.pid)
             else:
                 with contextlib.suppress(ProcessLookupError):
                     os.killpg(self._spawn.pid, signal.SIGKILL)
@@ -129,7 +129,7 @@ class LocalConsole(Console):
 
 
 class LocalPipe(Pipe):
-    """A command of this machine with pipes."""
+    """A local command with pipes."""
 
     def __init__(
         self, sandbox: LocalSandbox, command: Sequence[str], env: Mapping[str, str]
@@ -156,7 +156,7 @@ class LocalPipe(Pipe):
         output = self._process.stdout.fileno()
         left, deadline = seconds, time.monotonic() + seconds
         while True:
-            # stderr is taken as well: a command that nobody hears there would stop at a full pipe
+            # stderr is read as well: a full pipe would block the command
             ready = select.select([output, *self._errors_from], [], [], max(0.0, left))[0]
             if output in ready:
                 return os.read(output, 1 << 20)
@@ -174,7 +174,7 @@ class LocalPipe(Pipe):
     def _take_errors(self) -> None:
         (descriptor,) = self._errors_from
         data = os.read(descriptor, 1 << 16)
-        self._errors = (self._errors + data)[-MOST_ERRORS:]
+        self._errors = (self._errors + data)[-MAX_STDERR:]
         self._errors_end = not data
 
     def errors(self) -> bytes:
@@ -201,11 +201,11 @@ class LocalPipe(Pipe):
         self._sandbox.end(self._process)
 
 
-def kill_below(pid: int) -> None:
-    """Kill the children of a process that `command` made, so that it collects them and ends.
+def kill_children(pid: int) -> None:
+    """Kill the children of a process started from `command`, so that it reaps them and exits.
 
-    (Killed together with them it would leave an orphan behind, and a PID namespace does not end
-    before somebody has collected the last of its processes.)
+    (Killing it together with them would leave an orphan, and a PID namespace does not end before
+    the last of its processes is reaped.)
     """
     with contextlib.suppress(OSError):
         children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
@@ -214,10 +214,10 @@ def kill_below(pid: int) -> None:
         os.kill(pid, signal.SIGCONT if children else signal.SIGKILL)
 
 
-def _converse(
-    process: subprocess.Popen[bytes], stdin: bytes, deadline: float, most: int
+def _communicate(
+    process: subprocess.Popen[bytes], stdin: bytes, deadline: float, max_output: int
 ) -> tuple[bytes, str]:
-    """Feed stdin and read the output until the end of it; return it and which limit was met."""
+    """Write stdin, read the output to its end or a limit; return it and the limit that was hit."""
     assert process.stdin is not None and process.stdout is not None
     output = bytearray()
     rest = memoryview(stdin)
@@ -245,8 +245,8 @@ def _converse(
                 data = os.read(key.fd, 65536)
                 if not data:
                     return _wait(process, deadline, output)
-                output += data[: most - len(output)]
-                if len(output) >= most:
+                output += data[: max_output - len(output)]
+                if len(output) >= max_output:
                     return bytes(output), "output"
 
 
@@ -260,8 +260,8 @@ def _wait(
     return bytes(output), ""
 
 
-def need(program: str, found: str | None) -> str:
-    """Return the path of a program that a sandbox needs; SurroundingsError where it is missing."""
+def require_program(program: str, found: str | None) -> str:
+    """Return `found`, the path of a program; raise SurroundingsError if it is None."""
     if found is None:
         raise SurroundingsError(
             say("the program {program} is missing", program=program),

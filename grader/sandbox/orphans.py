@@ -1,7 +1,7 @@
-"""Containers and volumes that a grader left behind: found by their labels, never anybody else's.
+"""Removes containers and volumes that an ended grader left behind, found by their labels.
 
-A killed grader's containers end by themselves (see `cells`); this clears away what a daemon that
-was itself restarted, or a machine that was, may have kept.
+A killed grader's containers end by themselves (see `container`); after a restart of the daemon or
+of the machine some may be left.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ UNTIL = "ros2-teaching-lab.until"
 
 
 def labels(lifetime: float) -> dict[str, str]:
-    """Return the labels of what this process makes; `lifetime` in seconds."""
+    """Return the labels for what this process creates; `lifetime` in seconds."""
     return {OWNER: f"{_here()} {os.getpid()} {_started(os.getpid())}", UNTIL: _at(lifetime)}
 
 
-def clear_away(client: DockerClient) -> None:
-    """Remove what graders left that are no more. Raises what the Docker SDK raises."""
+def remove_orphans(client: DockerClient) -> None:
+    """Remove what ended graders have left. Raises what the Docker SDK raises."""
     api = client.api
     for found in api.containers(all=True, filters={"label": OWNER}):
         if is_orphan(found["Labels"]):
-            with contextlib.suppress(docker.errors.APIError):  # another one is removing it
+            with contextlib.suppress(docker.errors.APIError):  # another grader is removing it
                 api.remove_container(found["Id"], force=True, v=True)
     for volume in api.volumes(filters={"label": OWNER})["Volumes"] or ():
         if is_orphan(volume["Labels"]):
@@ -40,12 +40,12 @@ def clear_away(client: DockerClient) -> None:
 
 
 def is_orphan(label: dict[str, str]) -> bool:
-    """Whether its grader is no more: a process of this machine that has gone, else its time."""
+    """Whether its grader has ended: by its process on this machine, by its lifetime elsewhere."""
     try:
         here, pid, started = label[OWNER].split()
         until = int(label[UNTIL])
     except (KeyError, ValueError):
-        return False  # not ours, whatever it is
+        return False  # not made by a grader
     if here == _here():
         return _started(int(pid)) != started
     return time.time() > until
@@ -56,13 +56,13 @@ def _at(seconds: float) -> str:
 
 
 def _here() -> str:
-    """Name this machine's processes: its boot, and the PID namespace that we count in."""
+    """Return an id of this machine's boot and of this process' PID namespace."""
     boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
     return f"{boot}/{Path('/proc/self/ns/pid').stat().st_ino}"
 
 
 def _started(pid: int) -> str:
-    """Return when a process was started, in the kernel's own count; "" if there is none."""
+    """Return the start time of a process in clock ticks since boot, "" if it does not exist."""
     try:
         stat = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
     except OSError:

@@ -1,9 +1,9 @@
 """The sandboxes without namespaces: `account` (another user id) and `none`.
 
-`account` is for a grader that runs as root in a container that is thrown away afterwards
-(Gradescope's, for one): student and probe are two unprivileged users, and every process of theirs
-is killed at the end. It does not keep the submission from the network or from reading what all
-users may read. `none` protects from nothing: it is for one's own code.
+`account` is for a grader that runs as root in a container that is discarded afterwards (for
+example Gradescope's): student and probe are two unprivileged users, and all their processes are
+killed at the end. The submission can use the network and read what every user may read. `none` does
+not protect from anything: it is for your own code.
 """
 
 from __future__ import annotations
@@ -29,26 +29,26 @@ from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE, Role
 from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import Limits
-from grader.sandbox.local import LocalSandbox, need
+from grader.sandbox.local import LocalSandbox, require_program
 from grader.sandbox.processes import adopt_orphans, descendants, processes, reap, stat_fields
 
 MARK = "GRADER_RUN"
-# there is no network namespace here: the profile itself keeps the nodes on this machine
+# without a network namespace, the profile keeps the nodes on this machine
 LOOPBACK_PROFILE = DISCOVERY_PROFILE.replace(
     "<type>UDPv4</type>",
     "<type>UDPv4</type>\n      "
     "<interfaceWhiteList><address>127.0.0.1</address></interfaceWhiteList>",
 )
-DOMAINS = range(1, 101)  # safe on Linux by ROS's documentation on ROS_DOMAIN_ID
+DOMAINS = range(1, 101)  # safe on Linux according to the ROS documentation of ROS_DOMAIN_ID
 FIRST_UID = 65_600
 END_SECONDS = 10.0
-# neither a `#!` line (255 bytes, no spaces) nor PATH (no colons) can hold every path
+# a `#!` line allows 255 bytes and no spaces, PATH allows no colons
 PLAIN_PATH = re.compile(r"/[\w./+-]{0,60}", re.ASCII)
-SHORT_FOLDER = "/tmp"  # noqa: S108 - mkdtemp makes a folder of our own in it
+SHORT_FOLDER = "/tmp"  # noqa: S108 - mkdtemp creates a private folder in it
 
 
-class Bare(LocalSandbox):
-    """No sandbox at all: the commands run as the user that runs the grader."""
+class NoSandbox(LocalSandbox):
+    """No sandbox: the commands run as the user that runs the grader."""
 
     name = "none"
 
@@ -56,8 +56,8 @@ class Bare(LocalSandbox):
         super().__init__(ros, limits)
         self._folder: Path | None = None
         self._mark = secrets.token_hex(8)
-        self._domain, self._claim = 0, -1
-        self._prlimit = need("prlimit", shutil.which("prlimit"))
+        self._domain, self._domain_lock = 0, -1
+        self._prlimit = require_program("prlimit", shutil.which("prlimit"))
         self._group = Group()
 
     @property
@@ -73,9 +73,9 @@ class Bare(LocalSandbox):
 
     @property
     def ros_path(self) -> str:
-        """`/opt/ros/<distro>` if that is the installation, else a short link to its place.
+        """`/opt/ros/<distro>` if that is the installation, else a short link to it.
 
-        (Where colcon's Python is seen becomes the `#!` line of the student's executables.)
+        (The path of colcon's Python becomes the `#!` line of the student's executables.)
         """
         is_inside = str(self.ros.path) == self.ros.inside
         return self.ros.inside if is_inside else str(self.folder / "ros")
@@ -86,7 +86,7 @@ class Bare(LocalSandbox):
 
     def open(self) -> None:
         adopt_orphans()
-        self._domain, self._claim = _claim_domain()
+        self._domain, self._domain_lock = _lock_domain()
         place = tempfile.gettempdir()
         place = place if PLAIN_PATH.fullmatch(place) else SHORT_FOLDER
         self._folder = Path(tempfile.mkdtemp(prefix="grader-", dir=place))
@@ -102,7 +102,7 @@ class Bare(LocalSandbox):
             "HOME": str(self.folder / "home"),
             "TMPDIR": str(self.folder / "tmp"),
             "ROS_DOMAIN_ID": str(self._domain),
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",  # what the profile says
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",  # as the profile says
             MARK: self._mark,
         }
 
@@ -118,10 +118,10 @@ class Bare(LocalSandbox):
         script = "".join(f'echo 0 > "{entry}" || exit; ' for entry in entries)
         return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *inner]
 
-    def resource_met(self) -> str:
-        return self._group.met()
+    def resource_limit_hit(self) -> str:
+        return self._group.limit_hit()
 
-    def held(self) -> dict[str, str]:
+    def held_by(self) -> dict[str, str]:
         by = {"cpu_seconds": "rlimit", "file_size": "rlimit", "workspace": "none"}
         by |= {"memory": "rlimit", "processes": "none" if os.geteuid() == 0 else "rlimit"}
         return by | dict.fromkeys(self._group.holds, "cgroup")
@@ -131,9 +131,9 @@ class Bare(LocalSandbox):
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
             self._folder = None
-        if self._claim >= 0:
-            os.close(self._claim)
-            self._claim = -1
+        if self._domain_lock >= 0:
+            os.close(self._domain_lock)
+            self._domain_lock = -1
         self._group.close()
 
     def _become(self, role: Role) -> list[str]:
@@ -150,10 +150,10 @@ class Bare(LocalSandbox):
         return words
 
     def _end_all(self) -> None:
-        """Kill what carries our mark, until there is none (a child inherits the environment)."""
+        """Kill all processes with our mark until none is left (children inherit the variable)."""
         deadline = time.monotonic() + END_SECONDS
         while time.monotonic() < deadline:
-            alive = list(self._ours())
+            alive = list(self._marked_processes())
             for pid in alive:
                 try:
                     os.kill(pid, signal.SIGKILL)
@@ -163,7 +163,7 @@ class Bare(LocalSandbox):
             if not alive:
                 return
 
-    def _ours(self) -> Iterator[int]:
+    def _marked_processes(self) -> Iterator[int]:
         mark = f"{MARK}={self._mark}".encode()
         own = os.getpid()
         children = descendants(own)
@@ -179,8 +179,8 @@ class Bare(LocalSandbox):
                 yield pid
 
 
-class Account(Bare):
-    """Student and probe as two unprivileged users; for root in a container thrown away later."""
+class AccountSandbox(NoSandbox):
+    """Student and probe as two unprivileged users; for root in a container that is discarded."""
 
     name = "account"
 
@@ -188,8 +188,8 @@ class Account(Bare):
         super().__init__(ros, limits)
         if os.geteuid() != 0:
             raise SurroundingsError(
-                "the account sandbox needs root: it changes to other user ids",
-                remedy="Run the grader as root in a container that is thrown away afterwards, or "
+                "the account sandbox needs root because it switches to other user ids",
+                remedy="Run the grader as root in a container that is discarded afterwards, or "
                 "mark with SANDBOX=bubblewrap.",
             )
         uid = FIRST_UID + 2 * (os.getpid() % 10_000)
@@ -203,14 +203,16 @@ class Account(Bare):
         os.chown(self.folder / "probe", self._uids["probe"], self._uids["probe"])
         inside = Path(self.ros.inside)
         inside.parent.mkdir(parents=True, exist_ok=True)
-        with contextlib.suppress(FileExistsError):  # of the system, or of another grader
+        with contextlib.suppress(FileExistsError):  # the system's, or another grader's
             inside.symlink_to(self.ros.path)
             self._linked = inside
         for path in (self.ros.path, self.ros.interpreter):
             _must_be_readable(path)
 
-    def held(self) -> dict[str, str]:
-        return {"processes": "rlimit"} | super().held() | dict.fromkeys(self._group.holds, "cgroup")
+    def held_by(self) -> dict[str, str]:
+        return (
+            {"processes": "rlimit"} | super().held_by() | dict.fromkeys(self._group.holds, "cgroup")
+        )
 
     def close(self) -> None:
         super().close()
@@ -247,7 +249,7 @@ class Account(Bare):
         super()._end_all()
 
     def _end_user(self, role: Role) -> None:
-        """Kill every process of a user at once: one call, which a fork bomb cannot outrun."""
+        """Kill every process of a user in one call, which a fork bomb cannot escape."""
         script = "import os; os.kill(-1, 9)"
         command = [*self._become(role), sys.executable, "-I", "-S", "-c", script]
         if shutil.which("setpriv") is None:
@@ -256,28 +258,28 @@ class Account(Bare):
         reap(descendants(os.getpid()))
 
 
-def _claim_domain() -> tuple[int, int]:
-    """Return a ROS domain that no other grader of this machine uses, and the lock that says so."""
+def _lock_domain() -> tuple[int, int]:
+    """Return a ROS domain id that no other grader on this machine uses, and its lock file."""
     for domain in random.sample(DOMAINS, len(DOMAINS)):
         place = Path(tempfile.gettempdir()) / f"ros2-grader-domain-{domain}.lock"
         try:
             lock = os.open(place, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
         except OSError:
-            continue  # another user's
+            continue  # it belongs to another user
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             os.close(lock)
         else:
             return domain, lock
-    raise SurroundingsError("every ROS domain of this machine is taken by another grader")
+    raise SurroundingsError("other graders use every ROS domain id of this machine")
 
 
 def _must_be_readable(path: Path) -> None:
     for place in (path, *path.resolve().parents):
         if not place.stat().st_mode & stat.S_IXOTH:
             raise SurroundingsError(
-                f"other users cannot read {path}: {place} is closed to them",
-                remedy="Set GRADER_CACHE to a folder that everybody may read (e.g. "
+                f"other users cannot read {path}: {place} is not accessible to them",
+                remedy="Set GRADER_CACHE to a folder that every user can read (e.g. "
                 "/var/cache/grader), and run the grader with a Python under /usr.",
             )

@@ -1,4 +1,4 @@
-"""Processes of this machine by `/proc`: who descends from whom, and collecting what has ended.
+"""Reads `/proc` for the descendants of a process and reaps processes that have ended.
 
 Source: proc(5).
 """
@@ -16,7 +16,7 @@ PR_SET_CHILD_SUBREAPER = 36
 
 
 def adopt_orphans() -> None:
-    """Have this process inherit the orphans of what it starts, so that they can be found."""
+    """Make this process the parent of its descendants' orphans, so that it can find them."""
     ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
 
@@ -28,20 +28,20 @@ def processes() -> Iterator[int]:
 
 
 def stat_fields(pid: int) -> list[str]:
-    """Return the fields of a process' stat after its name: state, parent, group, session, …
+    """Return the fields of /proc/PID/stat after the name: state, parent, group, session, …
 
-    Raises OSError where it is gone.
+    Raises OSError if the process has ended.
     """
     return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
 
 
 def children_of(pid: int) -> list[int]:
-    """Return the ids of what a process' first thread has started; OSError where it is gone."""
+    """Return the children of a process' first thread; OSError if the process has ended."""
     return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
 def descendants(root: int) -> set[int]:
-    """Return the ids of the processes below one."""
+    """Return the ids of all descendants of a process."""
     parents: dict[int, int] = {}
     for pid in processes():
         try:
@@ -57,7 +57,7 @@ def descendants(root: int) -> set[int]:
 
 
 def reap(pids: Iterable[int]) -> None:
-    """Collect those of these processes that have ended and are ours to collect."""
+    """Reap those of these processes that have ended and are children of this one."""
     for pid in pids:
         try:
             if stat_fields(pid)[0] == "Z":
@@ -67,9 +67,9 @@ def reap(pids: Iterable[int]) -> None:
 
 
 def kill_with_children(pid: int) -> None:
-    """Kill a process and its children; it is stopped first, so that it starts no other meanwhile.
+    """Kill a process and its children; stop it first so that it cannot start more of them.
 
-    (A bwrap that is killed alone while it makes its namespaces leaves its other half waiting.)
+    (Killing only the outer bwrap while it sets up namespaces leaves the inner one waiting.)
     """
     with contextlib.suppress(OSError):
         os.kill(pid, signal.SIGSTOP)
@@ -83,9 +83,9 @@ def kill_with_children(pid: int) -> None:
 
 
 def collect_orphans() -> None:
-    """Collect the ended orphans of a PID namespace below ours that have become our children.
+    """Reap ended orphans from PID namespaces below ours that have become our children.
 
-    (What this process has started itself is in its own namespace, and is left to `subprocess`.)
+    (Processes that this one started itself are in its own namespace; `subprocess` reaps them.)
     """
     own = os.getpid()
     for pid in descendants(own):

@@ -1,29 +1,35 @@
-"""Do the programs of ROS run? Asked in a sandbox, where no student's code has a say.
+"""Tests whether the programs of a ROS installation run, where student code cannot affect them.
 
-Asked once for each prefix of wheels, before it gets its place in the cache; and again if colcon or
-ros2 ended as a program does that could not be started, before that is called the student's fault.
+This is done for each wheels prefix before it enters the cache, and again if colcon or ros2 ended
+with a status that means "could not be started", before the student is blamed for it.
 """
 
 from __future__ import annotations
 
 from grader.base.cache import Say, discard
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import Message
+from grader.base.i18n.message import say
 from grader.base.unheard import unheard
-from grader.ros import prefix_texts as texts
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError, Ros, find_ros, is_in_cache
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
 
-SECONDS = 60.0  # of wall time; they take 0.3 s
-LONGEST = 2_000  # characters of what a program said
+SECONDS = 60.0  # of wall time; the programs take 0.3 s
+MAX_OUTPUT = 2_000  # characters that an error shows
 BROKEN = "does not run"
+OTHER_CACHE = say(
+    "Set GRADER_CACHE to a folder whose file system allows programs to run, or report this error "
+    "message."
+)
+REMOVED = say(
+    "The damaged prefix was removed from the cache. Run the command again to make a new one."
+)
 SCRIPT = f"""
 . "$1/setup.bash"
 for program in 'colcon build --help' 'ros2 --help' 'python3 -c "import rclpy.node; rclpy.init"'; do
-  said=$(eval "$program" 2>&1 < /dev/null) || {{
-    printf '%s {BROKEN}: status %s\\n%s\\n' "$program" "$?" "$said"
+  output=$(eval "$program" 2>&1 < /dev/null) || {{
+    printf '%s {BROKEN}: status %s\\n%s\\n' "$program" "$?" "$output"
     exit 1
   }}
 done
@@ -31,47 +37,59 @@ done
 
 
 def proven_ros(distro: Distro, *, say: Say = print) -> Ros:
-    """Return the ROS installation for a distro (see `find_ros`); one that is made now is proven."""
+    """Return the ROS installation for a distro (see `find_ros`); a newly made one is tested."""
     return find_ros(distro, prove=prove_ros, say=say)
 
 
 def prove_ros(ros: Ros) -> None:
-    """Start the programs of a ROS installation as a student's commands see it.
+    """Start the programs of a ROS installation in a sandbox, as for a student.
 
-    Without a sandbox if none works: that is told when one is opened for a student's code. Raises
-    BrokenRosError if one of them does not run.
+    If no sandbox works, they are started without one; that is reported later, when a sandbox is
+    opened for a student's code. Raises BrokenRosError if a program does not run.
     """
-    # each sandbox is loaded only when it is needed: `grader --help` must not pay for it
+    # sandboxes are imported lazily to keep `grader --help` fast
     from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
-    from grader.sandbox.plain import Bare  # noqa: PLC0415
+    from grader.sandbox.plain import NoSandbox  # noqa: PLC0415
 
     try:
         with Bubblewrap(ros, Limits()) as sandbox:
-            _prove(sandbox, Message(texts.REPORT))
+            _prove(sandbox, OTHER_CACHE)
     except BrokenRosError:
         raise
     except SurroundingsError:
-        with Bare(ros, Limits()) as bare:
-            _prove(bare, Message(texts.REPORT))
+        with NoSandbox(ros, Limits()) as unprotected:
+            _prove(unprotected, OTHER_CACHE)
 
 
 def prove_again(sandbox: Sandbox) -> None:
-    """Do nothing if the programs of ROS run in a sandbox; student's code may have been in it.
+    """Test again whether the programs of ROS run, in a sandbox that may contain student code.
 
-    They are run as the probe is: as another user, in a folder of its own. Raises BrokenRosError if
-    one does not run; a prefix that the grader has made is removed from the cache then.
+    They run like the probe: as another user, in a separate folder. Raises BrokenRosError if one
+    does not run; if the grader made that prefix, it is removed from the cache.
     """
     ros = sandbox.ros
     if not is_in_cache(ros):
-        anew = Message(texts.MAKE_AGAIN, {"distro": ros.distro.name})
-        _prove(sandbox, Message(texts.INSTALL_TOOLS) if ros.kind == "system" else anew)
+        _prove(sandbox, _remedy_outside_the_cache(ros))
         return
     try:
-        _prove(sandbox, Message(texts.REMOVED))
+        _prove(sandbox, REMOVED)
     except BrokenRosError:
-        # waiting for another grader that makes the same prefix is no news to this user
+        # do not report that this waits for another grader that makes the same prefix
         discard(ros.path, unless=lambda _: False, say=unheard)
         raise
+
+
+def _remedy_outside_the_cache(ros: Ros) -> str:
+    if ros.kind == "system":
+        return say(
+            "Install what is missing (colcon: `sudo apt-get install "
+            "python3-colcon-common-extensions`), or set GRADER_ROS=wheels to use PyPI's wheels."
+        )
+    return say(
+        "Make it again. With Docker: make images DISTRO={distro}. In a lab without Docker: leave the "
+        "lab and remove ROS {distro} from the grader's cache (~/.cache/ros2_teaching_lab).",
+        distro=ros.distro.name,
+    )
 
 
 def _prove(sandbox: Sandbox, remedy: str) -> None:
@@ -79,8 +97,16 @@ def _prove(sandbox: Sandbox, remedy: str) -> None:
     outcome = sandbox.run(command, role="probe", seconds=SECONDS)
     if outcome.status == 0:
         return
-    said = outcome.output.decode(errors="replace").strip()[:LONGEST] or outcome.stopped_by
-    values = {"distro": sandbox.ros.distro.name, "said": said}
-    if BROKEN in said:
-        raise BrokenRosError(Message(texts.BROKEN, values), remedy=remedy)
-    raise SurroundingsError(Message(texts.UNTESTED, values), remedy=Message(texts.TRY_AGAIN))
+    distro = sandbox.ros.distro.name
+    output = outcome.output.decode(errors="replace").strip()[:MAX_OUTPUT] or outcome.stopped_by
+    if BROKEN in output:
+        message = say("a program of ROS {distro} does not run:\n{said}", distro=distro, said=output)
+        raise BrokenRosError(message, remedy=remedy)
+    raise SurroundingsError(
+        say(
+            "cannot test whether the programs of ROS {distro} run:\n{said}",
+            distro=distro,
+            said=output,
+        ),
+        remedy=say("Run the command again. If that does not help, report this error message."),
+    )

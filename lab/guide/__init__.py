@@ -1,1 +1,1 @@
-"""The guide: the lesson's steps, and which of them the workspace shows to be done."""
+"""The guide: shows the steps of the lesson and which of them are done in the workspace."""

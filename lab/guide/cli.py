@@ -1,4 +1,4 @@
-"""The `guide` command: the current step, another one, the list of them, or the whole lesson."""
+"""The `guide` command: prints the current step, another step, a list, or the whole lesson."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from grader.course.assignment import load_assignment
 from grader.course.find import assignment_file
 from grader.ros.distro import DEFAULT
 from lab.guide.lesson import Lesson, Step, lesson_file, read_lesson
-from lab.guide.progress import Place, current, progress
+from lab.guide.progress import StudentState, current, next_actions
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
-WIDEST = 96  # columns; longer lines are hard to read
+MAX_WIDTH = 96  # columns; longer lines are hard to read
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -37,9 +37,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 @click.command(
     context_settings={"help_option_names": ["-h", "--help"]},
     help=msg(
-        "Show what to do next; N shows step N, `list` all steps with what is done, `all` the "
+        "Show what to do next. N shows step N, `list` all steps and which are done, `all` the whole "
         "lesson.\n\n"
-        "What is done is told from the files in your workspace, and from this terminal."
+        "A step is recognised as done by the files in your workspace and by this terminal."
     ),
 )
 @click.option(
@@ -47,7 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     type=click.Path(path_type=Path),
     default=Path("~/ros2_ws"),
     show_default=True,
-    help=msg("The workspace to look at."),
+    help=msg("The folder of the workspace."),
 )
 @options.assignment
 @options.lang
@@ -58,16 +58,17 @@ def command(workspace: Path, assignment: str | None, lang: str | None, what: str
     distro = os.environ.get("ROS_DISTRO") or DEFAULT
     with errors_in(translate.lang):
         file = assignment_file(assignment)
-        wanted = load_assignment(file)
+        assigned = load_assignment(file)
         lesson = read_lesson(lesson_file(file.parent, translate.lang), distro=distro)
-        found = progress(Place(workspace.expanduser(), wanted, os.environ), lesson.steps)
-        _show(what, _console(), lesson, [translate(action) for action in found], translate)
+        state = StudentState(workspace.expanduser(), assigned, os.environ)
+        actions = [translate(action) for action in next_actions(state, lesson.steps)]
+        _show(what, _console(), lesson, actions, translate)
 
 
 def _console() -> GatedConsole:
     console = GatedConsole(sys.stdout, soft_wrap=True)
     if console.is_terminal:
-        return GatedConsole(sys.stdout, width=min(console.width, WIDEST))
+        return GatedConsole(sys.stdout, width=min(console.width, MAX_WIDTH))
     return console
 
 
@@ -75,32 +76,32 @@ def _show(
     what: str | None,
     console: GatedConsole,
     lesson: Lesson,
-    found: Sequence[str],
+    actions: Sequence[str],
     translate: Translator,
 ) -> None:
     if what == "list":
-        _show_list(console, lesson, found, translate)
+        _show_list(console, lesson, actions, translate)
     elif what == "all":
         _show_markdown(console, lesson.introduction)
         for step in lesson.steps:
             _show_step(console, step, lesson, translate)
     else:
-        place = _place(what, lesson) if what else current(found)
-        _show_step(console, lesson.steps[place - 1], lesson, translate)
+        position = _position(what, lesson) if what else current(actions)
+        _show_step(console, lesson.steps[position - 1], lesson, translate)
         if what is None:
-            _show_next(console, found[place - 1], translate)
+            _show_next(console, actions[position - 1], translate)
 
 
-def _place(word: str, lesson: Lesson) -> int:
-    """Return the place (from 1) of the step with a number."""
+def _position(word: str, lesson: Lesson) -> int:
+    """Return the position (from 1) of the step with a number; UsageError if there is none."""
     if word.isdecimal():
-        for place, step in enumerate(lesson.steps, start=1):
+        for position, step in enumerate(lesson.steps, start=1):
             if step.number == int(word):
-                return place
+                return position
     raise UsageError(
         say("there is no step '{word}'", word=word),
         remedy=say(
-            "guide {first} to guide {last}, guide list, or guide all.",
+            "Use guide {first} to guide {last}, guide list, or guide all.",
             first=lesson.steps[0].number,
             last=lesson.steps[-1].number,
         ),
@@ -108,15 +109,15 @@ def _place(word: str, lesson: Lesson) -> int:
 
 
 def _show_list(
-    console: GatedConsole, lesson: Lesson, found: Sequence[str], translate: Translator
+    console: GatedConsole, lesson: Lesson, actions: Sequence[str], translate: Translator
 ) -> None:
-    here = current(found)
-    for place, step in enumerate(lesson.steps, start=1):
-        done = not found[place - 1] and (bool(step.done) or place < here)
-        mark = "x" if done else ">" if place == here else " "
-        style = "green" if done else "bold" if place == here else ""
+    here = current(actions)
+    for position, step in enumerate(lesson.steps, start=1):
+        done = not actions[position - 1] and (bool(step.done) or position < here)
+        mark = "x" if done else ">" if position == here else " "
+        style = "green" if done else "bold" if position == here else ""
         console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
-    _show_next(console, found[here - 1], translate)
+    _show_next(console, actions[here - 1], translate)
 
 
 def _show_step(console: GatedConsole, step: Step, lesson: Lesson, translate: Translator) -> None:
@@ -144,7 +145,7 @@ def _show_markdown(console: GatedConsole, text: str) -> None:
         if prose.strip():
             console.print(Markdown(prose))
             console.print()
-        if code:  # not broken into lines by us: it is there to be copied
+        if code:  # not wrapped, so that it can be copied
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 

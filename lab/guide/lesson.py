@@ -1,7 +1,7 @@
-"""The lesson as its steps; each is a section `## N. Title` of lesson.md.
+"""Reads a lesson: each section `## N. Title` of lesson.md is a step.
 
-The line below the heading may say how the guide tells that the step is done:
-`<!-- done: package -->`, by a name of `lab.guide.progress.STEPS`. Markdown does not show it.
+The line below the heading may name the test that recognises the step as done:
+`<!-- done: package -->`, a name in `lab.guide.progress.STEPS`. Markdown does not show it.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ DONE = re.compile(r"\A\s*<!-- done: ([^>\n]{1,80}?) -->\s*")
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `text` is Markdown, without the heading; `done` names what tells that it is done.
+    """A step: `text` is Markdown without the heading.
 
-    An empty `done`: nothing tells (a step to read or to think about).
+    `done` names the test that recognises the step as done, "" if there is none (a step to read).
     """
 
     number: int
@@ -34,22 +34,22 @@ class Step:
 
 @dataclass(frozen=True)
 class Lesson:
-    """A lesson: `introduction` is what comes before the first step, its title included."""
+    """A lesson; `introduction` is the text before the first step, including the title."""
 
     introduction: str
     steps: tuple[Step, ...]
 
 
 def lesson_file(folder: Path, lang: str) -> Path:
-    """Return the lesson in a language, `lesson.<lang>.md`; without one, the English."""
+    """Return the lesson in a language, `lesson.<lang>.md`, or the English one if it is missing."""
     own = folder / f"lesson.{lang}.md"
     return own if own.is_file() else folder / TEXT
 
 
 def read_lesson(file: Path, *, distro: str) -> Lesson:
-    """Return the lesson, with the commands and the documentation of this distro.
+    """Return the lesson, with the paths and documentation links of this distro.
 
-    UsageError if there is none, or none with steps.
+    UsageError if the file cannot be read or has no steps.
     """
     try:
         text = file.read_text(encoding="utf-8")
@@ -61,7 +61,7 @@ def read_lesson(file: Path, *, distro: str) -> Lesson:
     if not steps:
         raise UsageError(
             say("there is no lesson with steps in {file}", file=str(file)),
-            remedy=say("A step begins with a line '## 1. Title'. `check` works without a lesson."),
+            remedy=say("A step starts with a line '## 1. Title'. `check` works without a lesson."),
         )
     return Lesson(introduction.strip(), steps)
 
@@ -73,7 +73,7 @@ def _step(number: int, title: str, body: str) -> Step:
 
 
 def _of_distro(text: str, distro: str) -> str:
-    """Return a text with what names one release of ROS 2 (its paths, its pages) naming another."""
+    """Return a text with the paths and documentation links of any distro replaced by this one's."""
     known = distros()
     for other in known.values():
         text = text.replace(f"/opt/ros/{other.name}", f"/opt/ros/{distro}")

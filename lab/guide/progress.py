@@ -1,8 +1,8 @@
-"""How far a workspace is, told from its files and from this terminal; nothing else is remembered.
+"""Finds the steps that are done from the workspace's files and this terminal; stores nothing.
 
-A step of a lesson names one function here (`<!-- done: package -->`). It returns the next thing to
-do, or "" if the step is done. It asks only whether the student can go on; whether it is right is what
-`check` tells.
+A step of a lesson names a function here (`<!-- done: package -->`). It returns the next action, or
+"" if the step is done. It tests only whether the student can go on; `check` tests whether the work
+is correct.
 """
 
 from __future__ import annotations
@@ -25,52 +25,54 @@ from grader.ros.distro import DEFAULT
 from lab.guide.lesson import Step
 
 BUILD = "cd ~/ros2_ws && colcon build --symlink-install"
-MOST_BYTES = 200_000
+MAX_BYTES = 200_000
 
 
 @dataclass(frozen=True)
-class Place:
-    """Where to look: the workspace, what the exercise asks for, and this terminal's variables."""
+class StudentState:
+    """The input of the tests: workspace, assignment and this terminal's environment."""
 
     workspace: Path
-    wanted: Assignment
+    assignment: Assignment
     environment: Mapping[str, str]
 
     @property
     def package(self) -> Path:
         """The package's folder."""
-        return self.workspace / "src" / self.wanted.package
+        return self.workspace / "src" / self.assignment.package
 
     @property
     def node(self) -> Path:
         """The node's file."""
-        return self.package / self.wanted.package / self.wanted.node_file
+        return self.package / self.assignment.package / self.assignment.node_file
 
     def installed(self, path: str) -> bool:
-        """Whether a build has installed this, in a folder of the package's own or in a merged one."""
+        """Whether a build has installed this path (isolated or merged install layout)."""
         install = self.workspace / "install"
-        return any((place / path).exists() for place in (install / self.wanted.package, install))
+        return any(
+            (folder / path).exists() for folder in (install / self.assignment.package, install)
+        )
 
 
-def progress(place: Place, steps: Iterable[Step]) -> tuple[str, ...]:
-    """Return for each step the next thing to do in it, "" where it is done or nothing tells.
+def next_actions(state: StudentState, steps: Iterable[Step]) -> tuple[str, ...]:
+    """Return the next action of each step, "" if the step is done or has no test.
 
-    UsageError for a step that names what the guide cannot tell.
+    UsageError for a step that names an unknown test.
     """
-    return tuple(_told(step)(place) if step.done else "" for step in steps)
+    return tuple(_step_test(step)(state) if step.done else "" for step in steps)
 
 
-def current(found: Sequence[str]) -> int:
-    """Return the place (from 1) of the first step that is not done; the last one if all are."""
-    return next((n for n, action in enumerate(found, start=1) if action), len(found))
+def current(actions: Sequence[str]) -> int:
+    """Return the position (from 1) of the first step that is not done, else of the last step."""
+    return next((n for n, action in enumerate(actions, start=1) if action), len(actions))
 
 
-def _told(step: Step) -> Told:
+def _step_test(step: Step) -> StepTest:
     if step.done in STEPS:
         return STEPS[step.done]
     raise UsageError(
         say(
-            "step {number} of the lesson names '{name}', which the guide cannot tell",
+            "step {number} of the lesson names '{name}', which the guide does not know",
             number=step.number,
             name=step.done,
         )
@@ -79,29 +81,29 @@ def _told(step: Step) -> Told:
     )
 
 
-def _terminal(place: Place) -> str:
-    if place.environment.get("AMENT_PREFIX_PATH"):
+def _terminal(state: StudentState) -> str:
+    if state.environment.get("AMENT_PREFIX_PATH"):
         return ""
-    distro = place.environment.get("ROS_DISTRO") or DEFAULT
+    distro = state.environment.get("ROS_DISTRO") or DEFAULT
     return f"source /opt/ros/{distro}/setup.bash"
 
 
-def _workspace(place: Place) -> str:
-    return "" if (place.workspace / "src").is_dir() else "mkdir -p ~/ros2_ws/src"
+def _workspace(state: StudentState) -> str:
+    return "" if (state.workspace / "src").is_dir() else "mkdir -p ~/ros2_ws/src"
 
 
-def _package(place: Place) -> str:
-    name = place.wanted.package
+def _package(state: StudentState) -> str:
+    name = state.assignment.package
     create = f"ros2 pkg create --build-type ament_python {name} --dependencies rclpy"
-    if (place.package / "package.xml").is_file() and (place.package / "setup.py").is_file():
+    if (state.package / "package.xml").is_file() and (state.package / "setup.py").is_file():
         return ""
-    if (place.package / "CMakeLists.txt").is_file():
+    if (state.package / "CMakeLists.txt").is_file():
         return say(
             "Delete ~/ros2_ws/src/{name} (it is a C++ package), then in ~/ros2_ws/src: {command}",
             name=name,
             command=create,
         )
-    if place.package.exists():
+    if state.package.exists():
         return say(
             "~/ros2_ws/src/{name} is not complete. Delete it, then in ~/ros2_ws/src: {command}",
             name=name,
@@ -110,37 +112,38 @@ def _package(place: Place) -> str:
     return f"cd ~/ros2_ws/src && {create}"
 
 
-def _first_build(place: Place) -> str:
-    if place.installed(f"share/ament_index/resource_index/packages/{place.wanted.package}"):
+def _first_build(state: StudentState) -> str:
+    if state.installed(f"share/ament_index/resource_index/packages/{state.assignment.package}"):
         return ""
-    if (place.workspace / "src" / "install").is_dir():
+    if (state.workspace / "src" / "install").is_dir():
         return say(
             "You built in src. Delete build, install and log there, then: {command}", command=BUILD
         )
     return BUILD
 
 
-def _file(place: Place) -> str:
-    shown = f"~/ros2_ws/src/{place.wanted.package}/{place.wanted.package}/{place.wanted.node_file}"
-    if not place.node.is_file():
+def _file(state: StudentState) -> str:
+    package = state.assignment.package
+    shown = f"~/ros2_ws/src/{package}/{package}/{state.assignment.node_file}"
+    if not state.node.is_file():
         return f"touch {shown} && chmod +x {shown}"
-    return "" if os.access(place.node, os.X_OK) else f"chmod +x {shown}"
+    return "" if os.access(state.node, os.X_OK) else f"chmod +x {shown}"
 
 
-def _code(place: Place) -> str:
-    name = place.wanted.node_file
-    text = _read(place.node)
+def _code(state: StudentState) -> str:
+    name = state.assignment.node_file
+    text = _read(state.node)
     if not text.strip():
         return say("Write the node in {file}.", file=name)
     try:
         tree = parse_python(text).tree
     except PythonFault as fault:
-        fault_there = say("Python cannot read {file}: {reason}.", file=name, reason=fault.text)
+        problem = say("Python cannot read {file}: {reason}.", file=name, reason=fault.text)
         line = say("Look at line {line}.", line=fault.line) if fault.line else ""
-        return joined(fault_there, line)
+        return joined(problem, line)
     if not text.startswith(b"#!"):
         return say(
-            "The first line of {file} must say what runs it: {line}",
+            "The first line of {file} must name its interpreter: {line}",
             file=name,
             line="#!/usr/bin/env python3",
         )
@@ -150,57 +153,57 @@ def _code(place: Place) -> str:
         return say("{file} has no class that inherits from Node yet.", file=name)
     if "create_timer" not in calls:
         return say("The node in {file} has no timer yet.", file=name)
-    if place.wanted.function not in functions:
-        function = place.wanted.function
+    if state.assignment.function not in functions:
+        function = state.assignment.function
         return say("{file} has no function {function} yet.", file=name, function=function)
     if not any(call.startswith("spin") for call in calls):
-        return say("Nothing in {file} spins yet: the node would end at once.", file=name)
+        return say("{file} does not spin the node yet, so the node would end at once.", file=name)
     return ""
 
 
-def _entry_point(place: Place) -> str:
-    wanted = place.wanted
-    line = f"'{wanted.executable} = {wanted.target}',"
+def _entry_point(state: StudentState) -> str:
+    assignment = state.assignment
+    line = f"'{assignment.executable} = {assignment.target}',"
     try:
-        found = from_setup_py(read_setup_py(_read(place.package / "setup.py")))
-        config = from_setup_cfg(read_setup_cfg(_read(place.package / "setup.cfg")))
+        found = from_setup_py(read_setup_py(_read(state.package / "setup.py")))
+        config = from_setup_cfg(read_setup_cfg(_read(state.package / "setup.cfg")))
     except (PythonFault, SetupCfgFault) as fault:
         return say("setup.py or setup.cfg cannot be read: {reason}", reason=fault.text)
     entries = found.group("console_scripts") + config.group("console_scripts")
-    if not found.told and (place.package / "setup.py").is_file():
-        return ""  # (only the build can tell)
-    mine = [entry for entry in entries if entry.name == wanted.executable]
+    if not found.told and (state.package / "setup.py").is_file():
+        return ""  # (only a build shows the entry points)
+    mine = [entry for entry in entries if entry.name == assignment.executable]
     if not mine:
         return say("Add this line to console_scripts in setup.py: {line}", line=line)
-    if not any(entry.target == wanted.target for entry in mine):
+    if not any(entry.target == assignment.target for entry in mine):
         return say(
-            "The entry point leads to {target}. Make it: {line}", target=mine[0].target, line=line
+            "The entry point runs {target}. Change it to: {line}", target=mine[0].target, line=line
         )
     return ""
 
 
-def _second_build(place: Place) -> str:
-    name = place.wanted.package
-    return "" if place.installed(f"lib/{name}/{place.wanted.executable}") else BUILD
+def _second_build(state: StudentState) -> str:
+    name = state.assignment.package
+    return "" if state.installed(f"lib/{name}/{state.assignment.executable}") else BUILD
 
 
-def _overlay(place: Place) -> str:
-    install = (place.workspace / "install").resolve()
-    prefixes = place.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+def _overlay(state: StudentState) -> str:
+    install = (state.workspace / "install").resolve()
+    prefixes = state.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     if any(Path(prefix).resolve().is_relative_to(install) for prefix in prefixes if prefix):
         return ""
     return "cd ~/ros2_ws && source install/local_setup.bash"
 
 
-def _run(place: Place) -> str:
-    """Return what is left to do: that somebody has watched it cannot be told."""
-    run = f"ros2 run {place.wanted.package} {place.wanted.executable}"
-    then = say("(count along, stop it with Ctrl+C; then run: check)")
+def _run(state: StudentState) -> str:
+    """Return the last action; it is never done, because nothing shows that the node was watched."""
+    run = f"ros2 run {state.assignment.package} {state.assignment.executable}"
+    then = say("(count along, stop it with Ctrl+C, then run: check)")
     return joined(run, then, by="   ")
 
 
-Told = Callable[[Place], str]
-STEPS: Mapping[str, Told] = {
+StepTest = Callable[[StudentState], str]
+STEPS: Mapping[str, StepTest] = {
     "terminal": _terminal,
     "workspace": _workspace,
     "package": _package,
@@ -212,13 +215,13 @@ STEPS: Mapping[str, Told] = {
     "overlay": _overlay,
     "run": _run,
 }
-"""What the guide can tell, by the name that a lesson gives to it."""
+"""The tests by the name that a lesson uses."""
 
 
 def _read(path: Path) -> bytes:
     try:
         with path.open("rb") as stream:
-            return stream.read(MOST_BYTES)
+            return stream.read(MAX_BYTES)
     except OSError:
         return b""
 

@@ -1,4 +1,4 @@
-# Tab completion of colcon, and of ros2 where ROS itself brings none (the prefix made of wheels).
+# Tab completion of colcon, and of ros2 if ROS has none itself (the wheels prefix).
 
 for _lab_hook in "/opt/ros/$ROS_DISTRO" /usr; do
   _lab_hook="$_lab_hook/share/colcon_argcomplete/hook/colcon-argcomplete.bash"

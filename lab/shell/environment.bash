@@ -1,14 +1,14 @@
-# What every shell and every command of the lab starts with: ROS, and the lab's own commands.
-# The overlay is not sourced here. To see what it is for, one has to do it oneself.
+# Sets up ROS and the lab's commands for every shell and every command of the lab.
+# It does not source the overlay, because students learn to do that themselves.
 
-# A classroom's nodes must not meet: each stays on its own machine unless somebody says otherwise.
+# By default nodes stay on their own machine, so that the nodes of a class do not find each other.
 if [ "$ROS_DISTRO" = humble ]; then
   export ROS_LOCALHOST_ONLY="${ROS_LOCALHOST_ONLY:-1}"
 else
   export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
 fi
 
-# in a function, since a sourced file would otherwise see the caller's arguments
+# in a function, because a sourced file would otherwise see the caller's arguments
 _lab_source_ros() { . "/opt/ros/$ROS_DISTRO/setup.bash"; }
 _lab_source_ros
 unset -f _lab_source_ros

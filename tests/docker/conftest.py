@@ -10,7 +10,7 @@ from docker import DockerClient
 from grader.ros import images
 from grader.ros.distro import find_distro
 from grader.sandbox.base import Sandbox
-from grader.sandbox.containers import Containers
+from grader.sandbox.docker_sandbox import DockerSandbox
 from grader.sandbox.limits import Limits
 from tests import engine
 
@@ -39,6 +39,6 @@ def make_sandbox() -> Callable[[Limits], Sandbox]:
         image = images.find_image(opened, jazzy)
         if image is None:
             pytest.fail("the tests' images are not here: python -m tests.engine up")
-        return Containers(opened, image, jazzy, limits)
+        return DockerSandbox(opened, image, jazzy, limits)
 
     return make

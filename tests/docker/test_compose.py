@@ -16,7 +16,7 @@ from docker import DockerClient
 
 from grader.ros import image_files
 from grader.ros.distro import Distro, distros
-from grader.ros.images import table
+from grader.ros.images import image_table
 from tests import engine, stage
 from tests.docker import checkout
 
@@ -154,7 +154,7 @@ def test_bake_makes_the_images_that_the_grader_looks_for(
 ) -> None:
     monkeypatch.delenv("GRADER_IMAGES")
     tags = {tag for target in TARGETS.values() for tag in target["tags"]}
-    looked_for = {row.name for row in table(client)}
+    looked_for = {row.name for row in image_table(client)}
     assert looked_for <= tags
     assert {tag for tag in tags - looked_for if ":base-" not in tag} == set()
 

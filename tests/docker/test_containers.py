@@ -79,12 +79,12 @@ def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> No
 
 
 def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -> None:
-    keeper = "ls -l /proc/[0-9]*/exe 2> /dev/null; grep -l timeout /proc/[0-9]*/comm"
-    _, before = shell(sandbox, keeper)
+    first_process = "ls -l /proc/[0-9]*/exe 2> /dev/null; grep -l timeout /proc/[0-9]*/comm"
+    _, before = shell(sandbox, first_process)
     assert "/comm" in before
     kill = "for p in /proc/[0-9]*; do kill -9 ${p#/proc/}; done; kill -9 -1"
     shell(sandbox, kill)
-    _, after = shell(sandbox, keeper)
+    _, after = shell(sandbox, first_process)
     assert [line for line in after.split() if line.endswith("/comm")] == [
         line for line in before.split() if line.endswith("/comm")
     ]
@@ -93,10 +93,10 @@ def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -
 def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], Sandbox]) -> None:
     hog = "x = bytearray(500_000_000); x[::4096] = b'1' * len(x[::4096])"
     with make_sandbox(Limits(memory=80_000_000)) as opened:
-        assert opened.probe_met() == ""
+        assert opened.probe_limit_hit() == ""
         probe = opened.pipe(["python3", "-S", "-c", hog], role="probe")
         assert probe.read(20) == b""
-        assert opened.probe_met() == "memory"
+        assert opened.probe_limit_hit() == "memory"
         probe.finish(1)
 
 
@@ -156,7 +156,7 @@ def test_however_the_grader_ends_nothing_is_left(
     assert grader.wait(30) == status, said
     assert "Traceback" not in said
     assert wait_until_gone(client, grader.pid, state="running") == []
-    orphans.clear_away(client)  # as the next grader does: one that was never started is left
+    orphans.remove_orphans(client)  # as the next grader does: one that was never started is left
     assert wait_until_gone(client, grader.pid) == []
 
 

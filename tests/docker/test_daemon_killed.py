@@ -131,7 +131,7 @@ def test_a_daemon_killed_in_the_middle_is_said_and_its_leavings_are_cleared(
     daemon.kill()
     said = grader.stderr.read()
     assert grader.wait(60) == 3, said
-    assert "the Docker daemon went away" in said
+    assert "the connection to the Docker daemon was lost" in said
     assert "Traceback" not in said
 
     daemon.start()

@@ -11,8 +11,8 @@ from grader.base.errors import UsageError
 from grader.ros.distro import find_distro
 from grader.validate.tree import Replace
 from lab import container
-from lab.lesson import lesson_meant
-from lab.visit import Visit
+from lab.config import LabConfig
+from lab.lesson import chosen_lesson
 from lab.workspace import prepare
 from tests import weather
 from tests.lab.kinds import Kind
@@ -95,7 +95,7 @@ def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
     workspace = prepare(tmp_path / "ws")
     found = find_distro("jazzy")
     files = [None, *(str(course / name / "assignment.yaml") for name in ("readings", "winds"))]
-    visits = [Visit(found, workspace, lesson_meant(file)) for file in files]
+    visits = [LabConfig(found, workspace, chosen_lesson(file)) for file in files]
     assert len({container._name(visit) for visit in visits}) == 3
     own, readings, _ = ([dict(m) for m in container._mounts(visit)] for visit in visits)
     assert [mount["Target"] for mount in own] == ["/home/student/ros2_ws"]
@@ -115,7 +115,7 @@ def test_a_home_folder_is_no_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     for folder in (tmp_path / "home", tmp_path):
         folder.mkdir(exist_ok=True)
         (folder / "assignment.yaml").write_text(weather.ASSIGNMENT)
-        with pytest.raises(UsageError, match="not in a folder of its own"):
-            lesson_meant(str(folder / "assignment.yaml"))
+        with pytest.raises(UsageError, match="does not have a folder of its own"):
+            chosen_lesson(str(folder / "assignment.yaml"))
     with pytest.raises(UsageError, match="no assignment"):
-        lesson_meant(str(tmp_path / "none.yaml"))
+        chosen_lesson(str(tmp_path / "none.yaml"))

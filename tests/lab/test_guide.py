@@ -26,7 +26,7 @@ FILE = f"{INNER}/my_first_node.py"
 
 def found(workspace: Path, environment: Mapping[str, str]) -> tuple[str, ...]:
     wanted = load_assignment(COURSE / "assignment.yaml")
-    return steps.progress(steps.Place(workspace, wanted, environment), LESSON.steps)
+    return steps.next_actions(steps.StudentState(workspace, wanted, environment), LESSON.steps)
 
 
 def guide(*words: str, workspace: Path, env: dict[str, str]) -> tuple[int, str, str]:
@@ -68,7 +68,7 @@ def test_another_terminal_has_not_sourced_the_overlay(tmp_path: Path) -> None:
         ("(Node)", "(object)", "no class that inherits from Node"),
         ("self.create_timer(1.0, self.timer_callback)", "pass", "no timer"),
         ("def main(", "def mian(", "no function main"),
-        ("rclpy.spin(node)", "pass", "spins"),
+        ("rclpy.spin(node)", "pass", "does not spin"),
         ("class MyFirstNode(Node):", "class MyFirstNode(Node)", "line 6"),
     ],
 )
@@ -100,7 +100,7 @@ def test_files_in_the_wrong_state_are_told_as_what_they_are(tmp_path: Path) -> N
     workspace, environment = after("wrong target")
     wrong = "'test_node = my_robot_controller.my_node:main',"
     put(workspace, f"src/{PACKAGE}/setup.py", SETUP.replace("ENTRY", wrong))
-    assert "leads to my_robot_controller.my_node:main" in found(workspace, environment)[6]
+    assert "runs my_robot_controller.my_node:main" in found(workspace, environment)[6]
 
     workspace, environment = after("broken setup")
     put(workspace, f"src/{PACKAGE}/setup.py", "setup(")

@@ -51,14 +51,14 @@ def test_help_is_quick_to_load_and_names_the_options() -> None:
     [
         (["--distro", "jazy"], "did you mean 'jazzy'?"),
         (["--sandbox", "bubblewarp"], "did you mean 'bubblewrap'?"),
-        (["--sandbox", "none"], "Kinds: auto, docker, bubblewrap."),
+        (["--sandbox", "none"], "Sandboxes: auto, docker, bubblewrap."),
         (["--wrkspace", "x"], "--workspace"),
-        (["--sandbox", "bubblewrap", "--workspace", "/"], "/ is no workspace"),
-        (["--sandbox", "bubblewrap", "--workspace", "~"], "your whole home folder"),
-        (["--sandbox", "bubblewrap", "--workspace", "~/.."], "no workspace"),
+        (["--sandbox", "bubblewrap", "--workspace", "/"], "/ cannot be a workspace"),
+        (["--sandbox", "bubblewrap", "--workspace", "~"], "it is your home folder"),
+        (["--sandbox", "bubblewrap", "--workspace", "~/.."], "cannot be a workspace"),
         (["--sandbox", "bubblewrap", "--workspace", "/etc/passwd"], "/etc/passwd is a file"),
-        (["--sandbox", "bubblewrap", "--workspace", "/etc/passwd/ws"], "cannot be made"),
-        (["--sandbox", "bubblewrap", "--workspace", "/proc/ws"], "cannot be made"),
+        (["--sandbox", "bubblewrap", "--workspace", "/etc/passwd/ws"], "cannot be created"),
+        (["--sandbox", "bubblewrap", "--workspace", "/proc/ws"], "cannot be created"),
     ],
 )
 def test_wrong_words_are_told_with_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
@@ -75,7 +75,7 @@ def test_auto_without_a_daemon_opens_bubblewrap_and_says_why(
     done = lab("--workspace", tmp_path / "ws", "--", "echo", "inside", env=NO_DAEMON)
     assert (done.returncode, done.stdout) == (0, "inside\n")
     (line,) = done.stderr.splitlines()
-    assert line.startswith("lab: opening ROS 2 jazzy in bubblewrap, since ")
+    assert line.startswith("lab: opening ROS 2 jazzy in bubblewrap because ")
 
 
 def test_docker_without_a_daemon_is_told(tmp_path: Path) -> None:
@@ -101,7 +101,7 @@ def test_docker_without_an_image_names_the_command_that_makes_it(
     assert "make images DISTRO=jazzy" in done.stderr
     done = lab(*words, env=NO_IMAGE)
     assert (done.returncode, done.stdout) == (0, "inside\n")
-    assert "in bubblewrap, since Docker has no image" in done.stderr
+    assert "in bubblewrap because Docker has no lab image" in done.stderr
 
 
 @pytest.mark.docker
@@ -111,7 +111,7 @@ def test_a_daemon_on_another_machine_is_refused() -> None:
         "import docker, lab.container as c\n"
         "client = docker.from_env()\n"
         "client.api.base_url = 'https://10.0.0.1:2376'\n"
-        "c._must_be_here(client)\n"
+        "c._require_local_daemon(client)\n"
     )
     done = stage.run([sys.executable, "-c", code])
     assert "is not on this machine (https://10.0.0.1:2376)" in done.stderr
@@ -191,11 +191,11 @@ def test_a_workspace_that_its_student_cannot_write_is_refused(ros_jazzy: Ros) ->
         ]
         done = lab(*words, user=True)
         assert done.returncode == 2
-        assert "cannot be written by its student" in done.stderr
+        assert "cannot write to the workspace folder" in done.stderr
         words[3] = folder / "ws" / "below"
         done = lab(*words, user=True)
         assert done.returncode == 2
-        assert "cannot be made: Permission denied" in done.stderr
+        assert "cannot be created: Permission denied" in done.stderr
 
 
 def test_bubblewrap_that_is_refused_is_told_with_cause_and_remedy(

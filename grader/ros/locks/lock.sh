@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes every lock file anew: one resolution for all supported Pythons, every wheel by its hash.
+# Rewrites every lock file: one resolution for all supported Pythons, with hashes.
 set -eu
 cd "$(dirname "$0")/../../.."
 compile() {

@@ -1,9 +1,9 @@
-# What the lab's shell says, in Korean (see en.sh).
+# The texts of the lab's shell in Korean (see en.sh).
 lab_welcome='  ROS 2 %s. 워크스페이스는 ~/ros2_ws이며, 나가도 그대로 남습니다.\n'
 lab_on_your_machine='  내 컴퓨터에서의 위치: %q\n'
 lab_guide='    guide   다음에 할 일을 한 단계씩 알려 줍니다\n'
-lab_check='    check   맞게 했는지 확인합니다. 교수자와 같은 검사입니다\n'
-lab_fix='    fix     check가 찾은 것을 고치는 변경을 보여 줍니다\n'
+lab_check='    check   교수자와 같은 검사를 실행합니다\n'
+lab_fix='    fix     check가 찾은 문제를 고치는 방법을 보여 줍니다\n'
 lab_exit='    exit    실습실에서 나갑니다\n'
 lab_no_editor='  여기에는 편집기가 없습니다. 실습실 밖에서 파일을 작성하거나 nano를 설치하십시오.\n'
 lab_code_outside='VS Code는 실습실 밖에서 실행됩니다. 내 컴퓨터의 VS Code에서 이 폴더를 여십시오:\n  %s\n'

@@ -1,4 +1,4 @@
-# Reads the words of the language that GRADER_LANG names; without one, or an unknown one, English.
+# Reads the texts in the language of GRADER_LANG; English if it is unset or unknown.
 lab_words=/opt/ros2_teaching_lab/lab/shell/words
 lab_language="${GRADER_LANG:-en}"
 lab_language="${lab_language%%[_.@]*}"

@@ -35,9 +35,9 @@ install(TARGETS {target}
 _LINT = """\
 if(BUILD_TESTING)
   find_package(ament_lint_auto REQUIRED)
-  # take this line away once every file has a copyright and a license
+  # remove this line once every file has a copyright and a license
   set(ament_cmake_copyright_FOUND TRUE)
-  # take this line away once the package is in a git repository
+  # remove this line once the package is in a git repository
   set(ament_cmake_cpplint_FOUND TRUE)
   ament_lint_auto_find_test_dependencies()
 endif()
@@ -69,7 +69,7 @@ set({name}_INCLUDE_DIRS "@CONF_INCLUDE_DIRS@")
 include("${{{name}_DIR}}/export_{name}.cmake")
 """
 _CONFIG_VERSION = """\
-# Read by find_package({name} <version>): does this version do?
+# Read by find_package({name} <version>): is this version compatible?
 set(PACKAGE_VERSION "@{name}_VERSION@")
 if(PACKAGE_VERSION VERSION_LESS PACKAGE_FIND_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE FALSE)

@@ -4,7 +4,7 @@ Names and purpose are those of ros2's own tests; the texts are ours, so their si
 """
 
 _SKIP = """\
-# Take the next line away once every file has a copyright header.
+# Remove the next line once every file has a copyright header.
 @pytest.mark.skip(reason='No copyright header has been placed in the generated source file.')
 """
 _CHECK = """\
@@ -17,7 +17,7 @@ import pytest
 {skip}{marks}def test_{short}():
 {body}"""
 _MAIN = """\
-    assert main(argv={argv}) == 0, '{linter} found something to mend'
+    assert main(argv={argv}) == 0, '{linter} found problems'
 """
 _FLAKE8 = """\
     status, messages = main_with_errors(argv=[])

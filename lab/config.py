@@ -1,4 +1,4 @@
-"""One visit to the lab: what both kinds of lab show alike, the paths, the environment, the words."""
+"""The settings of an opened lab, and what both kinds of lab share: paths, environment, accounts."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from lab.lesson import OpenedLesson
 from lab.workspace import Student, Workspace
 
 WORKSPACE = f"{HOME}/ros2_ws"
-ROOM = "/opt/ros2_teaching_lab"
-SHELL_FILES = f"{ROOM}/lab/shell"
+LAB_ROOT = "/opt/ros2_teaching_lab"
+SHELL_FILES = f"{LAB_ROOT}/lab/shell"
 BASHRC = f"{SHELL_FILES}/bashrc"
 PROXIES = ("HTTP_PROXY", "HTTPS_PROXY", "FTP_PROXY", "ALL_PROXY", "NO_PROXY")
-KEPT = (
+PASSED = (
     *("TERM", "COLORTERM", "NO_COLOR", "TZ"),
     *("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_STATIC_PEERS"),
     *("PIP_INDEX_URL", *PROXIES, *(name.lower() for name in PROXIES)),
 )
-"""The variables of the calling terminal that the lab takes over; the rest stays outside."""
+"""The only variables of the calling terminal that are passed to the lab."""
 
 
 @dataclass(frozen=True)
-class Visit:
-    """What was asked for; an empty `command` is an interactive shell, `lang` what it speaks."""
+class LabConfig:
+    """The settings of an opened lab; an empty `command` is an interactive shell."""
 
     distro: Distro
     workspace: Workspace
@@ -37,19 +37,19 @@ class Visit:
 
     @property
     def hostname(self) -> str:
-        """The lab's name, which the prompt shows."""
+        """The host name in the lab."""
         return f"lab-{self.distro.name}"
 
     @property
     def words(self) -> list[str]:
-        """The command line to start inside. Only a shell on a terminal reads ~/.bashrc by itself."""
+        """The command line to start in the lab. Only a shell on a terminal reads ~/.bashrc."""
         if not self.command and sys.stdin.isatty():
             return ["bash"]
         script = f'. {SHELL_FILES}/environment.bash; exec "$@"'
         return ["bash", "--norc", "-c", script, "lab", *(self.command or ("bash", "--norc"))]
 
     def environment(self, caller: Mapping[str, str]) -> dict[str, str]:
-        """Return the environment inside: this list, and what the list above takes over."""
+        """Return the environment in the lab: this list and the PASSED variables of `caller`."""
         own = {
             "HOME": HOME,
             "USER": "student",
@@ -63,11 +63,11 @@ class Visit:
             OWN: self.lang,
             **self.lesson.environment,
         }
-        return own | {name: caller[name] for name in KEPT if caller.get(name)}
+        return own | {name: caller[name] for name in PASSED if caller.get(name)}
 
 
 def accounts(owner: Student) -> dict[str, str]:
-    """Return /etc/passwd and /etc/group of a lab in which the student has the host's ids."""
+    """Return passwd and group for /etc of a lab in which `student` has the owner's ids."""
     users = ["root:x:0:0:root:/root:/bin/sh"]
     users += [f"student:x:{owner.uid}:{owner.gid}:student:{HOME}:/bin/bash"]
     users += ["nobody:x:65534:65534:nobody:/nonexistent:/usr/sbin/nologin"]

@@ -1,4 +1,4 @@
-"""Makes the wheels prefix of a distro in a folder: pip, then what makes a ROS prefix of it."""
+"""Makes the wheels prefix of a distro: pip installs the wheels, the rest makes a ROS prefix."""
 
 from __future__ import annotations
 
@@ -14,18 +14,23 @@ from pathlib import Path
 
 from grader.base.cache import Say
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import Message
-from grader.ros import prefix_texts as texts
+from grader.base.i18n.message import Message, msg
 from grader.ros.distro import HERE, Distro
 from grader.ros.scripts import HEADER, use_own_python
 
-COMMAND = HERE / "ros2_command"  # our `ros2`, installed as the module below
+COMMAND = HERE / "ros2_command"  # our `ros2`, installed as COMMAND_MODULE
 COMMAND_MODULE = "wheels_ros2"
-SUPPLY = ("rclpy", "rmw", "colcon", "setuptools", "python")
+VERSION_NAMES = ("rclpy", "rmw", "colcon", "setuptools", "python")
+PROGRESS = msg("  {seen} of about {total} wheels")
+UNPACKING = msg("  unpacking")
+PIP_FAILED = msg("pip could not install the ROS {distro} wheels:\n{output}")
+CHECK_NETWORK = msg(
+    "Check the network (proxy: HTTPS_PROXY; certificate: PIP_CERT), then run the command again."
+)
 
 
 def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, say: Say) -> None:
-    """Fill an empty folder with the wheels prefix of a distro, for this base interpreter.
+    """Make the wheels prefix of a distro in an empty folder, for this base interpreter.
 
     Raises SurroundingsError if pip cannot install the wheels.
     """
@@ -34,8 +39,8 @@ def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, say: Say) -
     site = staging / "lib" / f"python{python}" / "site-packages"
     if not (site / "rclpy").is_dir():
         raise SurroundingsError(f"pip did not install rclpy into {site}")
-    for start_up in site.glob("*.pth"):
-        start_up.unlink()  # PYTHONPATH would not read them; a virtual environment would
+    for pth in site.glob("*.pth"):
+        pth.unlink()  # they are not read on PYTHONPATH, but would be in a virtual environment
     _link_libraries(staging, site)
     use_own_python(staging / "bin", sys.executable)
     _link(staging / "bin" / "python3", str(interpreter))
@@ -57,7 +62,7 @@ def _install(distro: Distro, staging: Path, say: Say) -> None:
     total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
     command = [sys.executable, "-m", "pip", "install", "--prefix", str(staging)]
     command += ["--ignore-installed", "--no-deps", "--require-hashes", "-r", str(lock)]
-    # empy 3.3.4 has no wheel: it is built with the pinned setuptools of this environment
+    # empy 3.3.4 has no wheel: it is built with this environment's pinned setuptools
     command += ["--only-binary", ":all:", "--no-binary", "empy", "--no-build-isolation"]
     command += ["--no-warn-script-location", "--disable-pip-version-check", "--no-input"]
     environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PYTHONHOME")}
@@ -72,13 +77,13 @@ def _install(distro: Distro, staging: Path, say: Say) -> None:
             if line.startswith("Collecting "):
                 seen += 1
                 if seen % 25 == 0:
-                    say(Message(texts.PROGRESS, {"seen": seen, "total": total}))
+                    say(Message(PROGRESS, {"seen": seen, "total": total}))
             elif line.startswith("Installing collected"):
-                say(Message(texts.UNPACKING))
+                say(Message(UNPACKING))
     if pip.returncode:
         raise SurroundingsError(
-            Message(texts.PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),
-            remedy=Message(texts.CHECK_NETWORK),
+            Message(PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),
+            remedy=Message(CHECK_NETWORK),
         )
 
 
@@ -88,7 +93,7 @@ def _link(path: Path, target: str) -> None:
 
 
 def _link_libraries(staging: Path, site: Path) -> None:
-    """Bring the wheels' bundled libraries into `lib`, so that one folder has them all."""
+    """Link the wheels' bundled libraries into `lib`, so that one folder has all libraries."""
     for library in site.glob("ros_*.libs/*"):
         _link(staging / "lib" / library.name, os.path.relpath(library, staging / "lib"))
 
@@ -98,7 +103,7 @@ def _install_command(distro: Distro, site: Path, script: Path, interpreter: Path
     shutil.copytree(COMMAND, target, ignore=shutil.ignore_patterns("__pycache__"))
     (target / "distro").write_text(distro.name, encoding="utf-8")
     compile_ = [str(interpreter), "-m", "compileall", "-q", str(target)]
-    subprocess.run(compile_, check=False)  # it saves time; whether it runs is proven later
+    subprocess.run(compile_, check=False)  # only saves time; whether it runs is tested later
     script.write_bytes(
         HEADER
         + f"from {COMMAND_MODULE}.cli import main\n\n".encode()
@@ -118,4 +123,4 @@ def _versions(site: Path) -> dict[str, str]:
         "setuptools": found.get("setuptools", ""),
         "python": platform.python_version(),
     }
-    return {name: wanted[name] for name in SUPPLY}
+    return {name: wanted[name] for name in VERSION_NAMES}

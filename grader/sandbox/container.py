@@ -1,8 +1,8 @@
-"""A cell: one locked-down container, kept by a process that ends when the grader does.
+"""A locked-down Docker container that ends when the grader ends.
 
-Its first process is a keeper of another user than what runs in the cell. It reads a stream from
-the grader: whichever way the grader ends, the stream closes, the keeper ends, the container with
-it, and the daemon removes it. A time limit of its own ends it where even the stream is lost.
+Its main process runs as a user of its own and reads a stream from the grader. However the grader
+ends, the stream closes, the main process exits, the container stops and the daemon removes it. A
+time limit ends the container even if the closing of the stream is lost.
 """
 
 from __future__ import annotations
@@ -19,33 +19,33 @@ from docker.types import LogConfig
 
 from grader.base.errors import SurroundingsError
 from grader.sandbox.base import HOME
-from grader.sandbox.execs import Exec, Frames, converse, socket_of
+from grader.sandbox.execs import Exec, Frames, communicate, socket_of
 from grader.sandbox.limits import Limits
 
 if TYPE_CHECKING:
     from docker import APIClient
 
-STUDENT, PROBE, KEEPER = 1000, 1001, 1002
+STUDENT, PROBE, HOLDER = 1000, 1001, 1002  # user ids in the images
 PROFILE = "/run/grader/fastdds.xml"
 READY_SECONDS = 30.0
-MOST_SAID = 100_000  # bytes of what the kernel says of a cell
-KEEPER_PROCESSES = 3  # docker-init, timeout, cat
-KEEP = (
+MAX_COUNTERS = 100_000  # bytes of the kernel's counters
+OWN_PROCESSES = 3  # docker-init, timeout, cat
+MAIN_SCRIPT = (
     f'umask 022; printf %s "$1" > {PROFILE}; echo ready; '
     'exec timeout --signal=KILL "$2" cat > /dev/null'
 )
-# the kernel's own words on what met a limit: version 1 of control groups, then version 2
-MET = (
+# the kernel's counters of limits that were hit: control groups version 1, then version 2
+COUNTERS_SCRIPT = (
     "cat /sys/fs/cgroup/memory/memory.oom_control /sys/fs/cgroup/memory.events 2>/dev/null; "
     "sed s/^max/pids_max/ /sys/fs/cgroup/pids/pids.events /sys/fs/cgroup/pids.events 2>/dev/null; :"
 )
 
 
 @dataclass(frozen=True)
-class Plan:
-    """What a cell is made of. `user` is whose commands will run in it.
+class ContainerSpec:
+    """The settings of a container.
 
-    `network`: none, or the container to share one with.
+    `user` runs the commands in it; `network` is "none" or "container:ID" (whose network is shared).
     """
 
     image: str
@@ -60,7 +60,7 @@ class Plan:
     mounts: tuple[Mapping[str, Any], ...] = field(default=())
 
     def host_config(self, api: APIClient) -> dict[str, Any]:
-        """Return the container's constraints in the API's words."""
+        """Return the container's HostConfig of the Docker API."""
         limits = self.limits
         scratch = int(limits.workspace / 10)
         config: dict[str, Any] = api.create_host_config(
@@ -77,7 +77,7 @@ class Plan:
             security_opt=["no-new-privileges"],
             shm_size=scratch,
             tmpfs={
-                "/run/grader": f"size=65536,mode=0755,uid={KEEPER},gid={KEEPER},noexec",
+                "/run/grader": f"size=65536,mode=0755,uid={HOLDER},gid={HOLDER},noexec",
                 "/tmp": f"size={scratch},mode=1777,exec",  # noqa: S108
                 HOME: f"size={scratch},mode=0755,uid={self.user},gid={self.user},exec",
             },
@@ -88,26 +88,26 @@ class Plan:
         return config
 
 
-class Cell:
-    """One container that commands are started in. Raises what the Docker SDK raises."""
+class Container:
+    """A container in which commands are started. Raises what the Docker SDK raises."""
 
-    def __init__(self, api: APIClient, plan: Plan) -> None:
+    def __init__(self, api: APIClient, spec: ContainerSpec) -> None:
         self._api = api
         made = api.create_container(
-            plan.image,
-            ["sh", "-c", KEEP, "keeper", plan.profile, str(int(plan.lifetime))],
+            spec.image,
+            ["sh", "-c", MAIN_SCRIPT, "holder", spec.profile, str(int(spec.lifetime))],
             entrypoint=[],
             stdin_open=True,
-            user=f"{KEEPER}:{KEEPER}",
+            user=f"{HOLDER}:{HOLDER}",
             working_dir="/",
-            hostname="lab" if plan.network == "none" else None,
-            labels=dict(plan.labels),
+            hostname="lab" if spec.network == "none" else None,
+            labels=dict(spec.labels),
             environment={},
-            host_config=plan.host_config(api),
+            host_config=spec.host_config(api),
         )
         self.id: str = made["Id"]
         try:
-            # its input closes when this socket does (StdinOnce): that is how it hears of our end
+            # its input closes with this socket (StdinOnce), so it ends when the grader does
             self._line = api.attach_socket(
                 self.id, params={"stdin": 1, "stdout": 1, "stderr": 1, "stream": 1}
             )
@@ -126,30 +126,30 @@ class Cell:
             data = line.recv(4096) if select.select([line], [], [], left)[0] else b""
             if not data:
                 text = said.decode(errors="replace").strip() or "nothing"
-                raise SurroundingsError(f"the container did not start; it said: {text}")
+                raise SurroundingsError(f"the container did not start; its output: {text}")
             said += b"".join(text for _, text in frames.feed(data))
 
     def start(self, argv: Sequence[str], *, user: int, tty: bool = False) -> Exec:
-        """Start a command in it."""
+        """Start a command in the container."""
         return Exec(self._api, self.id, argv, user=user, tty=tty)
 
     def is_quiet(self) -> bool:
-        """Whether nothing but the keeper runs in it."""
+        """Whether only the main process runs in it."""
         try:
-            return len(self._api.top(self.id)["Processes"] or ()) <= KEEPER_PROCESSES
+            return len(self._api.top(self.id)["Processes"] or ()) <= OWN_PROCESSES
         except docker.errors.APIError:
             return False
 
-    def met(self) -> str:
-        """Return the limit that its processes ran into: "memory", "processes" or ""."""
+    def limit_hit(self) -> str:
+        """Return the limit that its processes hit: "memory", "processes" or ""."""
         try:
-            asked = Exec(self._api, self.id, ["sh", "-c", MET], user=KEEPER)
+            query = Exec(self._api, self.id, ["sh", "-c", COUNTERS_SCRIPT], user=HOLDER)
         except docker.errors.NotFound:
-            return "memory"  # nothing but the kernel's lack of memory ends a keeper before its time
+            return "memory"  # only the kernel's out-of-memory killer ends the main process early
         except docker.errors.APIError:
-            return "processes"  # not even this one was let in
-        outcome = converse(asked, b"", seconds=READY_SECONDS, most=MOST_SAID)
-        asked.close()
+            return "processes"  # not even this command could be started
+        outcome = communicate(query, b"", seconds=READY_SECONDS, max_output=MAX_COUNTERS)
+        query.close()
         words = outcome.output.decode(errors="replace").split()
         counts = {a: int(b) for a, b in zip(words, words[1:]) if b.isdigit()}
         if counts.get("oom_kill", 0):
@@ -157,12 +157,12 @@ class Cell:
         return "processes" if counts.get("pids_max", 0) or outcome.status != 0 else ""
 
     def remove(self) -> None:
-        """Kill it and wait until it is gone, with the volume that only it used."""
+        """Kill the container and wait until it and its volume are removed."""
         with contextlib.suppress(docker.errors.NotFound):
             try:
                 self._api.remove_container(self.id, force=True, v=True)
             except docker.errors.APIError as error:
-                if error.status_code != 409:  # its removal has begun already
+                if error.status_code != 409:  # the removal has already started
                     raise
                 with contextlib.suppress(docker.errors.NotFound):
                     self._api.wait(self.id, condition="removed")
