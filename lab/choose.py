@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Callable
 from pathlib import Path
 
-from grader.base.cache import Say
+from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
@@ -16,7 +16,7 @@ KINDS = ("auto", "docker", "bubblewrap")
 Enter = Callable[[Visit], int]
 
 
-def choose(kind: str, distro: Distro, *, tell: Say) -> Enter:
+def choose(kind: str, distro: Distro, *, notify: Notify) -> Enter:
     """Return what opens a lab of this kind and returns its exit status; say which it is, and why.
 
     Raises UsageError for another kind, SurroundingsError where the lab cannot be had.
@@ -29,14 +29,14 @@ def choose(kind: str, distro: Distro, *, tell: Say) -> Enter:
             say("there is no lab of the kind '{kind}'", kind=kind), remedy=joined(hint, known)
         )
     if kind == "bubblewrap":
-        return _bubblewrap(distro, tell)
+        return _bubblewrap(distro, notify)
     try:
         enter, image = _docker(distro)
     except SurroundingsError as error:
         if kind == "docker":
             raise
-        return _without_docker(distro, error, tell)
-    tell(say("opening ROS 2 {distro} in a container of {image}", distro=distro.name, image=image))
+        return _without_docker(distro, error, notify)
+    notify(say("opening ROS 2 {distro} in a container of {image}", distro=distro.name, image=image))
     return enter
 
 
@@ -56,14 +56,14 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     return lab.enter, image.tags[0] if image.tags else str(image.short_id)
 
 
-def _bubblewrap(distro: Distro, tell: Say) -> Enter:
+def _bubblewrap(distro: Distro, notify: Notify) -> Enter:
     from grader.sandbox.proof import proven_ros  # noqa: PLC0415
     from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
 
-    return BubblewrapLab(proven_ros(distro, say=tell)).enter
+    return BubblewrapLab(proven_ros(distro, notify=notify)).enter
 
 
-def _without_docker(distro: Distro, error: SurroundingsError, tell: Say) -> Enter:
+def _without_docker(distro: Distro, error: SurroundingsError, notify: Notify) -> Enter:
     if distro.lock is None and not (Path("/opt/ros") / distro.name / "setup.bash").is_file():
         raise SurroundingsError(
             say(
@@ -73,11 +73,11 @@ def _without_docker(distro: Distro, error: SurroundingsError, tell: Say) -> Ente
             ),
             remedy=error.remedy,
         )
-    tell(
+    notify(
         say(
             "opening ROS 2 {distro} in bubblewrap, since {problem}",
             distro=distro.name,
             problem=error.message,
         )
     )
-    return _bubblewrap(distro, tell)
+    return _bubblewrap(distro, notify)

@@ -69,7 +69,7 @@ def command(
     with errors_in(translate.lang):
         found = find_distro(distro)
         lesson = lesson_meant(assignment)
-        enter = choose(sandbox, found, tell=lambda text: _tell(translate(text)))
+        enter = choose(sandbox, found, notify=lambda text: _tell(translate(text)))
         visit = Visit(found, prepare(workspace), lesson, command=words, lang=translate.lang)
         status = enter(visit)
     interactive = not words and sys.stdin.isatty()

@@ -184,11 +184,11 @@ def override(
                 '--because "seen in class"',
             )
         if remove:
-            corrections.remove(opened, wanted, student, check_id, say=click.echo)
+            corrections.remove(opened, wanted, student, check_id, notify=click.echo)
         else:
             assert points is not None
             corrections.put(
-                opened, wanted, student, check_id, points, because, force=force, say=click.echo
+                opened, wanted, student, check_id, points, because, force=force, notify=click.echo
             )
     click.echo("Run the same `grader grade-all` again: it writes this into every output.")
     return 0

@@ -137,7 +137,7 @@ def prefix(distro: str) -> int:
     from grader.sandbox.proof import prove_ros  # noqa: PLC0415
 
     found = wheels_prefix(
-        find_distro(distro), prove=prove_ros, say=lambda text: click.echo(text, err=True)
+        find_distro(distro), prove=prove_ros, notify=lambda text: click.echo(text, err=True)
     )
     click.echo(found)
     return 0
@@ -185,7 +185,7 @@ def images(
                 stage=stage,
                 base=base,
                 network=network,
-                say=lambda text: click.echo(text, err=True),
+                notify=lambda text: click.echo(text, err=True),
             )
     rows = [row for row in table(client) if not wanted or row.distro in {d.name for d in wanted}]
     width = max(len(row.name) for row in rows)

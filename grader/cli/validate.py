@@ -65,7 +65,7 @@ def validate(
         workers=workers or 0,
         only=only,
     )
-    found = command.validate(wish, say=lambda text: click.echo(text, err=True))
+    found = command.validate(wish, notify=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))
     click.echo()
     click.echo(matrix.summary(found))

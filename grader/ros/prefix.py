@@ -21,7 +21,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.base.cache import Say, cache_root, discard, make_once
+from grader.base.cache import Notify, cache_root, discard, make_once
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
 from grader.ros import prefix_texts as texts
@@ -67,7 +67,7 @@ def base_interpreter() -> Path:
     return Path(sys.executable).resolve()
 
 
-def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
+def find_ros(distro: Distro, *, prove: Prove, notify: Notify = print) -> Ros:
     """Return the ROS installation for a distro; the wheels prefix is made and proven if need be.
 
     $GRADER_ROS chooses: `wheels`, `system` (an existing /opt/ros/<distro>) or `auto` (the system's
@@ -88,7 +88,7 @@ def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
     # a link is the `account` sandbox's, which removes it again
     if choice in ("auto", "wheels") and is_wheels and not system.is_symlink():
         return _wheels(distro, system, (system / "bin" / "python3").resolve())  # an image of ours
-    return _wheels(distro, wheels_prefix(distro, prove=prove, say=say), base_interpreter())
+    return _wheels(distro, wheels_prefix(distro, prove=prove, notify=notify), base_interpreter())
 
 
 def prefix_path(distro: Distro) -> Path:
@@ -121,18 +121,18 @@ def prefix_path(distro: Distro) -> Path:
     return _prefixes() / f"{distro.name}-{tag}-{key.hexdigest()[:16]}"
 
 
-def wheels_prefix(distro: Distro, *, prove: Prove, say: Say = print) -> Path:
+def wheels_prefix(distro: Distro, *, prove: Prove, notify: Notify = print) -> Path:
     """Return the wheels prefix of a distro, made and proven now if it is not in the cache.
 
     Raises BrokenRosError if a program of it does not run, however often it is made.
     """
     folder = prefix_path(distro)
     if folder.is_dir() and not _is_whole(folder):
-        discard(folder, unless=_is_whole, say=say)
+        discard(folder, unless=_is_whole, notify=notify)
     if not folder.is_dir():
-        say(Message(texts.MAKING, {"distro": distro.name}))
-        make_once(folder, lambda staging: _make(distro, staging, prove, say), say=say)
-        say(Message(texts.READY, {"distro": distro.name, "path": str(folder)}))
+        notify(Message(texts.MAKING, {"distro": distro.name}))
+        make_once(folder, lambda staging: _make(distro, staging, prove, notify), notify=notify)
+        notify(Message(texts.READY, {"distro": distro.name, "path": str(folder)}))
     return folder
 
 
@@ -150,22 +150,22 @@ def _is_whole(folder: Path) -> bool:
     return all(os.access(folder / "bin" / name, os.X_OK) for name in PROGRAMS)
 
 
-def _make(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
+def _make(distro: Distro, staging: Path, prove: Prove, notify: Notify) -> None:
     try:
-        _make_proven(distro, staging, prove, say)
+        _make_proven(distro, staging, prove, notify)
     except BrokenRosError as broken:
-        say(Message(texts.MAKING_AGAIN, {"reason": broken.message}))
+        notify(Message(texts.MAKING_AGAIN, {"reason": broken.message}))
         for entry in staging.iterdir():
             if entry.is_dir() and not entry.is_symlink():
                 shutil.rmtree(entry)
             else:
                 entry.unlink()
-        _make_proven(distro, staging, prove, say)
+        _make_proven(distro, staging, prove, notify)
 
 
-def _make_proven(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
+def _make_proven(distro: Distro, staging: Path, prove: Prove, notify: Notify) -> None:
     interpreter = base_interpreter()
-    make_prefix(distro, staging, interpreter, say=say)
+    make_prefix(distro, staging, interpreter, notify=notify)
     prove(_wheels(distro, staging, interpreter))
 
 

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.base.cache import Say
+from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
@@ -31,11 +31,11 @@ def check_name(name: str) -> None:
 
 
 def open_sandbox(
-    name: str, distro: Distro, limits: Limits, *, own_code: bool = False, say: Say = print
+    name: str, distro: Distro, limits: Limits, *, own_code: bool = False, notify: Notify = print
 ) -> Sandbox:
     """Return an opened sandbox over a ROS installation of that distro; the caller closes it.
 
-    `own_code` allows `auto` to end at `none`, for a student's own package. `say` hears of what is
+    `own_code` allows `auto` to end at `none`, for a student's own package. `notify` hears of what is
     made on the way (a prefix, an image). Raises SurroundingsError where no sandbox is to be had,
     with cause and remedy.
     """
@@ -43,7 +43,7 @@ def open_sandbox(
     tried: list[SurroundingsError] = []
     for choice in _choices(name, own_code=own_code):
         try:
-            sandbox = _make(choice, distro, limits, say, asked=name != "auto")
+            sandbox = _make(choice, distro, limits, notify, asked=name != "auto")
             if sandbox is not None:
                 return sandbox.__enter__()
         except BrokenRosError:
@@ -70,11 +70,13 @@ def _choices(name: str, *, own_code: bool) -> list[str]:
     return [*choices, "none"] if own_code else choices
 
 
-def _make(choice: str, distro: Distro, limits: Limits, say: Say, *, asked: bool) -> Sandbox | None:
+def _make(
+    choice: str, distro: Distro, limits: Limits, notify: Notify, *, asked: bool
+) -> Sandbox | None:
     # each sandbox is loaded only when it is asked for: `grader --help` must not pay for it
     if choice == "docker":
-        return _containers(distro, limits, say, asked=asked)
-    ros = proven_ros(distro, say=say)
+        return _containers(distro, limits, notify, asked=asked)
+    ros = proven_ros(distro, notify=notify)
     if choice == "bubblewrap":
         from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
 
@@ -84,7 +86,7 @@ def _make(choice: str, distro: Distro, limits: Limits, say: Say, *, asked: bool)
     return plain.Account(ros, limits) if choice == "account" else plain.Bare(ros, limits)
 
 
-def _containers(distro: Distro, limits: Limits, say: Say, *, asked: bool) -> Sandbox | None:
+def _containers(distro: Distro, limits: Limits, notify: Notify, *, asked: bool) -> Sandbox | None:
     """Return the `docker` sandbox; None where `auto` asks and daemon or image are not there.
 
     An image is made only where docker was asked for by name: `auto` never pulls gigabytes.
@@ -103,7 +105,9 @@ def _containers(distro: Distro, limits: Limits, say: Say, *, asked: bool) -> San
     image = images.find_image(client, distro)
     if image is None and asked:
         network = image_build.Network()
-        image_build.build_image(client, distro, stage="grade", base="ros", network=network, say=say)
+        image_build.build_image(
+            client, distro, stage="grade", base="ros", network=network, notify=notify
+        )
         image = images.find_image(client, distro)
     if image is None:
         client.close()

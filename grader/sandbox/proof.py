@@ -6,7 +6,7 @@ ros2 ended as a program does that could not be started, before that is called th
 
 from __future__ import annotations
 
-from grader.base.cache import Say, discard
+from grader.base.cache import Notify, discard
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
 from grader.base.unheard import unheard
@@ -30,9 +30,9 @@ done
 """
 
 
-def proven_ros(distro: Distro, *, say: Say = print) -> Ros:
+def proven_ros(distro: Distro, *, notify: Notify = print) -> Ros:
     """Return the ROS installation for a distro (see `find_ros`); one that is made now is proven."""
-    return find_ros(distro, prove=prove_ros, say=say)
+    return find_ros(distro, prove=prove_ros, notify=notify)
 
 
 def prove_ros(ros: Ros) -> None:
@@ -70,7 +70,7 @@ def prove_again(sandbox: Sandbox) -> None:
         _prove(sandbox, Message(texts.REMOVED))
     except BrokenRosError:
         # waiting for another grader that makes the same prefix is no news to this user
-        discard(ros.path, unless=lambda _: False, say=unheard)
+        discard(ros.path, unless=lambda _: False, notify=unheard)
         raise
 
 

@@ -85,7 +85,7 @@ def mark_all(
     `workers`: how many at once (0: as a class is marked). Raises SurroundingsError if no sandbox
     can be opened.
     """
-    job = prove(order, say=unheard).job
+    job = prove(order, notify=unheard).job
     cores = cores_here()
     pool = LocalPool(job, workers or cores, most=workers or MOST_A_CORE * cores)
     tasks = (Task(name, name, name, submission.sha256, submission) for name, submission in work)

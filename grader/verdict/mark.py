@@ -83,7 +83,7 @@ def mark(
         order.distro,
         order.limits,
         own_code=order.own_code,
-        say=lambda text: listener(events.Note(text)),
+        notify=lambda text: listener(events.Note(text)),
     )
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))

@@ -32,7 +32,7 @@ def reports(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> tuple[R
             (staging / f"{name}.json").write_text(report_json(report), encoding="utf-8")
 
     folder = shared / "site-reports"
-    make_once(folder, make, say=lambda text: None)
+    make_once(folder, make, notify=lambda text: None)
     found = [(folder / f"{name}.json").read_text(encoding="utf-8") for name in classes.REAL]
     return tuple(Report.model_validate_json(text) for text in found)
 
