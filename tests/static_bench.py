@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
+from grader.course.load import load_assignment
 from grader.package.submission import Submission, take_in
 from grader.run.workspace import Build
 from grader.verdict.checks.entry_point import mapping_from_source

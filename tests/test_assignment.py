@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.course.assignment import Assignment, load_assignment
-from grader.course.check_ids import known_ids
+from grader.course.assignment import Assignment
+from grader.course.check_ids import CHECK_IDS
+from grader.course.load import load_assignment
 
 REAL = Path(__file__).resolve().parent.parent / "lab/course/hello_time/assignment.yaml"
 GOOD = """\
@@ -58,7 +59,7 @@ def changed(old: str, new: str) -> str:
 def test_the_course_assignment_loads_and_is_worth_100_points() -> None:
     assignment = load_assignment(REAL)
     assert assignment.max_score == 100
-    assert tuple(use.id for use in assignment.checks) == known_ids()
+    assert tuple(use.id for use in assignment.checks) == CHECK_IDS
     assert assignment.output.line(3) == "Hello time: 3"
 
 

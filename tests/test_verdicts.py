@@ -12,13 +12,14 @@ from pathlib import Path
 import pytest
 
 from grader.base.cache import cache_root
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.report.events import Listener
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
-from grader.verdict.mark import Order, grade
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
 from tests import stage
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write

@@ -23,7 +23,7 @@ from grader.package.submission import Submission
 from grader.ros.distro import Distro
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 
 FAULTS_IN_A_ROW = 3  # after so many, the sandbox is tried without a submission before the next
 

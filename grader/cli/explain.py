@@ -57,8 +57,8 @@ def explain(
 
 def _lesson(assignment: str | None) -> Assignment | None:
     """Return the lesson that is meant; None if none was named and the course has not just one."""
-    from grader.course.assignment import load_assignment  # noqa: PLC0415
     from grader.course.find import assignment_file  # noqa: PLC0415
+    from grader.course.load import load_assignment  # noqa: PLC0415
 
     try:
         return load_assignment(assignment_file(assignment))

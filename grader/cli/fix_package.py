@@ -23,7 +23,8 @@ from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
 from grader.report.model import CheckResult
 from grader.verdict.fix import Plan, fix_all, fix_files
-from grader.verdict.mark import Order, grade
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
 from grader.verdict.static import decided
 
 Tell = Callable[[str], None]

@@ -25,7 +25,7 @@ from grader.cli.validate import COMMANDS as VALIDATE_COMMANDS
 if TYPE_CHECKING:
     from grader.report.model import Report
     from grader.ros.images import Base
-    from grader.verdict.mark import Order
+    from grader.verdict.order import Order
 
 
 def main(argv: list[str] | None = None) -> int:

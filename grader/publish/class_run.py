@@ -28,7 +28,7 @@ from grader.batch.work import Job, Pool
 from grader.publish.class_table import changes_of, class_page, regrade_page
 from grader.publish.outputs import INDEX, Outcome, Outputs
 from grader.publish.written import raise_failures
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 
 MOST_A_CORE = 2  # workers, while cores have nothing to do
 

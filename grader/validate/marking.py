@@ -18,7 +18,7 @@ from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult, CheckStatus
 from grader.validate.tree import Tree, write_tree
 from grader.verdict.checks.all import CHECKS
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 from grader.verdict.static import ask_files
 
 # the stages of the checks that need no build

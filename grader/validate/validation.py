@@ -18,7 +18,7 @@ from grader.validate.mutant import Mutant
 from grader.validate.named import MUTANTS, Written, read_mutants
 from grader.validate.tree import Tree, digest, read_tree
 from grader.verdict.checks.all import CHECKS
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"

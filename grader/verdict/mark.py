@@ -6,24 +6,20 @@ It prints nothing: it emits events, and returns the report.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
 from datetime import datetime, timezone
-from pathlib import Path
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.course.assignment import Assignment
 from grader.package.submission import Submission, take_in
 from grader.report import events, model
-from grader.ros.distro import Distro
 from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.choose import open_sandbox
-from grader.sandbox.limits import Limits
 from grader.verdict.ask import Question, ask_in_order
 from grader.verdict.compose import compose
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
+from grader.verdict.order import Order
 
 STAGES = {
     "package": ("intake", say("looking at the package")),
@@ -32,23 +28,6 @@ STAGES = {
     "entry_point": ("build", say("building with colcon")),
     "run": ("run", say("running the node")),
 }
-
-
-@dataclass(frozen=True, kw_only=True)
-class Order:
-    """What is to be marked, and how; `lang` is the language of every text in the report."""
-
-    path: Path
-    assignment: Assignment
-    distro: Distro
-    sandbox: str = "auto"
-    name: str | None = None
-    limits: Limits = field(default_factory=Limits)
-    own_code: bool = False
-    lang: str = "en"
-    student_id: str = ""
-    modes_kept: bool = True
-    """False where the way here lost the exec bits of the files (see `take_in`)."""
 
 
 def grade(order: Order, listener: events.Listener) -> model.Report:

@@ -3,19 +3,37 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import chosen_language
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
 from grader.course.find import assignment_file, own_keys
-from grader.ros.distro import find_distro
+from grader.course.load import load_assignment
+from grader.ros.distro import Distro, find_distro
 from grader.sandbox.choose import check_name
 from grader.sandbox.limits import UNITS, Limits
-from grader.verdict.mark import Order
 
 HIDDEN = "hidden.yaml"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Order:
+    """What is to be marked, and how; `lang` is the language of every text in the report."""
+
+    path: Path
+    assignment: Assignment
+    distro: Distro
+    sandbox: str = "auto"
+    name: str | None = None
+    limits: Limits = field(default_factory=Limits)
+    own_code: bool = False
+    lang: str = "en"
+    student_id: str = ""
+    modes_kept: bool = True
+    """False where the way here lost the exec bits of the files (see `take_in`)."""
 
 
 def make_orders(

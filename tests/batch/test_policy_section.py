@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
+from grader.course.load import load_assignment
 from tests.stage import ROOT
 
 DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)

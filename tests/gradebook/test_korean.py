@@ -27,13 +27,13 @@ from grader.batch.systems.gradescope.archive import gradescope_zip
 from grader.batch.systems.gradescope.container import OUR_FAULT, ResultsFile
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.prairielearn import write as prairielearn
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.course.policy import Policy
 from grader.publish import junit
 from grader.publish.feedback import html_page, short_html
 from grader.publish.markdown import markdown
 from grader.report.model import Evidence, Report
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 from tests import stage
 from tests.gradebook.filled import comment
 from tests.report import samples

@@ -12,7 +12,8 @@ from grader.report import events
 from grader.report.model import CheckResult, Report
 from grader.report.terminal import render_report
 from grader.ros.distro import find_distro
-from grader.verdict.mark import Order, grade
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from grader.batch.model import ClassResult, Entry, Override, Student
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.report.model import CheckResult, Report
 from grader.ros.distro import find_distro
-from grader.verdict.mark import Order, grade
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
