@@ -15,7 +15,7 @@ class _Part(BaseModel):
 
 
 class Output(_Part):
-    """The lines that the node must print: `text` has `{n}` once; `period` in seconds of ROS time."""
+    """The lines that the node must print: `text` has `{n}` once; `period` is in s of ROS time."""
 
     text: str
     start: int = 0

@@ -64,7 +64,7 @@ class VirtualClock:
             self._unmask(watch, on_event)
 
     def _settle(self, watch: Watch) -> bool:
-        """Start the clock at 1 ms and return whether the node answers, that is, whether it spins."""
+        """Start the clock at 1 ms; return whether the node answers, that is, whether it spins."""
         deadline = time.monotonic() + SETTLE_SECONDS
         while True:
             events, barrier = self._step(MILLISECOND, seconds=SETTLE_SECONDS / 10)
@@ -75,7 +75,7 @@ class VirtualClock:
                 return watch.settled
 
     def _at_due_instants(self, watch: Watch, phase: int, on_event: Callable[[Event], None]) -> bool:
-        """Watch the due instants from `phase` on; return whether ticks came at these and no others."""
+        """Watch the due instants from `phase` on; return whether ticks came at these only."""
         already = len(watch.dues)
         for k in range(already, self._output.ticks):
             due = phase + (k - already) * self._period
@@ -124,7 +124,7 @@ class VirtualClock:
         return found
 
     def _find_period(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
-        """Measure the actual period in small steps; check the phase to 1 ms if the period is right."""
+        """Measure the period in small steps; if it is right, check the phase to 1 ms."""
         step = max(self._period // GRID, MILLISECOND)
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
@@ -148,7 +148,7 @@ class VirtualClock:
     def _verify_phase(
         self, watch: Watch, last: int, step: int, on_event: Callable[[Event], None]
     ) -> None:
-        """Find the phase to 1 ms and check the due instants again: the timer may have started late."""
+        """Find the phase to 1 ms and check the due instants again: the timer may be late."""
         events, _ = self._step(last + self._period - step)
         watch.events += events
         at = self._at
@@ -208,7 +208,7 @@ class VirtualClock:
         return events, answer.barrier
 
     def _at_their_instants(self, events: list[Event], published: float) -> list[Event]:
-        """Assign events that were logged before this step's clock message to the previous instant."""
+        """Assign events from before this step's clock message to the previous instant."""
         due = self._due if self._before == self._due_at else None
         return [
             replace(event, virtual=self._before / SECOND, due=due)
