@@ -1,6 +1,6 @@
-"""The runner: takes one submission through intake, build and run, and decides each check.
+"""Marks one submission: intake, build, run and checks.
 
-It prints nothing: it emits events, and returns the report.
+It prints nothing: it emits events and returns the report.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from grader.report import events, model
 from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.choose import open_sandbox
-from grader.verdict.ask import Question, ask_in_order
 from grader.verdict.compose import compose
+from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
 from grader.verdict.order import Order
@@ -33,8 +33,8 @@ STAGES = {
 def grade(order: Order, listener: events.Listener) -> model.Report:
     """Mark one submission on one distro.
 
-    Raises UsageError for a path that does not exist or cannot be read, SurroundingsError where
-    the grader's own surroundings fail; everything else is in the report.
+    Raises UsageError if the path does not exist or cannot be read, SurroundingsError if the
+    grader's own surroundings fail; everything else is in the report.
     """
     begin = time.monotonic()
     submission = take_in(
@@ -50,7 +50,7 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
 def mark(
     submission: Submission, order: Order, listener: events.Listener, *, intake: float = 0
 ) -> model.Report:
-    """Mark what was taken in before, which took `intake` seconds; all else as `grade`."""
+    """Mark a submission whose intake took `intake` seconds; see `grade`."""
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
     assignment = order.assignment
@@ -106,7 +106,7 @@ def _decide(
     evidence: Evidence, listener: events.Listener, translate: Translator
 ) -> list[model.CheckResult]:
     stages = _Stages(listener, translate)
-    for result in ask_in_order(evidence, translate, announce=stages.announce):
+    for result in evaluate_checks(evidence, translate, announce=stages.announce):
         if result.status == "failed":
             patch = _patch(result, evidence, listener)
             evidence.results[result.id] = result.model_copy(update={"patch": patch})
@@ -116,22 +116,24 @@ def _decide(
 
 
 class _Stages:
-    """Tells a listener of each check that is asked, and of the stage that it belongs to."""
+    """Emits the events for each check and for the stage that it belongs to."""
 
     def __init__(self, listener: events.Listener, translate: Translator) -> None:
         self._listener = listener
-        self._speak = translate
+        self._translate = translate
         self._stage = ""
         self._begin = 0.0
 
-    def announce(self, question: Question) -> None:
-        stage, title = STAGES[question.check.id.partition(".")[0]]
+    def announce(self, assigned: AssignedCheck) -> None:
+        stage, title = STAGES[assigned.check.id.partition(".")[0]]
         if stage != self._stage:
             self.finish()
             self._stage, self._begin = stage, time.monotonic()
-            self._listener(events.StageStarted(stage, self._speak(title)))
-        check = question.check
-        self._listener(events.CheckStarted(check.id, self._speak(check.title), question.visibility))
+            self._listener(events.StageStarted(stage, self._translate(title)))
+        check = assigned.check
+        self._listener(
+            events.CheckStarted(check.id, self._translate(check.title), assigned.visibility)
+        )
 
     def finish(self) -> None:
         if self._stage:
@@ -142,6 +144,6 @@ class _Stages:
 def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:
     try:
         return patch_for(result, evidence.submission, evidence.assignment)
-    except Exception as fault:  # of ours: it must not lose the verdict, which has no change then
-        listener(events.Note(f"{result.id}: no change could be made, a fault of ours: {fault!r}"))
+    except Exception as fault:  # a bug of ours must not lose the verdict, which has no fix then
+        listener(events.Note(f"{result.id}: no fix was made because of a fault of ours: {fault!r}"))
         return ""
