@@ -93,7 +93,7 @@ def grade(
 
 @commands.command(
     help=msg(
-        "Check your own package before handing it in: the same verdict, with the visible checks.\n\n"
+        "Check your own package before you submit it: the same verdict, by the visible checks.\n\n"
         "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
         "folder). It is your own code: if no sandbox is available it runs without one, and says so."
     )
