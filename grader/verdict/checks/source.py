@@ -39,7 +39,7 @@ def node_file(evidence: Evidence) -> Passed:
         raise Failed(
             "source.unreadable_node_file",
             expected=say("a file {path} that can be read", path=path),
-            actual=say("it cannot be read: {reason}", reason=reason),
+            actual=say("it was not read: {reason}", reason=reason),
             where=Where(file=path),
         )
     if not file.data.strip():
