@@ -99,7 +99,7 @@ def test_all_faults_are_told_at_once_in_the_order_of_their_lines(tmp_path: Path)
         ("id: hello_time", "id: ../keys", 2, "id must be"),
         ("package: my_robot_controller", "package: my-robot", 4, "package must be"),
         ("package: my_robot_controller", "package: test", 4, "'test'"),
-        ("package: my_robot_controller", "package: class", 4, "reserved"),
+        ("package: my_robot_controller", "package: class", 4, "keyword"),
         ("node_file: my_first_node.py", "node_file: ../node.py", 5, "node_file must be"),
         ("node_file: my_first_node.py", "node_file: my_first_node", 5, "node_file must be"),
         ("node_file: my_first_node.py", "node_file: my-node.py", 5, "node_file must be"),
@@ -213,7 +213,7 @@ def test_hidden_checks_are_merged_and_hidden(tmp_path: Path) -> None:
         ("checks: []\n", "assignment.yaml:17: hidden_checks is 1, but hidden.yaml has 0"),
         (
             "checks:\n- {id: run.output, points: 1}\n",
-            "hidden.yaml:2: the check 'run.output' is there twice",
+            "hidden.yaml:2: the check 'run.output' is listed twice",
         ),
         (
             "checks:\n- {id: run.perod, points: 1}\n",

@@ -422,7 +422,7 @@ def test_of_several_lessons_one_has_to_be_named(command: str, tmp_path: Path) ->
 def test_a_course_folder_that_is_none_is_told(command: str, course: Path, tmp_path: Path) -> None:
     for folder, said in (
         (tmp_path / "nowhere", "there is no course folder"),
-        (course / "readings", "is a lesson and not a course"),
+        (course / "readings", "is a lesson, not a course"),
         (tmp_path / "course" / "readings" / "..", ""),
         (Path("/proc/self/task"), "there is no lesson in the course folder"),
     ):

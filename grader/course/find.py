@@ -12,7 +12,7 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.project import CHECKOUT, PACKAGE, SHARES
 
-COURSE = "GRADER_COURSE"  # the path of a course folder, instead of our own
+COURSE = "GRADER_COURSE"  # the path of another course folder
 LESSON = "GRADER_ASSIGNMENT"  # the lesson to use; the lab sets it for its programs
 FILE = "assignment.yaml"
 KEYS = PACKAGE / "keys"
