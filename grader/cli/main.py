@@ -206,10 +206,10 @@ for _command in (
 
 def _hidden(count: int) -> str:
     if count == 0:
-        return say("There are no hidden checks: your instructor's grader uses the same ones.")
+        return say("There are no hidden checks: your instructor's grader runs the same ones.")
     if count == 1:
-        return say("Your instructor's grader has 1 more check, which is hidden.")
-    return say("Your instructor's grader has {count} more checks, which are hidden.", count=count)
+        return say("Your instructor's grader also runs 1 hidden check.")
+    return say("Your instructor's grader also runs {count} hidden checks.", count=count)
 
 
 def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:
