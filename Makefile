@@ -1,18 +1,19 @@
-# The front door. Variables are data: `make grade STUDENT='any name; $(at) all'` runs nothing of it.
-# GNU make's own rule: every failure is exit status 2. Scripts call .venv/bin/grader.
+# The commands of this project. Variables are data: make and the shell run no part of their values,
+# as in `make grade STUDENT='any name; $(at) all'`. GNU make turns every failure into exit status 2;
+# scripts should call .venv/bin/grader.
 
 .DEFAULT_GOAL := help
 .PHONY: help setup lab images grade grade-all check fix validate test test-all test-long recordings bench lock lint clean
 SHELL := /bin/sh
 
-# A variable's raw text goes to the recipes through the environment, never through make or a shell.
+# A variable's raw text reaches the recipes through the environment; nothing expands it.
 VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
   PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS CANVAS_COLUMN \
   GRADE_COLUMN FEEDBACK_COLUMN ACCEPT SCHEDULER APPLY KEYS GRADER_COURSE GRADER_ASSIGNMENT
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
-# one process more than cores: a node that is being watched leaves them idle
+# one process more than cores: a node under observation leaves them mostly idle
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 # the tests whose verdicts are from recorded evidence
 RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py
@@ -38,7 +39,7 @@ setup:  ## Make the grader's environment and the ROS prefix, once (DISTRO=jazzy)
 	@$(BOOTSTRAP)
 	@$(GRADER) prefix $${DISTRO:+--distro "$$DISTRO"}
 
-lab:  ## Enter a ROS 2 terminal with the course's guide (DISTRO=jazzy WORKSPACE=~/ros2_ws)
+lab:  ## Open a ROS 2 terminal with the course's guide (DISTRO=jazzy WORKSPACE=~/ros2_ws)
 	@$(BOOTSTRAP)
 	@.venv/bin/python -m lab $(OPTIONS) $${WORKSPACE:+--workspace "$$WORKSPACE"}
 
@@ -50,13 +51,13 @@ images:  ## Build the Docker images of a distro and list them with their sizes (
 
 grade:  ## Mark one package: make grade STUDENT=path
 	@if [ -z "$$STUDENT" ]; then \
-	  echo "make grade: say which package: make grade STUDENT=path/to/package" >&2; exit 2; fi
+	  echo "make grade: no package was given: make grade STUDENT=path/to/package" >&2; exit 2; fi
 	@$(BOOTSTRAP)
 	@$(GRADER) grade $(OPTIONS) $${KEYS:+--keys "$$KEYS"} $${NAME:+--name "$$NAME"} $${OUT:+--out "$$OUT"} -- "$$STUDENT"
 
 grade-all:  ## Mark a class: make grade-all SUBMISSIONS=path [ROSTER=csv] [REGRADE=1]
 	@if [ -z "$$SUBMISSIONS" ]; then \
-	  echo "make grade-all: say which class: make grade-all SUBMISSIONS=path/to/downloads" >&2; \
+	  echo "make grade-all: no class was given: make grade-all SUBMISSIONS=path/to/downloads" >&2; \
 	  exit 2; fi
 	@$(BOOTSTRAP)
 	@$(GRADER) grade-all $(OPTIONS) $${KEYS:+--keys "$$KEYS"} $${OUT:+--out "$$OUT"} \
@@ -68,15 +69,15 @@ grade-all:  ## Mark a class: make grade-all SUBMISSIONS=path [ROSTER=csv] [REGRA
 	  $${CANVAS_COLUMN:+--canvas-column "$$CANVAS_COLUMN"} $${ACCEPT:+--accept "$$ACCEPT"} \
 	  $${SCHEDULER:+--scheduler "$$SCHEDULER"} -- "$$SUBMISSIONS"
 
-check:  ## Check your own package before handing it in: make check [PACKAGE=path]
+check:  ## Check your own package before you submit it: make check [PACKAGE=path]
 	@$(BOOTSTRAP)
 	@$(GRADER) check $(OPTIONS) $${PACKAGE:+-- "$$PACKAGE"}
 
-fix:  ## Show how your own package can be fixed, or fix it: make fix [PACKAGE=path] [APPLY=1]
+fix:  ## Show fixes for your own package, or apply them: make fix [PACKAGE=path] [APPLY=1]
 	@$(BOOTSTRAP)
 	@$(GRADER) fix $(OPTIONS) $${APPLY:+--apply} $${PACKAGE:+-- "$$PACKAGE"}
 
-validate:  ## Test an assignment: does it mark what it claims to? (ASSIGNMENT=id KEYS=folder)
+validate:  ## Test an assignment with its solution and mutants (ASSIGNMENT=id KEYS=folder)
 	@$(BOOTSTRAP)
 	@$(GRADER) validate $${DISTRO:+--distro "$$DISTRO"} $${SANDBOX:+--sandbox "$$SANDBOX"} \
 	  $${KEYS:+--keys "$$KEYS"} $${ASSIGNMENT:+-- "$$ASSIGNMENT"}
@@ -86,10 +87,10 @@ test:  ## Run the tests that need no Docker
 	@$(MAKE) --no-print-directory lint
 	@$(PYTEST) -m "not full and not docker and not long" $${PYTEST_ARGS}
 
-test-all:  ## Run every test (as root: brings Docker where it is missing)
+test-all:  ## Run all tests (as root: installs and starts Docker if it is missing)
 	@$(MAKE) --no-print-directory test
 	@if [ "$${GRADER_TESTS_WITHOUT_DOCKER:-}" = 1 ]; then \
-	  echo "make test-all: GRADER_TESTS_WITHOUT_DOCKER=1: the tests that need Docker are left out" >&2; \
+	  echo "make test-all: GRADER_TESTS_WITHOUT_DOCKER=1: the tests that need Docker are skipped" >&2; \
 	  $(PYTEST) -m "full and not docker and not long" $${PYTEST_ARGS}; \
 	else \
 	  trap '.venv/bin/python -m tests.engine down' EXIT; \
@@ -113,15 +114,15 @@ lint:
 	@.venv/bin/python -m mypy grader lab tests
 	@.venv/bin/lint-imports
 
-bench:  ## Measure a verdict against the bare commands, as ratios in one run (with Docker, as root)
+bench:  ## Measure the time of a verdict relative to the bare commands (needs Docker and root)
 	@$(BOOTSTRAP) --tests
 	@trap '.venv/bin/python -m tests.engine down' EXIT; \
 	  .venv/bin/python -m tests.engine up && .venv/bin/python -m tests.bench && \
 	  .venv/bin/python -m tests.bench_diagnosis && .venv/bin/python -m tests.bench_matrix && \
 	  .venv/bin/python -m tests.bench_class
 
-lock:  ## Write the lock files anew from their .in files (needs uv)
+lock:  ## Update the lock files from their .in files (needs uv)
 	@sh grader/ros/locks/lock.sh
 
-clean:  ## Remove the environment and what was built here (not the ROS prefixes in the cache)
+clean:  ## Remove the environment and build output (keeps the ROS prefixes in the cache)
 	rm -rf .venv .venv.lock build install log .mypy_cache .ruff_cache .pytest_cache

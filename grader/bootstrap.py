@@ -1,8 +1,8 @@
-"""Makes the grader's own environment: run by `make` with whatever `python3` there is.
+"""Makes the grader's Python environment; `make` runs it with the `python3` that it finds.
 
-Standard library only, and readable by old Pythons, since it must be able to say that one is too
-old. It makes `.venv` (locked, every package checked by its hash), complete or not at all, and
-bubblewrap from the system's packages where root may install it.
+It uses the standard library only and the syntax of old Pythons, so that it can report that Python is
+too old. It makes `.venv` from the lock file (every package checked by its hash), completely or not
+at all. If run as root, it also installs bubblewrap from the system's packages.
 """
 
 import argparse
@@ -32,19 +32,19 @@ INSTALLERS = [
 ]
 
 
-def say(text: str) -> None:
-    """Tell the user on stderr, so that stdout stays the command's own."""
+def notify(text: str) -> None:
+    """Print a line to stderr, so that stdout has only the command's own output."""
     print(text, file=sys.stderr, flush=True)
 
 
 def fail(text: str) -> "NoReturn":
-    """End with the exit status of failed surroundings."""
-    say(text)
+    """Print an error and exit with the status of failed surroundings, 3."""
+    notify(text)
     raise SystemExit(3)
 
 
 def version_of(python: str) -> "tuple[int, ...] | None":
-    """Return (major, minor) of an interpreter, None if it does not run (a pyenv shim may not)."""
+    """Return (major, minor) of an interpreter; None if it does not run (a pyenv shim may not)."""
     code = "import sys; print(sys.version_info[0], sys.version_info[1])"
     try:
         out = subprocess.check_output([python, "-c", code], stderr=subprocess.DEVNULL)
@@ -53,24 +53,24 @@ def version_of(python: str) -> "tuple[int, ...] | None":
     return tuple(map(int, out.split()))
 
 
-def find_python(asked: str) -> str:
-    """Return an interpreter that can run the grader; the asked one if it fits."""
-    names = [asked, "python3", "python3.12", "python3.13", "python3.11", "python3.10"]
+def find_python(wanted: str) -> str:
+    """Return an interpreter that can run the grader: `wanted` if its version fits, else another."""
+    names = [wanted, "python3", "python3.12", "python3.13", "python3.11", "python3.10"]
     for name in names:
         version = version_of(name)
         if version is not None and OLDEST <= version <= NEWEST:
             return name
-        if name == asked and version is not None:
-            say("%s is Python %d.%d: looking for another" % (name, version[0], version[1]))
+        if name == wanted and version is not None:
+            notify("%s is Python %d.%d: looking for another" % (name, version[0], version[1]))
     raise fail(
         "No Python %d.%d to %d.%d was found (ROS's wheels exist for these).\n"
-        "Install one, e.g. `apt-get install python3 python3-venv`, or name it: "
+        "Install one, e.g. `apt-get install python3 python3-venv`, or give its path: "
         "make setup PYTHON=/path/to/python3.12" % (OLDEST + NEWEST)
     )
 
 
 def stamp_of(python: str, locks: "list[str]") -> str:
-    """Return what the environment is made of: interpreter and lock files."""
+    """Return a hash of what the environment is made of: interpreter, path and lock files."""
     digest = hashlib.sha256(os.fsencode(os.path.realpath(shutil.which(python) or python)))
     digest.update(repr(version_of(python)).encode())
     digest.update(os.fsencode(VENV))
@@ -81,7 +81,7 @@ def stamp_of(python: str, locks: "list[str]") -> str:
 
 
 def read(path: str) -> str:
-    """Return a file's text, "" where there is none."""
+    """Return a file's text; "" if it cannot be read."""
     try:
         with open(path) as stream:
             return stream.read()
@@ -90,14 +90,14 @@ def read(path: str) -> str:
 
 
 def make_venv(python: str, lock: str, stamp: str) -> None:
-    """Make `.venv` anew; its stamp is written last, so half a one is never taken for a whole."""
+    """Make `.venv` from scratch; the stamp is written last and marks it as complete."""
     if os.pathsep in VENV:
         fail(
-            "The path of this checkout has a '%s', which no Python environment can have: %s\n"
+            "The path of this checkout contains a '%s', which Python environments do not allow: %s\n"
             "Rename or move the folder." % (os.pathsep, ROOT)
         )
     shutil.rmtree(VENV, ignore_errors=True)
-    say("setting up the grader's Python environment in %s (once)" % VENV)
+    notify("setting up the grader's Python environment in %s (once)" % VENV)
     made = subprocess.run(
         [python, "-m", "venv", VENV], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
     )
@@ -127,7 +127,7 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
             "pip could not install the locked packages. Check the network (HTTPS_PROXY, "
             "PIP_CERT), then run the command again."
         )
-    # once, also where PYTHONDONTWRITEBYTECODE would have every start compile everything again
+    # needed if PYTHONDONTWRITEBYTECODE is set: otherwise every start compiles everything
     subprocess.run(
         [inner, "-m", "compileall", "-q", "-x", "/keys/", os.path.join(ROOT, "grader")], check=False
     )
@@ -138,7 +138,7 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
 
 
 def run_quietly(command: "list[str]") -> "tuple[bool, str]":
-    """Run a command; return whether it failed, and what it said on stderr."""
+    """Run a command; return whether it failed, and its stderr."""
     environment = dict(os.environ, DEBIAN_FRONTEND="noninteractive")
     result = subprocess.run(
         command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False, env=environment
@@ -146,33 +146,33 @@ def run_quietly(command: "list[str]") -> "tuple[bool, str]":
     return result.returncode != 0, result.stderr.decode(errors="replace").strip()
 
 
-def need_bubblewrap() -> None:
-    """Install bubblewrap where root may; else say in one line what to install."""
+def ensure_bubblewrap() -> None:
+    """Install bubblewrap if root; else print what to install."""
     if shutil.which("bwrap"):
         return
     if os.geteuid() == 0:
         for command in INSTALLERS:
             if shutil.which(command[0]) is None:
                 continue
-            say("installing bubblewrap (%s)" % " ".join(command))
-            failed, said = run_quietly(command)
-            if failed and command[0] == "apt-get":  # a machine that has no package lists yet
+            notify("installing bubblewrap (%s)" % " ".join(command))
+            failed, errors = run_quietly(command)
+            if failed and command[0] == "apt-get":  # the machine may have no package lists yet
                 run_quietly(["apt-get", "update", "-qq"])
-                failed, said = run_quietly(command)
+                failed, errors = run_quietly(command)
             if not failed and shutil.which("bwrap"):
                 return
-            say(said)
+            notify(errors)
             break
-    say("bubblewrap is missing: install it, e.g. sudo apt-get install bubblewrap")
+    notify("bubblewrap is missing: install it, e.g. sudo apt-get install bubblewrap")
 
 
 def main() -> None:
-    """Make what is missing; a second call with nothing to do takes a few milliseconds."""
+    """Make what is missing; takes a few milliseconds if nothing is."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
-        "--python", help="the interpreter (default: the one chosen before, python3)"
+        "--python", help="the interpreter (default: the one used before, else python3)"
     )
-    parser.add_argument("--tests", action="store_true", help="with what the tests need")
+    parser.add_argument("--tests", action="store_true", help="also install what the tests need")
     options = parser.parse_args()
     locks = [
         os.path.join(ROOT, "grader", "requirements.txt"),
@@ -186,7 +186,7 @@ def main() -> None:
         if there != full and (options.tests or there != small):
             wanted = (locks[1], full) if options.tests else (locks[0], small)
             make_venv(python, wanted[0], wanted[1])
-    need_bubblewrap()
+    ensure_bubblewrap()
 
 
 if __name__ == "__main__":

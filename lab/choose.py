@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Callable
 from pathlib import Path
 
-from grader.base.cache import Say
+from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
@@ -17,7 +17,7 @@ Enter = Callable[[LabConfig], int]
 """Opens a lab and returns the exit status of its command."""
 
 
-def choose(kind: str, distro: Distro, *, notify: Say) -> Enter:
+def choose(kind: str, distro: Distro, *, notify: Notify) -> Enter:
     """Return the function that opens a lab of this kind; report the choice with `notify`.
 
     Raises UsageError for an unknown kind, SurroundingsError if the lab is not available.
@@ -59,14 +59,14 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     return lab.enter, image.tags[0] if image.tags else str(image.short_id)
 
 
-def _bubblewrap(distro: Distro, notify: Say) -> Enter:
+def _bubblewrap(distro: Distro, notify: Notify) -> Enter:
     from grader.sandbox.proof import proven_ros  # noqa: PLC0415
     from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
 
-    return BubblewrapLab(proven_ros(distro, say=notify)).enter
+    return BubblewrapLab(proven_ros(distro, notify=notify)).enter
 
 
-def _without_docker(distro: Distro, error: SurroundingsError, notify: Say) -> Enter:
+def _without_docker(distro: Distro, error: SurroundingsError, notify: Notify) -> Enter:
     if distro.lock is None and not (Path("/opt/ros") / distro.name / "setup.bash").is_file():
         raise SurroundingsError(
             say(

@@ -21,7 +21,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.package.submission import Submission, take_in
 from grader.ros import images
 from grader.ros.distro import find_distro

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from grader.verdict import ask
+from grader.verdict import evaluate
 from grader.verdict import mark as runner
 from grader.verdict.diagnose import diagnose
 from grader.verdict.fix import patch_for
@@ -56,7 +56,7 @@ def main() -> int:
         for package in BROKEN[:: asked.every]:
             watch = Stopwatch()
             with (
-                mock.patch.object(ask, "diagnose", watch.on(diagnose)),
+                mock.patch.object(evaluate, "diagnose", watch.on(diagnose)),
                 mock.patch.object(runner, "patch_for", watch.on(patch_for)),
             ):
                 mark(write(package, Path(folder)))

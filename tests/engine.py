@@ -117,16 +117,16 @@ def make_images(client: DockerClient, *, every: bool) -> None:
     base = ROOT / "docker" / "make_base.sh"
     subprocess.run([base, SUITE, LOCAL_BASE], check=True, stdout=sys.stderr)
     jazzy, kilted = find_distro("jazzy"), find_distro("kilted")
-    build_image(client, jazzy, stage="grade", base="wheels", network=network(), say=_steps)
+    build_image(client, jazzy, stage="grade", base="wheels", network=network(), notify=_steps)
     if every:
-        build_image(client, jazzy, stage="lab", base="wheels", network=network(), say=_steps)
-        build_image(client, kilted, stage="grade", base="wheels", network=network(), say=_steps)
+        build_image(client, jazzy, stage="lab", base="wheels", network=network(), notify=_steps)
+        build_image(client, kilted, stage="grade", base="wheels", network=network(), notify=_steps)
     say(f"building {STANDIN}")
     with (ROOT / "tests" / "docker" / "standin.Dockerfile").open("rb") as dockerfile:
         under = images.image_name(jazzy, "base", "wheels")
         client.images.build(fileobj=dockerfile, tag=STANDIN, buildargs={"BASE": under}, rm=True)
-    build_image(client, jazzy, stage="grade", base="ros", network=network(), say=_steps)
-    build_image(client, jazzy, stage="lab", base="ros", network=network(), say=_steps)
+    build_image(client, jazzy, stage="grade", base="ros", network=network(), notify=_steps)
+    build_image(client, jazzy, stage="lab", base="ros", network=network(), notify=_steps)
 
 
 def _steps(text: str) -> None:

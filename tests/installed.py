@@ -46,5 +46,5 @@ def npm_packages(project: Path) -> Path:
         if done.returncode != 0:
             raise RuntimeError(f"npm ci ended with {done.returncode}:\n{done.stderr[-2000:]}")
 
-    make_once(folder, fetch, say=lambda text: None)
+    make_once(folder, fetch, notify=lambda text: None)
     return folder / "node_modules"

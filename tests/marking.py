@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from grader.base.unheard import unheard
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
+from grader.course.load import load_assignment
 from grader.package.submission import Submission, take_in
 from grader.report.events import Listener
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
-from grader.verdict.mark import Order
 from grader.verdict.mark import mark as mark_submission
+from grader.verdict.order import Order
 from grader.verdict.recording import Recording
 from tests import stage
 from tests.corpus.model import Package

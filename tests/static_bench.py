@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
+from grader.course.load import load_assignment
 from grader.package.submission import Submission, take_in
 from grader.run.workspace import Build
+from grader.verdict.checks.declare import Check
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.diagnose import Diagnosis
 from grader.verdict.outcome import Failed, Passed
-from grader.verdict.registry import Check
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

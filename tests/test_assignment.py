@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.course.assignment import Assignment, load_assignment
-from grader.course.check_ids import known_ids
+from grader.course.assignment import Assignment
+from grader.course.check_ids import CHECK_IDS
+from grader.course.load import load_assignment
 
 REAL = Path(__file__).resolve().parent.parent / "lab/course/hello_time/assignment.yaml"
 GOOD = """\
@@ -58,7 +59,7 @@ def changed(old: str, new: str) -> str:
 def test_the_course_assignment_loads_and_is_worth_100_points() -> None:
     assignment = load_assignment(REAL)
     assert assignment.max_score == 100
-    assert tuple(use.id for use in assignment.checks) == known_ids()
+    assert tuple(use.id for use in assignment.checks) == CHECK_IDS
     assert assignment.output.line(3) == "Hello time: 3"
 
 
@@ -98,7 +99,7 @@ def test_all_faults_are_told_at_once_in_the_order_of_their_lines(tmp_path: Path)
         ("id: hello_time", "id: ../keys", 2, "id must be"),
         ("package: my_robot_controller", "package: my-robot", 4, "package must be"),
         ("package: my_robot_controller", "package: test", 4, "'test'"),
-        ("package: my_robot_controller", "package: class", 4, "reserved"),
+        ("package: my_robot_controller", "package: class", 4, "keyword"),
         ("node_file: my_first_node.py", "node_file: ../node.py", 5, "node_file must be"),
         ("node_file: my_first_node.py", "node_file: my_first_node", 5, "node_file must be"),
         ("node_file: my_first_node.py", "node_file: my-node.py", 5, "node_file must be"),
@@ -212,7 +213,7 @@ def test_hidden_checks_are_merged_and_hidden(tmp_path: Path) -> None:
         ("checks: []\n", "assignment.yaml:17: hidden_checks is 1, but hidden.yaml has 0"),
         (
             "checks:\n- {id: run.output, points: 1}\n",
-            "hidden.yaml:2: the check 'run.output' is there twice",
+            "hidden.yaml:2: the check 'run.output' is listed twice",
         ),
         (
             "checks:\n- {id: run.perod, points: 1}\n",

@@ -126,7 +126,7 @@ def test_without_time_for_a_run_none_is_begun(monkeypatch: pytest.MonkeyPatch) -
     clock = Clock(monkeypatch, doubtful())
     opened = begun()
     clock.now += LIMITS.verdict_seconds - 1
-    with pytest.raises(Unobserved, match="used up"):
+    with pytest.raises(Unobserved, match="no time for a run"):
         opened.run(unheard)
     assert clock.runs == 0
 

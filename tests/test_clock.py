@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.run.clock import VirtualClock
 from grader.run.observer import SECOND, Observer, Watch
 from grader.run.probe_link import Answer, LogRecord, ProbeLink

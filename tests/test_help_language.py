@@ -10,7 +10,7 @@ import sys
 import click
 import pytest
 
-from grader.cli.localized import language_of, said_in
+from grader.cli.localized import language_of, translated_help
 from grader.cli.main import commands
 from tests import stage
 
@@ -92,7 +92,7 @@ def test_it_speaks_as_long_as_it_lasts() -> None:
         return gettext.textdomain(), os.environ.get("LANGUAGE"), usage, help_text
 
     before = state()
-    with pytest.raises(KeyError), said_in("ko", commands):
+    with pytest.raises(KeyError), translated_help("ko", commands):
         assert all(now != then for now, then in zip(state(), before))
         raise KeyError
     assert state() == before

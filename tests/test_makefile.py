@@ -223,7 +223,7 @@ def test_a_path_that_no_environment_can_have_is_told(tmp_path: Path) -> None:
     done = stage.run([sys.executable, folder / "grader/bootstrap.py"])
     assert done.returncode == 3
     assert done.stderr.splitlines() == [
-        f"The path of this checkout has a ':', which no Python environment can have: {folder}",
+        f"The path of this checkout contains a ':', which Python environments do not allow: {folder}",
         "Rename or move the folder.",
     ]
     assert not (folder / ".venv").exists()

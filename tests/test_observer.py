@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.package.submission import take_in
 from grader.run.observer import Event, Source, Watch
 from grader.run.run import Run

@@ -165,7 +165,7 @@ def make(staging):
     sys.stdin.readline()
     (staging / "last").write_text("x")
 
-made = make_once(Path(sys.argv[1]), make, say=lambda text: print(text, flush=True))
+made = make_once(Path(sys.argv[1]), make, notify=lambda text: print(text, flush=True))
 print("made" if made else "found", flush=True)
 """
 
@@ -213,7 +213,7 @@ def test_a_full_disk_is_told_with_what_to_do(tmp_path: Path) -> None:
         raise OSError(28, "No space left on device", str(staging))
 
     with pytest.raises(SurroundingsError) as caught:
-        cache.make_once(tmp_path / "a", full, say=print)
+        cache.make_once(tmp_path / "a", full, notify=print)
     assert "No space left on device" in caught.value.message
     assert "GRADER_CACHE" in caught.value.remedy
     assert list(tmp_path.glob(".a.making-*")) == []

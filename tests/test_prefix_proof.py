@@ -44,7 +44,7 @@ class Maker:
         self.proven: list[Path] = []
         self.heard: list[str] = []
 
-    def make(self, distro: Distro, staging: Path, interpreter: Path, *, say: object) -> None:
+    def make(self, distro: Distro, staging: Path, interpreter: Path, *, notify: object) -> None:
         assert list(staging.iterdir()) == []  # nothing is left of one that failed
         self.made.append(small_prefix(staging))
 
@@ -55,7 +55,7 @@ class Maker:
             raise BrokenRosError("colcon does not run", remedy="Do this.")
 
     def find(self) -> Path:
-        return prefix.wheels_prefix(JAZZY, prove=self.prove, say=self.heard.append)
+        return prefix.wheels_prefix(JAZZY, prove=self.prove, notify=self.heard.append)
 
 
 @pytest.fixture

@@ -9,11 +9,11 @@ import pytest
 
 from grader.run.observer import Event, Watch
 from grader.run.run import Run
+from grader.verdict.checks.declare import Check
 from grader.verdict.checks.starting import interrupt
 from grader.verdict.checks.timing import period
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Failed, Passed
-from grader.verdict.registry import Check
 from tests.corpus.build import SOLUTION
 from tests.static_bench import BUILT, NODE, Bench
 

@@ -104,6 +104,6 @@ def test_a_node_that_ends_at_once_is_judged_if_the_sandbox_still_starts_commands
         assert opened.run(unheard) is run
         assert clock.runs == 1
     else:
-        with pytest.raises(Unobserved, match="starts no command"):
+        with pytest.raises(Unobserved, match="no longer starts commands"):
             opened.run(unheard)
         assert clock.runs == 3

@@ -26,7 +26,7 @@ from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
 from grader.run.workspace import Build
 from grader.validate.tree import Delete, Edit, Replace
-from grader.verdict.ask import ask_in_order
+from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
 from tests import stage, weather
@@ -223,7 +223,7 @@ def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) ->
     submission = weather.taken(folder, *mistake.edits)
     run = mistake.run or counted("Reading {n}")
     evidence = Evidence(assignment, submission, build=lambda: BUILT, run=lambda: run)
-    (result,) = ask_in_order(evidence, Translator(lang), only=[mistake.check])
+    (result,) = evaluate_checks(evidence, Translator(lang), only=[mistake.check])
     assert result.status == "failed", result
     return result.model_copy(update={"patch": patch_for(result, submission, assignment)})
 
@@ -259,7 +259,8 @@ def test_the_right_package_passes_every_check_of_a_run(tmp_path: Path) -> None:
     evidence = Evidence(wanted, weather.taken(tmp_path), build=lambda: BUILT, run=lambda: run)
     only = ("package.manifest", "entry_point.mapping", "run.starts", "run.output")
     found = {
-        result.id: result.status for result in ask_in_order(evidence, Translator("en"), only=only)
+        result.id: result.status
+        for result in evaluate_checks(evidence, Translator("en"), only=only)
     }
     assert found == dict.fromkeys(only, "passed")
 
@@ -421,7 +422,7 @@ def test_of_several_lessons_one_has_to_be_named(command: str, tmp_path: Path) ->
 def test_a_course_folder_that_is_none_is_told(command: str, course: Path, tmp_path: Path) -> None:
     for folder, said in (
         (tmp_path / "nowhere", "there is no course folder"),
-        (course / "readings", "is a lesson and not a course"),
+        (course / "readings", "is a lesson, not a course"),
         (tmp_path / "course" / "readings" / "..", ""),
         (Path("/proc/self/task"), "there is no lesson in the course folder"),
     ):

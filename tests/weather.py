@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
+from grader.course.load import load_assignment
 from grader.package.submission import Submission, take_in
 from grader.validate.tree import Edit, Entry, apply_all, write_tree
 

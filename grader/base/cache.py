@@ -13,7 +13,7 @@ from pathlib import Path
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
 
-Say = Callable[[str], None]
+Notify = Callable[[str], None]
 WAITING = msg("another grader is making the same prefix: waiting for it")
 MORE_SPACE = msg(
     "Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE to a folder on "
@@ -39,18 +39,18 @@ def cache_root() -> Path:
 
 
 @contextmanager
-def locked(path: Path, *, say: Say) -> Iterator[None]:
+def locked(path: Path, *, notify: Notify) -> Iterator[None]:
     """Hold an exclusive lock on `path` (the kernel releases it however the holder ends)."""
     with path.open("a") as handle:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            say(Message(WAITING))
+            notify(Message(WAITING))
             fcntl.flock(handle, fcntl.LOCK_EX)
         yield
 
 
-def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
+def make_once(folder: Path, make: Callable[[Path], None], *, notify: Notify) -> bool:
     """Make `folder` with `make(staging)` unless it exists; return whether it was made now.
 
     Of two callers at once, the second waits for the first. A killed one leaves a staging folder
@@ -61,7 +61,7 @@ def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
     old_umask = os.umask(0o022)  # other user ids inside a sandbox must be able to read it
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with locked(_lock_of(folder), say=say):
+        with locked(_lock_of(folder), notify=notify):
             if folder.is_dir():
                 return False
             for left in folder.parent.glob(f"{_unfinished(folder)}*"):
@@ -86,14 +86,14 @@ def make_once(folder: Path, make: Callable[[Path], None], *, say: Say) -> bool:
     return True
 
 
-def discard(folder: Path, *, unless: Callable[[Path], bool], say: Say) -> None:
+def discard(folder: Path, *, unless: Callable[[Path], bool], notify: Notify) -> None:
     """Take a damaged folder out of the cache, unless it is not that (any more).
 
     Who still uses its files keeps them until the next `make_once` clears them away. Raises
     SurroundingsError if the cache cannot be written.
     """
     try:
-        with locked(_lock_of(folder), say=say):
+        with locked(_lock_of(folder), notify=notify):
             if folder.is_dir() and not unless(folder):
                 folder.rename(tempfile.mkdtemp(prefix=_unfinished(folder), dir=folder.parent))
     except OSError as error:

@@ -39,7 +39,7 @@ def look_beforehand(
     system: str,
     roster: Path | None,
     accepts: Collection[str],
-    say: Callable[[str], None],
+    notify: Callable[[str], None],
 ) -> Beforehand:
     """Read everything; UsageError for what cannot be used, and for a class that hardly fits.
 
@@ -48,7 +48,7 @@ def look_beforehand(
     opened = open_sheets(sheets, assignment)
     before = read_before(out / GRADEBOOK)
     for note in opened.notes:
-        say(f"  {one_line(note)}")
+        notify(f"  {one_line(note)}")
     rosters = [roster] if roster else opened.rosters
     found = discover(
         path,
@@ -56,7 +56,7 @@ def look_beforehand(
         roster=rosters[0] if rosters else None,
         unpack=out / UNPACKED,
     )
-    _say_found(found, say)
+    _say_found(found, notify)
     folder = _with_elsewhere(found, opened, before)
     students = {one.student.key: one.student for one in folder.handed_in}
     covered = list(opened.covered(list(students.values()), folder.system))
@@ -74,11 +74,11 @@ def _with_elsewhere(folder: ClassFolder, opened: OpenSheets, before: Before) -> 
     return replace(folder, elsewhere=elsewhere)
 
 
-def _say_found(folder: ClassFolder, say: Callable[[str], None]) -> None:
+def _say_found(folder: ClassFolder, notify: Callable[[str], None]) -> None:
     students = {attempt.student.key for attempt in folder.handed_in}
     attempts = len(folder.handed_in)
     more = f" in {attempts} attempts" if attempts != len(students) else ""
     missing = f", {len(folder.missing)} without a submission" if folder.missing else ""
-    say(f"found {counted(len(students))}{more}{missing} ({folder.system})")
+    notify(f"found {counted(len(students))}{more}{missing} ({folder.system})")
     for note in folder.notes:
-        say(f"  {one_line(note)}")
+        notify(f"  {one_line(note)}")

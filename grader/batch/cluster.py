@@ -37,14 +37,14 @@ ALONE_SECONDS = 60.0  # without any worker, after which the run ends
 class Cluster:
     """A Dask cluster of which the workers that agree are used; use it as a context manager."""
 
-    def __init__(self, scheduler: str, job: Job, *, say: Callable[[str], None]) -> None:
+    def __init__(self, scheduler: str, job: Job, *, notify: Callable[[str], None]) -> None:
         """Connect and check every worker.
 
         Raises SurroundingsError where the scheduler does not answer, or no worker can be used.
         """
         self._scheduler = scheduler
         self._job = job
-        self._say = say
+        self._notify = notify
         self._checked: dict[str, Checked] = {}
         self._sent: dict[object, set[str]] = {}
         self._client = _connect(scheduler)
@@ -236,13 +236,13 @@ class Cluster:
     def _tell(self, address: str) -> None:
         found = self._checked[address]
         if found.problem:
-            self._say(f"{address} is not used: {found.problem}")
+            self._notify(f"{address} is not used: {found.problem}")
         elif found.surroundings != self.surroundings:
             same = found.grader == source_digest(PACKAGE, NOT_MARKING)
             why = f"it has another ROS ({found.ros})" if same else "it has another grader"
-            self._say(f"{address} is not used: {why}")
+            self._notify(f"{address} is not used: {why}")
         else:
-            self._say(f"{address} marks in {found.sandbox} ({found.ros})")
+            self._notify(f"{address} marks in {found.sandbox} ({found.ros})")
 
 
 def _connect(scheduler: str) -> Client:

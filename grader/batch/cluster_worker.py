@@ -36,7 +36,7 @@ def check_here(job: str) -> str:
     own = source_digest(PACKAGE, NOT_MARKING)
     try:
         distro = find_distro(wanted.distro)
-        sandbox = open_sandbox(wanted.sandbox, distro, wanted.limits, say=unheard)
+        sandbox = open_sandbox(wanted.sandbox, distro, wanted.limits, notify=unheard)
         try:
             try_out(sandbox)
         finally:

@@ -48,7 +48,7 @@ def put(
     because: str,
     *,
     force: bool,
-    say: Callable[[str], None],
+    notify: Callable[[str], None],
 ) -> None:
     """Record a correction; `check` "" corrects the total."""
     student = find_student(word, _students(ledger, assignment.id))
@@ -63,11 +63,11 @@ def put(
         raise UsageError("say why: --because TEXT", remedy="The student reads it.")
     ledger.override(assignment.id, _override(student.key, check, points_given, because))
     what = check or "the total"
-    say(f"{student.name or student.key}: {what} is worth {points(points_given)} points now")
+    notify(f"{student.name or student.key}: {what} is worth {points(points_given)} points now")
 
 
 def remove(
-    ledger: Ledger, assignment: Assignment, word: str, check: str, *, say: Callable[[str], None]
+    ledger: Ledger, assignment: Assignment, word: str, check: str, *, notify: Callable[[str], None]
 ) -> None:
     """Take a correction back."""
     student = find_student(word, _students(ledger, assignment.id))
@@ -79,7 +79,7 @@ def remove(
             remedy=f"Corrected for this student: {named}.",
         )
     ledger.drop_override(assignment.id, _override(student.key, check, 0, "taken back"))
-    say(f"{student.name or student.key}: {check or 'the total'} is as it was marked")
+    notify(f"{student.name or student.key}: {check or 'the total'} is as it was marked")
 
 
 def listed(ledger: Ledger, assignment: Assignment) -> list[str]:

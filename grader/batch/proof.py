@@ -16,7 +16,7 @@ from grader.sandbox.choose import open_sandbox
 
 def prove(job: Job) -> None:
     """Open the job's sandbox and try it; SurroundingsError says what does not work."""
-    sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, say=unheard)
+    sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, notify=unheard)
     try:
         try_out(sandbox)
     finally:

@@ -23,7 +23,7 @@ from grader.package.submission import Submission
 from grader.ros.distro import Distro
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 
 FAULTS_IN_A_ROW = 3  # after so many, the sandbox is tried without a submission before the next
 
@@ -47,9 +47,9 @@ class Setting:
         return Job(self.assignment, self.distro.name, self.sandbox, self.limits, self.lang)
 
 
-def prove(order: Order, *, say: Callable[[str], None]) -> Setting:
+def prove(order: Order, *, notify: Callable[[str], None]) -> Setting:
     """Open the order's sandbox once and return what is marked in; SurroundingsError if none opens."""
-    sandbox = open_sandbox(order.sandbox, order.distro, order.limits, say=say)
+    sandbox = open_sandbox(order.sandbox, order.distro, order.limits, notify=notify)
     sandbox.close()
     return Setting(
         assignment=order.assignment,

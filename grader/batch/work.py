@@ -23,7 +23,8 @@ from grader.package.submission import Submission
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
-from grader.verdict.mark import Order, mark
+from grader.verdict.mark import mark
+from grader.verdict.order import Order
 
 TRIES = 3  # how often a submission is marked where our own side fails
 MARGIN_SECONDS = 60.0  # beyond a verdict's ceiling, before its worker counts as hung

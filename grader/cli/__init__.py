@@ -1,1 +1,1 @@
-"""The `grader` command: one module for each of its commands."""
+"""The `grader` command: one module for each of its subcommands."""

@@ -1,4 +1,4 @@
-"""The commands of this room: Gradescope's two, and one report in another system's form."""
+"""The commands for Gradescope, and `convert`: one report in another system's format."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ def gradescope(
     sandbox: str,
     lang: str | None,
 ) -> int:
-    """Mark the submission in Gradescope's container, results.json always up to date.
+    """Mark the submission in Gradescope's container and keep results.json up to date.
 
     AUTOGRADER is the folder that Gradescope made (default: /autograder).
     """
-    from grader.batch.systems.gradescope.container import run  # noqa: PLC0415 - --help must not pay for it
+    from grader.batch.systems.gradescope.container import run  # noqa: PLC0415 - keeps --help fast
 
     return run(
         autograder, assignment=assignment, keys=keys, distro=distro, sandbox=sandbox, lang=lang
@@ -67,11 +67,11 @@ def gradescope_zip(
     sandbox: str,
     lang: str | None,
 ) -> int:
-    """Make the autograder archive that is uploaded to Gradescope. It holds the solution.
+    """Make the autograder archive to upload to Gradescope. It contains the solution.
 
-    --lang is the language in which students will read their results.
+    --lang is the language of the results that students read.
 
-    OUT is the file that is made (default: autograder.zip).
+    OUT is the file to write (default: autograder.zip).
     """
     from grader.batch.systems.gradescope import archive  # noqa: PLC0415
     from grader.ros.distro import find_distro  # noqa: PLC0415
@@ -87,16 +87,16 @@ def gradescope_zip(
         lang=lang or chosen_language(os.environ),
     )
     _write(out, made)
-    click.echo(f"{out}: {len(made):,} bytes. Keep it from students: it holds the solution.")
+    click.echo(f"{out}: {len(made):,} bytes. Keep it from students: it contains the solution.")
     return 0
 
 
 @click.command("convert")
 @click.argument("form", type=click.Choice(["gradescope", "github", "prairielearn", "junit", "md"]))
 @click.argument("report", type=click.Path(path_type=Path))
-@click.option("--show-hidden", is_flag=True, help="Name the checks that students do not see.")
+@click.option("--show-hidden", is_flag=True, help="Name the hidden checks.")
 def convert(form: str, report: Path, show_hidden: bool) -> int:
-    """Print a report.json in the FORM of another system, in the report's language.
+    """Print a report.json in the format of another system (FORM), in the report's language.
 
     `github` prints the line for $GITHUB_OUTPUT: grader convert github REPORT >> "$GITHUB_OUTPUT".
     """
@@ -104,7 +104,7 @@ def convert(form: str, report: Path, show_hidden: bool) -> int:
     content = made.encode() if isinstance(made, str) else made
     if sys.stdout.isatty():
         click.echo(content.decode(), nl=False)
-    else:  # for a program: byte for byte
+    else:  # for a program: the exact bytes
         bytes_of(sys.stdout).write(content)
     return 0
 
@@ -142,11 +142,11 @@ def _read(path: Path) -> Report:
         raise UsageError(f"{path} cannot be read: {error.strerror}") from None
     except ValidationError as error:
         first = error.errors()[0]
-        raise UsageError(f"{path} is no report of this grader: {first['msg']}") from None
+        raise UsageError(f"{path} is not a report of this grader: {first['msg']}") from None
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Write a file that only its owner can read; what was there before is replaced at the end."""
+    """Write a file that only its owner can read; an old one is replaced once it is complete."""
     from grader.base.folder import Folder  # noqa: PLC0415
 
     try:
@@ -155,5 +155,5 @@ def _write(path: Path, content: bytes) -> None:
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
         raise SurroundingsError(
-            f"{path} could not be written: {reason}", remedy="Name another place."
+            f"{path} could not be written: {reason}", remedy="Choose another path."
         ) from None

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @click.command(
     help=msg(
-        "Explain a mistake of the catalogue, or what a terminal shows (-: read from standard "
+        "Explain a mistake of the catalogue, or the output of a terminal (-: from standard "
         "input).\n\n"
         "For example: ros2 run my_package my_node 2>&1 | grader explain -"
     )
@@ -28,13 +28,13 @@ if TYPE_CHECKING:
 @options.assignment
 @click.option(
     "--distro",
-    help=msg("The ROS 2 distro whose documentation is linked (default: the terminal's)."),
+    help=msg("The ROS 2 distro whose documentation is linked (default: the sourced one)."),
 )
 @options.lang
 def explain(
     mistake: str | None, assignment: str | None, distro: str | None, lang: str | None
 ) -> int:
-    """Explain an entry of the catalogue, or a terminal's text."""
+    """Explain a mistake of the catalogue, or the output of a terminal."""
     from grader.mistakes import explanation as texts  # noqa: PLC0415
     from grader.ros.distro import find_distro, sourced  # noqa: PLC0415
 
@@ -56,9 +56,9 @@ def explain(
 
 
 def _lesson(assignment: str | None) -> Assignment | None:
-    """Return the lesson that is meant; None if none was named and the course has not just one."""
-    from grader.course.assignment import load_assignment  # noqa: PLC0415
+    """Return the chosen lesson; None if none was named and the course has no single lesson."""
     from grader.course.find import assignment_file  # noqa: PLC0415
+    from grader.course.load import load_assignment  # noqa: PLC0415
 
     try:
         return load_assignment(assignment_file(assignment))

@@ -14,10 +14,11 @@ from grader.cli import options
 
 @click.command(
     help=msg(
-        "Fix your own package where only one fix is possible, as a diff that is shown first.\n\n"
+        "Fix the mistakes in your own package that have only one possible fix; shows a diff first."
+        "\n\n"
         "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
         "folder). Exit status: 0 nothing is wrong any more, 1 something is left that cannot be "
-        "fixed by itself (it is named)."
+        "fixed automatically (it is named)."
     )
 )
 @click.argument("path", type=click.Path(path_type=Path), required=False)
@@ -25,14 +26,14 @@ from grader.cli import options
     "--dry-run/--apply",
     "dry_run",
     default=True,
-    help=msg("Show the change as a diff (the default), or write it; the old files are kept."),
+    help=msg("Show the fix as a diff (the default), or write it; the old files are kept."),
 )
 @options.assignment
 @options.one_distro
 @options.sandbox
 @click.option("--check", "only", default="", metavar="ID", help=msg("Fix this check only."))
 @click.option(
-    "--no-run", is_flag=True, help=msg("Look at the files only: build nothing and run nothing.")
+    "--no-run", is_flag=True, help=msg("Check the files only: build nothing and run nothing.")
 )
 @options.limits
 @options.lang
@@ -48,21 +49,21 @@ def fix(
     lang: str | None,
 ) -> int:
     """Fix a student's own package."""
-    from grader.cli.fix_package import Wish, fix_package  # noqa: PLC0415
-    from grader.verdict.order import make_orders, own_place  # noqa: PLC0415
+    from grader.cli.fix_package import FixRequest, fix_package  # noqa: PLC0415
+    from grader.verdict.order import default_path, make_orders  # noqa: PLC0415
 
     with errors_in(lang):
-        place = path or own_place()
+        place = path or default_path()
         if path is None and not dry_run and place != Path.home() / "ros2_ws":
             raise UsageError(
-                say("it was not said which package is to be changed"),
+                say("no package to fix was named"),
                 remedy=say("For example: grader fix --apply path/to/my_package"),
             )
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if len(orders) > 1:
             raise UsageError(say("fix runs the node on one distro: name one"))
-        wish = Wish(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
-        return fix_package(wish, tell=lambda text: click.echo(text, err=True))
+        request = FixRequest(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
+        return fix_package(request, notify=lambda text: click.echo(text, err=True))
 
 
 COMMANDS = (fix,)

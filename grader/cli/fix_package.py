@@ -1,4 +1,4 @@
-"""What `grader fix` does: it plans, shows, and writes only when asked to."""
+"""Implements `grader fix`: plans the fixes, shows the diff, and writes it with --apply."""
 
 from __future__ import annotations
 
@@ -7,14 +7,18 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TextIO
+
+from rich.text import Text
 
 from grader.base.errors import UsageError
+from grader.base.gate import bytes_of
+from grader.base.gated_console import GatedConsole
 from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.base.unheard import unheard
-from grader.cli.fix_show import show_diff
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding, finding_of
 from grader.mistakes.fixes.table import STATIC
@@ -22,17 +26,21 @@ from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
 from grader.report.model import CheckResult
-from grader.verdict.fix import Plan, fix_all, fix_files
-from grader.verdict.mark import Order, grade
-from grader.verdict.static import decided
+from grader.verdict.fix import FixPlan, fix_all, fix_files
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
+from grader.verdict.static import static_results
 
-Tell = Callable[[str], None]
+Notify = Callable[[str], None]
+STYLES = {"+": "green", "-": "red", "@": "cyan", "d": "bold"}
+"""The colours of a diff, by a line's first character."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wish:
-    """What the command line asks for: `only` is one check's id or empty; `runs` whether the node
-    may be built and run to learn what is wrong.
+class FixRequest:
+    """The options of `grader fix`; `only` is a check's id, or empty for all checks.
+
+    `writes` is whether to write the fixes, `runs` whether to build and run the node.
     """
 
     order: Order
@@ -41,34 +49,34 @@ class Wish:
     runs: bool = True
 
 
-def fix_package(wish: Wish, tell: Tell) -> int:
-    """Fix a package and return the exit status: 0 nothing is left, 1 something is.
+def fix_package(request: FixRequest, notify: Notify) -> int:
+    """Fix a package and return the exit status: 0 if nothing is left to fix, else 1.
 
-    The diff goes to stdout; what is said goes to `tell`, in the order's language. Raises
-    UsageError for a path that cannot be written to, with nothing written.
+    The diff goes to stdout, messages in the order's language to `notify`. Raises UsageError, with
+    nothing written, if the path cannot be written to.
     """
-    translate = Translator(wish.order.lang)
+    translate = Translator(request.order.lang)
 
-    def told(text: str) -> None:
-        tell(translate(text))
+    def notify_translated(text: str) -> None:
+        notify(translate(text))
 
-    assignment = wish.order.assignment
-    _check_id(wish.only, assignment)
-    submission = _own_copy(wish.order)
+    assignment = request.order.assignment
+    _check_id(request.only, assignment)
+    submission = _own_copy(request.order)
     if submission.root is None:
         missing = joined("package.found", submission.problem, by=": ")
-        told(say("left    {finding}", finding=missing))
-        told(submission.problem_fix)
+        notify_translated(say("left    {finding}", finding=missing))
+        notify_translated(submission.problem_fix)
         return 1
-    plan = make_plan(wish, submission, told)
-    show_diff(plan.patch, sys.stdout)
+    plan = make_plan(request, submission, notify_translated)
+    _print_diff(plan.patch, sys.stdout)
     for finding in plan.fixed:
         line = _line(finding)
         done, would = say("fixed  {finding}", finding=line), say("fixes  {finding}", finding=line)
-        told(done if wish.writes else would)
+        notify_translated(done if request.writes else would)
     for finding in plan.left:
-        told(say("left    {finding}", finding=_line(finding)))
-    _finish(wish, submission, plan, told)
+        notify_translated(say("left    {finding}", finding=_line(finding)))
+    _finish(request, submission, plan, notify_translated)
     return 1 if plan.left else 0
 
 
@@ -109,63 +117,65 @@ def _own_copy(order: Order) -> Submission:
     found = take_in(path, package=assignment.package, node_file=assignment.node_file)
     if found.root is not None and found.origin in ("zip", "tar"):
         raise UsageError(
-            say("the package lies in an archive in {path}, and is not changed there", path=where),
+            say("the package is in an archive in {path}, and archives are not changed", path=where),
             remedy=say("Unpack it first."),
         )
     return found
 
 
-def make_plan(wish: Wish, submission: Submission, tell: Tell) -> Plan:
-    """Fix what the files show; then, if nothing of that is left, what a build and a run show."""
-    assignment = wish.order.assignment
+def make_plan(request: FixRequest, submission: Submission, notify: Notify) -> FixPlan:
+    """Fix what the files show; if nothing of that is left, also what a build and a run show."""
+    assignment = request.order.assignment
     old = Files.of(submission)
-    plan = Plan(old, old)
-    if not wish.only or wish.only in STATIC:
-        plan = fix_files(submission, assignment, wish.only, lang=wish.order.lang)
-        plan = replace(plan, left=(*plan.left, *_unasked(wish, plan, submission)))
+    plan = FixPlan(old, old)
+    if not request.only or request.only in STATIC:
+        plan = fix_files(submission, assignment, request.only, lang=request.order.lang)
+        plan = replace(plan, left=(*plan.left, *_undecided(request, plan, submission)))
     if plan.left:
-        if wish.runs and not wish.only:
-            tell(say("The node was not run: what is left comes first."))
+        if request.runs and not request.only:
+            notify(say("The node was not run: fix what is left first."))
         return plan
-    if not wish.runs or wish.only in STATIC:
+    if not request.runs or request.only in STATIC:
         return plan
-    runner = _Runner(wish, tell)
-    ran = fix_all(plan.new, assignment, runner.judge)
-    return Plan(old, ran.new, (*plan.fixed, *ran.fixed), ran.left)
+    judge = _RunJudge(request, notify)
+    ran = fix_all(plan.new, assignment, judge)
+    return FixPlan(old, ran.new, (*plan.fixed, *ran.fixed), ran.left)
 
 
-def _unasked(wish: Wish, plan: Plan, submission: Submission) -> list[Finding]:
-    """Return the checks of the files that the files do not answer, where nothing will be run."""
-    if wish.runs and not wish.only:
+def _undecided(request: FixRequest, plan: FixPlan, submission: Submission) -> list[Finding]:
+    """Return the static checks that the files do not decide; none if the node may be run."""
+    if request.runs and not request.only:
         return []
-    results = decided(plan.new.put_into(submission), wish.order.assignment, wish.only)
-    wanted = [wish.only] if wish.only else [u.id for u in wish.order.assignment.checks]
+    results = static_results(plan.new.put_into(submission), request.order.assignment, request.only)
+    wanted = [request.only] if request.only else [u.id for u in request.order.assignment.checks]
+    actual = Translator(request.order.lang)(say("the files alone do not show it"))
     undecided = [check for check in wanted if check in STATIC and check not in results]
-    unknown = Translator(wish.order.lang)(say("the files alone do not tell"))
-    return [Finding(check, "", actual=unknown) for check in undecided]
+    return [Finding(check, "", actual=actual) for check in undecided]
 
 
 @dataclass(frozen=True)
-class _Runner:
-    """Judges files by the real checks: built and run as `grader check` does."""
+class _RunJudge:
+    """Finds mistakes by building and running the package, as `grader check` does."""
 
-    wish: Wish
-    tell: Tell
+    request: FixRequest
+    notify: Notify
 
-    def judge(self, files: Files) -> list[Finding]:
-        """Return what a build and a run show to be wrong."""
-        order = self.wish.order
-        self.tell(say("running the node …"))
+    def __call__(self, files: Files) -> list[Finding]:
+        """Return the findings of a build and a run."""
+        order = self.request.order
+        self.notify(say("running the node …"))
         with tempfile.TemporaryDirectory(prefix="grader-fix-") as folder:
             path = Path(folder) / order.assignment.package
             _write_tree(files, path)
             report = grade(replace(order, path=path), unheard)
         if report.environment.sandbox == "none":
-            self.tell(say("No sandbox was used: the package ran as you, with your files."))
+            self.notify(
+                say("No sandbox was used: the package ran as your user, with access to your files.")
+            )
         return [f for result in report.checks for f in self._found(result)]
 
     def _found(self, result: CheckResult) -> list[Finding]:
-        only = self.wish.only
+        only = self.request.only
         if only and result.id != only:
             return []
         found = finding_of(result)
@@ -178,7 +188,7 @@ class _Runner:
 
 
 def _write_tree(files: Files, root: Path) -> None:
-    """Write all of a package's files to a new folder, where they can be run."""
+    """Write all files of a package to a new folder, to run them there."""
     root.mkdir(parents=True)
     for path, file in sorted(files.by_path.items()):
         place = root / path
@@ -192,17 +202,40 @@ def _write_tree(files: Files, root: Path) -> None:
             place.chmod(file.mode & 0o777 | 0o600)
 
 
-def _finish(wish: Wish, submission: Submission, plan: Plan, tell: Tell) -> None:
+def _finish(request: FixRequest, submission: Submission, plan: FixPlan, notify: Notify) -> None:
     if not plan.patch and plan.left:
-        tell(say("Nothing can be fixed by itself."))
+        notify(say("Nothing can be fixed automatically."))
     elif not plan.patch:
-        tell(say("Nothing is wrong."))
-    elif wish.writes:
+        notify(say("Nothing is wrong."))
+    elif request.writes:
         root = submission.path / (submission.root or ".")
         backups = apply(plan.old, plan.new, root)
-        tell(say("Written to {path}.", path=shown(str(root))))
+        notify(say("Written to {path}.", path=shown(str(root))))
         if backups:
             names = ", ".join(shown(backup) for backup in backups)
-            tell(say("The files as they were: {files}", files=names))
+            notify(say("The original files: {files}", files=names))
     else:
-        tell(say("Nothing was changed: this is what --apply would write."))
+        notify(say("Nothing was changed: this is what --apply would write."))
+
+
+def _print_diff(patch: bytes, file: TextIO) -> None:
+    """Print a diff; on a terminal in colours and without the student's control characters."""
+    if not file.isatty():
+        file.flush()
+        raw = bytes_of(file)
+        raw.write(patch)
+        raw.flush()
+        return
+    console = GatedConsole(file, soft_wrap=True)
+    for line in patch.decode("utf-8", "backslashreplace").split("\n")[:-1]:
+        named = line.startswith(("--- ", "+++ "))
+        style = "bold" if named else STYLES.get(line[:1], "")
+        console.print(Text(_plain(line), style=style), soft_wrap=True)
+
+
+def _plain(line: str) -> str:
+    return "".join(c if c.isprintable() or c == "\t" else _escaped(c) for c in line)
+
+
+def _escaped(sign: str) -> str:
+    return sign.encode("unicode_escape", "surrogatepass").decode("ascii")

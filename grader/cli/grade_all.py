@@ -14,7 +14,7 @@ _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
 _ledger = click.option(
     "--ledger",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="The file that keeps every verdict (default: ledger.sqlite in the --out folder).",
+    help="The file that stores every verdict (default: ledger.sqlite in the --out folder).",
 )
 
 
@@ -28,10 +28,12 @@ _ledger = click.option(
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
-    help="The folder that everything is written to (default: reports/<name of the class folder>).",
+    help="The folder for all output (default: reports/<name of the class folder>).",
 )
 @_ledger
-@click.option("--roster", type=_file, help="A CSV of the class: who handed in nothing is shown.")
+@click.option(
+    "--roster", type=_file, help="A CSV of the class; shows students without a submission."
+)
 @click.option(
     "--system",
     default="auto",
@@ -39,9 +41,11 @@ _ledger = click.option(
     help="Where the class comes from: moodle, canvas, gradescope, github_classroom, folders or "
     "archives.",
 )
-@click.option("--workers", type=click.IntRange(min=1), help="How many are marked at once.")
+@click.option(
+    "--workers", type=click.IntRange(min=1), help="The number of submissions to mark at once."
+)
 @click.option("--scheduler", default="", metavar="URL", help="Mark on a Dask cluster: tcp://…")
-@click.option("--regrade", is_flag=True, help="Mark everybody again, and show what has changed.")
+@click.option("--regrade", is_flag=True, help="Mark all students again and show what has changed.")
 @click.option(
     "--regrade-student",
     "students",
@@ -49,23 +53,23 @@ _ledger = click.option(
     metavar="STUDENT",
     help="Mark this student again: key, number, name or email. May be repeated.",
 )
-@click.option("--worksheet", type=_file, help="Moodle's grading worksheet: a filled copy is made.")
-@click.option("--canvas", type=_file, help="Canvas' gradebook CSV: a filled copy is made.")
-@click.option("--canvas-column", default="", help="The column of Canvas' gradebook that is filled.")
-@click.option("--grade-column", default="", help="The worksheet's column of grades.")
-@click.option("--feedback-column", default="", help="The worksheet's column of feedback.")
+@click.option("--worksheet", type=_file, help="Moodle's grading worksheet; writes a filled copy.")
+@click.option("--canvas", type=_file, help="Canvas' gradebook CSV; writes a filled copy.")
+@click.option("--canvas-column", default="", help="The column of Canvas' gradebook to fill.")
+@click.option("--grade-column", default="", help="The worksheet's column for grades.")
+@click.option("--feedback-column", default="", help="The worksheet's column for feedback.")
 @click.option(
     "--accept",
     "accepts",
     multiple=True,
     metavar="WHAT",
-    help="Go on where it stops otherwise: `join`, if less than 80 % of the submissions are on the "
-    "roster; `lower`, if somebody gets a lower grade than before. May be repeated.",
+    help="Continue where the command would stop: `join`, if less than 80 % of the submissions are "
+    "on the roster; `lower`, if a student gets a lower grade than before. May be repeated.",
 )
-@click.option("--show-hidden", is_flag=True, help="Name hidden checks in what students read.")
+@click.option("--show-hidden", is_flag=True, help="Name hidden checks in the texts for students.")
 @options.lang
-@click.option("-n", "--dry-run", is_flag=True, help="Only say what would be marked.")
-@click.option("-q", "--quiet", is_flag=True, help="Do not print a line a student.")
+@click.option("-n", "--dry-run", is_flag=True, help="Only show what would be marked.")
+@click.option("-q", "--quiet", is_flag=True, help="Do not print a line for each student.")
 def grade_all(
     path: Path,
     assignment: str | None,
@@ -92,12 +96,12 @@ def grade_all(
     dry_run: bool,
     quiet: bool,
 ) -> int:
-    """Mark a whole class: PATH is what the course's system gave you, a folder or its zip.
+    """Mark a class: PATH is the download of the learning management system, a folder or a zip.
 
-    It can be stopped (Ctrl+C) and goes on where it was: what was marked before and has not
-    changed is not marked again. What students read is in the language of --lang.
+    Stop it with Ctrl+C and run it again to continue: submissions that are already marked and
+    have not changed are not marked again. The texts for students are in the language of --lang.
     """
-    # a `--help` must not pay for these
+    # imported here to keep --help fast
     from grader.batch.accept import accepted  # noqa: PLC0415
     from grader.batch.override import LEDGER  # noqa: PLC0415
     from grader.batch.sheets import Sheets  # noqa: PLC0415
@@ -107,7 +111,10 @@ def grade_all(
     with errors_in(lang):
         orders = make_orders(path, assignment, distro, sandbox, limits, keys=keys, lang=lang)
     if len(orders) > 1:
-        raise UsageError("a class is marked on one distro", remedy="Give --out one for each.")
+        raise UsageError(
+            "a class is marked on one distro",
+            remedy="Run the command once for each, with its own --out.",
+        )
     out = out or Path("reports") / (path.resolve().stem or "class")
     sheets = Sheets(
         worksheet=worksheet,
@@ -117,7 +124,7 @@ def grade_all(
         feedback_column=feedback_column,
         show_hidden=show_hidden,
     )
-    asked = run.ClassOrder(
+    class_order = run.ClassOrder(
         order=orders[0],
         out=out,
         ledger=ledger or out / LEDGER,
@@ -131,17 +138,17 @@ def grade_all(
         accepts=accepted(accepts),
         quiet=quiet,
     )
-    return run.grade_all(asked, dry_run=dry_run)
+    return run.grade_all(class_order, dry_run=dry_run)
 
 
 @click.command("override")
 @click.argument("student", required=False)
 @click.option("--check", "check_id", default="", metavar="ID", help="The check (default: all).")
-@click.option("--points", type=float, help="What it is worth for this student.")
-@click.option("--because", default="", help="Why; the student reads it.")
-@click.option("--remove", is_flag=True, help="Take the correction back.")
-@click.option("--list", "list_all", is_flag=True, help="List the corrections that hold.")
-@click.option("--force", is_flag=True, help="Also points below 0 or beyond what it is worth.")
+@click.option("--points", type=float, help="The points for this student.")
+@click.option("--because", default="", help="The reason; the student reads it.")
+@click.option("--remove", is_flag=True, help="Remove the correction.")
+@click.option("--list", "list_all", is_flag=True, help="List the corrections in effect.")
+@click.option("--force", is_flag=True, help="Allow points below 0 or above the maximum.")
 @options.assignment
 @options.keys
 @_ledger
@@ -163,14 +170,14 @@ def override(
 ) -> int:
     """Correct a verdict by hand: grader override STUDENT --check ID --points N --because WHY.
 
-    The correction outlives reruns and regrades; the next `grader grade-all` writes it into every
+    The correction survives reruns and regrades; the next `grader grade-all` writes it into every
     output. Without --check it corrects the total.
     """
     from grader.batch import override as corrections  # noqa: PLC0415
     from grader.batch.ledger import Ledger  # noqa: PLC0415
-    from grader.verdict.order import with_hidden  # noqa: PLC0415
+    from grader.verdict.order import load_with_hidden  # noqa: PLC0415
 
-    wanted = with_hidden(assignment, keys)
+    wanted = load_with_hidden(assignment, keys)
     place = corrections.find_ledger(ledger, out, Path.cwd())
     with Ledger(place, makes=False) as opened:
         if list_all:
@@ -179,16 +186,16 @@ def override(
             return 0
         if student is None or (points is None and not remove):
             raise UsageError(
-                "say whose points, and how many",
+                "STUDENT and --points are required",
                 remedy="For example: grader override kim --check run.output --points 10 "
                 '--because "seen in class"',
             )
         if remove:
-            corrections.remove(opened, wanted, student, check_id, say=click.echo)
+            corrections.remove(opened, wanted, student, check_id, notify=click.echo)
         else:
             assert points is not None
             corrections.put(
-                opened, wanted, student, check_id, points, because, force=force, say=click.echo
+                opened, wanted, student, check_id, points, because, force=force, notify=click.echo
             )
     click.echo("Run the same `grader grade-all` again: it writes this into every output.")
     return 0

@@ -1,4 +1,4 @@
-"""How a command of this project ends: its exit status, and a message instead of a traceback."""
+"""Runs a command line: its exit status, and error messages instead of tracebacks."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from grader.base.gate import gated_output
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator, chosen_language
 from grader.base.plain_text import first_lines
-from grader.cli.localized import language_of, said_in
+from grader.cli.localized import language_of, translated_help
 
-MOST_LINES = 60  # of an error's message
+MOST_LINES = 60  # of an error message
 
 
 class Terminated(BaseException):
-    """SIGTERM or SIGHUP came: everything is closed on the way out."""
+    """SIGTERM or SIGHUP was received. An exception, so that all clean-up code runs."""
 
 
 def _terminated(number: int, frame: FrameType | None) -> None:
@@ -30,11 +30,11 @@ def _terminated(number: int, frame: FrameType | None) -> None:
 
 
 def run(command: click.Command, name: str, argv: list[str] | None) -> int:
-    """Run a command line and return its exit status: docs/architecture.md."""
+    """Run a command line and return its exit status (docs/architecture.md)."""
     signal.signal(signal.SIGTERM, _terminated)
     signal.signal(signal.SIGHUP, _terminated)
     words = sys.argv[1:] if argv is None else argv
-    with gated_output(), said_in(language_of(words), command):
+    with gated_output(), translated_help(language_of(words), command):
         return _run(command, name, words)
 
 
@@ -52,24 +52,24 @@ def _run(command: click.Command, name: str, argv: list[str]) -> int:
         click.echo("\n".join(lines), err=True)
         return error.exit_status
     except (KeyboardInterrupt, click.Abort):
-        _tell(say("{name}: interrupted; nothing was left running", name=name))
+        _print_error(say("{name}: interrupted; nothing was left running", name=name))
         return 130
     except Terminated:
-        _tell(say("{name}: terminated; nothing was left running", name=name))
+        _print_error(say("{name}: terminated; nothing was left running", name=name))
         return 143
-    except BrokenPipeError:  # the reader of our output has gone (| head)
+    except BrokenPipeError:  # the reader of our output has closed it (| head)
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
-    except Exception:  # a fault of ours: its traceback passes the gate, as it may quote anything
+    except Exception:  # a bug of ours; the traceback may quote anything, so it passes the gate
         traceback.print_exc()
-        _tell(
+        _print_error(
             say(
-                "{name}: this is a fault of the program: please report it with all of the above",
+                "{name}: this is a bug in the program: please report it with all of the above",
                 name=name,
             )
         )
         return 3
 
 
-def _tell(text: str) -> None:
+def _print_error(text: str) -> None:
     click.echo(Translator(chosen_language(os.environ))(text), err=True)

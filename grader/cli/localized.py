@@ -1,7 +1,7 @@
-"""The command line in the reader's language: the commands' help, and what click itself says.
+"""Translates the command line: the commands' help and click's own texts.
 
-click asks gettext's global domain, by the languages in the environment. So that domain is ours while
-a command runs; what is not in our catalogue stays English.
+click uses gettext's global domain and the languages in the environment. While a command runs, that
+domain is ours; texts that are not in our catalogue stay English.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from grader.base.i18n.translator import (
     translated,
 )
 
-NAME = "LANGUAGE"  # of the variable that gettext looks at first
-CLICK = (  # what a student meets of click's own texts
+VARIABLE = "LANGUAGE"  # the environment variable that gettext reads first
+CLICK = (  # click's own texts that a student may see
     msg("Usage:"),
     msg("Options"),
     msg("Commands"),
@@ -49,7 +49,7 @@ CLICK = (  # what a student meets of click's own texts
     msg("{name} {filename!r} is a file."),
     msg("{name} {filename!r} is a directory."),
 )
-CLICK_COUNTED = (  # those of it that have a plural
+CLICK_PLURALS = (  # click's texts with a plural form
     ("Got unexpected extra argument ({args})", "Got unexpected extra arguments ({args})"),
     ("Did you mean {possibility}?", "(Did you mean one of: {possibilities}?)"),
     ("Option {name!r} requires an argument.", "Option {name!r} requires {nargs} arguments."),
@@ -58,13 +58,13 @@ CLICK_COUNTED = (  # those of it that have a plural
 
 
 @contextmanager
-def said_in(lang: str, command: click.Command) -> Iterator[None]:
-    """Let a command, and those below it, translate a language as long as this lasts."""
+def translated_help(lang: str, command: click.Command) -> Iterator[None]:
+    """Within this context, translate the texts of a command and its subcommands."""
     if lang == SOURCE:
         yield
         return
-    helps, domain, languages = list(_helps(command)), gettext.textdomain(), os.environ.get(NAME)
-    os.environ[NAME] = lang
+    helps, domain, languages = list(_helps(command)), gettext.textdomain(), os.environ.get(VARIABLE)
+    os.environ[VARIABLE] = lang
     gettext.bindtextdomain(DOMAIN, str(FOLDER))
     gettext.textdomain(DOMAIN)
     for owner, text in helps:
@@ -75,9 +75,9 @@ def said_in(lang: str, command: click.Command) -> Iterator[None]:
         for owner, text in helps:
             owner.help = text
         gettext.textdomain(domain)
-        os.environ.pop(NAME)
+        os.environ.pop(VARIABLE)
         if languages is not None:
-            os.environ[NAME] = languages
+            os.environ[VARIABLE] = languages
 
 
 def _helps(command: click.Command) -> Iterator[tuple[click.Command | click.Option, str]]:
@@ -92,7 +92,7 @@ def _helps(command: click.Command) -> Iterator[tuple[click.Command | click.Optio
 
 
 def language_of(words: Sequence[str]) -> str:
-    """Return the language of a command line: its --lang, else what the environment asks for."""
+    """Return the language of a command line: its --lang, else that of the environment."""
     own = list(words)[: words.index("--")] if "--" in words else list(words)
     for word, following in zip(own, [*own[1:], ""]):
         name, _, value = word.partition("=")

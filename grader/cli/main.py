@@ -25,7 +25,7 @@ from grader.cli.validate import COMMANDS as VALIDATE_COMMANDS
 if TYPE_CHECKING:
     from grader.report.model import Report
     from grader.ros.images import Base
-    from grader.verdict.mark import Order
+    from grader.verdict.order import Order
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -51,7 +51,7 @@ _out = click.option(
     type=click.Path(path_type=Path, file_okay=False),
     default=Path("reports"),
     show_default=True,
-    help="The folder that reports are written to.",
+    help="The folder for reports.",
 )
 _verbose = click.option(
     "-v", "--verbose", is_flag=True, help=msg("Show the evidence of every check.")
@@ -82,7 +82,7 @@ def grade(
     verbose: bool,
 ) -> int:
     """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
-    from grader.verdict.order import make_orders  # noqa: PLC0415 - --help must not pay for it
+    from grader.verdict.order import make_orders  # noqa: PLC0415 - keeps --help fast
 
     with errors_in(lang):
         orders = make_orders(
@@ -93,10 +93,9 @@ def grade(
 
 @commands.command(
     help=msg(
-        "Check your own package before handing it in: the same verdict, with the visible checks.\n\n"
+        "Check your own package before you submit it: the same verdict, by the visible checks.\n\n"
         "PATH is your package or workspace (default: the package in ~/ros2_ws, else the current "
-        "folder). It is your own code: where no sandbox is to be had it runs without one, and says "
-        "so."
+        "folder). It is your own code: if no sandbox is available it runs without one, and says so."
     )
 )
 @click.argument("path", type=click.Path(path_type=Path), required=False)
@@ -116,10 +115,10 @@ def check(
     verbose: bool,
 ) -> int:
     """Mark a student's own package, without the hidden checks."""
-    from grader.verdict.order import make_orders, own_place  # noqa: PLC0415
+    from grader.verdict.order import default_path, make_orders  # noqa: PLC0415
 
     with errors_in(lang):
-        place = path or own_place()
+        place = path or default_path()
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if path is None:
             click.echo(
@@ -131,31 +130,31 @@ def check(
 @commands.command()
 @click.option("--distro", default="jazzy", show_default=True)
 def prefix(distro: str) -> int:
-    """Make the ROS prefix of a distro from PyPI's wheels, if it is not there, and say where it is."""
+    """Make the ROS prefix of a distro from PyPI's wheels unless it exists, and print its path."""
     from grader.ros.distro import find_distro  # noqa: PLC0415
     from grader.ros.prefix import wheels_prefix  # noqa: PLC0415
     from grader.sandbox.proof import prove_ros  # noqa: PLC0415
 
     found = wheels_prefix(
-        find_distro(distro), prove=prove_ros, say=lambda text: click.echo(text, err=True)
+        find_distro(distro), prove=prove_ros, notify=lambda text: click.echo(text, err=True)
     )
     click.echo(found)
     return 0
 
 
 @commands.command()
-@click.option("--distro", help="Build the images of this distro; several with commas between them.")
+@click.option("--distro", help="Build the images of this distro; separate several with commas.")
 @click.option(
     "--base",
     type=click.Choice(["ros", "wheels"]),
     default="ros",
     show_default=True,
-    help="What they stand on: the official ros:<distro>-ros-base, or PyPI's ROS wheels.",
+    help="The base: the official ros:<distro>-ros-base, or PyPI's ROS wheels.",
 )
 @click.option("--extra-ca", type=click.Path(path_type=Path), help="A CA certificate (PEM) for pip.")
-@click.option("--apt-mirror", default="", metavar="URL", help="The mirror that apt uses.")
-@click.option("--pip-index", default="", metavar="URL", help="The package index that pip uses.")
-@click.option("--base-image", default="", metavar="IMAGE", help="Another image to start from.")
+@click.option("--apt-mirror", default="", metavar="URL", help="The mirror for apt.")
+@click.option("--pip-index", default="", metavar="URL", help="The package index for pip.")
+@click.option("--base-image", default="", metavar="IMAGE", help="Another base image.")
 def images(
     distro: str | None,
     base: Base,
@@ -164,9 +163,9 @@ def images(
     pip_index: str,
     base_image: str,
 ) -> int:
-    """Build the Docker images of a distro (--distro), and list all with their sizes.
+    """Build the Docker images of a distro (--distro), and list all images with their sizes.
 
-    HTTP_PROXY, HTTPS_PROXY and NO_PROXY are passed on to the build.
+    HTTP_PROXY, HTTPS_PROXY and NO_PROXY are passed to the build.
     """
     from grader.ros.distro import find_distro  # noqa: PLC0415
     from grader.ros.image_build import Network, build_image  # noqa: PLC0415
@@ -185,7 +184,7 @@ def images(
                 stage=stage,
                 base=base,
                 network=network,
-                say=lambda text: click.echo(text, err=True),
+                notify=lambda text: click.echo(text, err=True),
             )
     rows = [
         row for row in image_table(client) if not wanted or row.distro in {d.name for d in wanted}
@@ -209,10 +208,10 @@ for _command in (
 
 def _hidden(count: int) -> str:
     if count == 0:
-        return say("There are no hidden checks: your instructor's side asks the same.")
+        return say("There are no hidden checks: your instructor's grader runs the same ones.")
     if count == 1:
-        return say("1 hidden check will be asked on your instructor's side.")
-    return say("{count} hidden checks will be asked on your instructor's side.", count=count)
+        return say("Your instructor's grader also runs 1 hidden check.")
+    return say("Your instructor's grader also runs {count} hidden checks.", count=count)
 
 
 def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:
@@ -236,7 +235,9 @@ def _mark(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: 
                 path=written if out is not None else None,
             )
         if report.environment.sandbox == "none":
-            bare = say("No sandbox was used: the package ran as you, with your files.")
+            bare = say(
+                "No sandbox was used: the package ran as your user, with access to your files."
+            )
             click.echo(translate(bare), err=True)
     if not show_hidden:
         click.echo(translate(_hidden(orders[0].assignment.hidden_checks)))

@@ -1,4 +1,4 @@
-"""The options that several commands have."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ assignment = click.option(
 keys = click.option(
     "--keys",
     type=click.Path(path_type=Path, file_okay=False),
-    help="The assignment's folder of the instructor: hidden.yaml, solution, mutants.yaml (default: "
+    help="The instructor's folder of the assignment: hidden.yaml, solution, mutants.yaml (default: "
     "the grader's own keys/ID).",
 )
 sandbox = click.option(
@@ -44,10 +44,10 @@ distros = click.option(
     "--distro",
     default="jazzy",
     show_default=True,
-    help=msg("The ROS 2 distro to mark on; several with commas between them."),
+    help=msg("The ROS 2 distro to mark on; separate several with commas."),
 )
 lang = click.option(
     "--lang",
     type=click.Choice(["en", "ko"]),
-    help=msg("The language of the texts (default: what LC_ALL, LANG and LANGUAGE ask for)."),
+    help=msg("The language of the texts (default: from LC_ALL, LANG and LANGUAGE)."),
 )

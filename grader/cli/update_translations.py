@@ -1,10 +1,10 @@
-"""Gather all texts and compile the catalogues: `python -m grader.cli.update_translations`.
+"""Collects all texts and compiles the translations: `python -m grader.cli.update_translations`.
 
-Needs Babel, which is part of the tests' environment; a run of the grader needs only the compiled
-catalogues. New texts get an empty translation: fill them in `<lang>/LC_MESSAGES/grader.po` and run
-it again.
+It needs Babel, which is part of the tests' environment; the grader itself needs only the compiled
+files. New texts get an empty translation: fill it in in `<lang>/LC_MESSAGES/grader.po` and run the
+command again.
 
-A translation is found by its English text. `--renamed FILE` keeps it when that text changes: FILE is
+A translation is found by its English text. `--renamed FILE` keeps it if that text changes: FILE is
 a JSON object of old texts and new ones.
 """
 
@@ -25,25 +25,27 @@ from babel.messages.pofile import read_po, write_po
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import DOMAIN, FOLDER, LANGUAGES, SOURCE
 from grader.base.project import CHECKOUT
-from grader.cli.localized import CLICK_COUNTED
+from grader.cli.localized import CLICK_PLURALS
 from grader.verdict.checks.all import CHECKS
 
-FOLDERS = ("grader", "lab")  # (the lab's texts are here too: it brings no catalogue of its own)
+FOLDERS = ("grader", "lab")  # (the lab has no .po files of its own)
 KEYWORDS = {"say": None, "msg": None}
 TEMPLATE = "jinja2.ext:babel_extract"
 MARKS = "from grader.base.i18n.message import "
-COUNTED = "grader/cli/localized.py"
-MADE = datetime(2026, 1, 1, tzinfo=timezone.utc)  # the same at every run: only texts make a change
+PLURALS = "grader/cli/localized.py"
+MADE = datetime(
+    2026, 1, 1, tzinfo=timezone.utc
+)  # constant, so that the files change only if a text changes
 
 
 def templates() -> Iterator[tuple[str, str]]:
-    """Yield every text that is marked for translation, and the file that it is from."""
+    """Yield every text that is marked for translation, and its file."""
     for path in sorted(path for folder in FOLDERS for path in (CHECKOUT / folder).rglob("*.py")):
         if MARKS not in path.read_text(encoding="utf-8"):
-            continue  # (a `say` of its own, that prints)
+            continue  # (it may have another function of that name)
         for _, found, _, _ in extract_from_file("python", path, keywords=KEYWORDS):
             yield str(found), _place(path)
-    strict = {"silent": "false"}  # (a template that cannot be read is told)
+    strict = {"silent": "false"}  # (a template that cannot be parsed is an error)
     for path in sorted((CHECKOUT / "grader/publish/pages/templates").glob("*.j2")):
         for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
             yield str(found), _place(path)
@@ -69,11 +71,11 @@ def read(lang: str) -> Catalog:
         return read_po(file, locale=lang, domain=DOMAIN)
 
 
-def gathered(lang: str, renamed: Mapping[str, str] | None = None) -> Catalog:
-    """Return the catalogue of a language with the texts of today and the translations known.
+def collect(lang: str, renamed: Mapping[str, str] | None = None) -> Catalog:
+    """Return a language's catalogue of all current texts, with the known translations.
 
-    `renamed` (old text: new text) tells under which text a translation was known before. Raises
-    UsageError for a new text that is not marked anywhere, or an old one that still is.
+    `renamed` maps old texts to new ones, which keep the translation. Raises UsageError for a new
+    text that is not marked in the source, or an old one that still is.
     """
     known = read(lang)
     before = _before(renamed or {}, {template for template, _ in templates()})
@@ -88,19 +90,19 @@ def gathered(lang: str, renamed: Mapping[str, str] | None = None) -> Catalog:
     for template, place in templates():
         message = known.get(template) or known.get(before.get(template, template))
         catalog.add(template, message.string if message else "", locations=[(place, 0)])
-    for pair in CLICK_COUNTED:
+    for pair in CLICK_PLURALS:
         message = known.get(pair)
-        catalog.add(pair, message.string if message else ("",), locations=[(COUNTED, 0)])
+        catalog.add(pair, message.string if message else ("",), locations=[(PLURALS, 0)])
     return catalog
 
 
 def _before(renamed: Mapping[str, str], marked: Collection[str]) -> dict[str, str]:
-    """Return the old text of each new one."""
+    """Return the old text of each new text."""
     unknown = [new for new in renamed.values() if new not in marked]
     still = [old for old in renamed if old in marked]
     if unknown or still:
         raise UsageError(
-            "the map of renamed texts does not fit the source: "
+            "the map of renamed texts does not match the source: "
             + "; ".join(
                 [f"{text!r} is not marked" for text in unknown]
                 + [f"{text!r} is still marked" for text in still]
@@ -127,16 +129,16 @@ def mo_bytes(catalog: Catalog) -> bytes:
 @click.option(
     "--renamed",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    help="A JSON object: the old English text of each text that was changed, and the new one.",
+    help="A JSON object with the old and the new English text of each changed text.",
 )
 def main(renamed: Path | None) -> None:
-    """Write every language's .po and .mo anew."""
+    """Write the .po and .mo files of every language."""
     texts: dict[str, str] = json.loads(renamed.read_text(encoding="utf-8")) if renamed else {}
     for lang in LANGUAGES:
         if lang == SOURCE:
             continue
         before = len([m for m in read(lang) if m.id and m.string])
-        catalog = gathered(lang, texts)
+        catalog = collect(lang, texts)
         path = po_path(lang)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(po_bytes(catalog))

@@ -1,4 +1,4 @@
-"""The command that marks an assignment's own solution, starter and mutants."""
+"""The command that tests an assignment with its solution, starter and mutants."""
 
 from __future__ import annotations
 
@@ -12,14 +12,18 @@ from grader.cli import options
 
 @click.command()
 @click.argument("assignment", metavar="[ASSIGNMENT]", required=False)
-@click.option("--static", is_flag=True, help="Only the mutants whose files decide them: no run.")
-@click.option("--workers", type=click.IntRange(min=1), help="How many are marked at once.")
-@click.option("--only", default="*", metavar="GLOB", help="Only the mutants with such a name.")
+@click.option(
+    "--static", is_flag=True, help="Only the mutants that the files alone decide; runs nothing."
+)
+@click.option(
+    "--workers", type=click.IntRange(min=1), help="The number of packages to mark at once."
+)
+@click.option("--only", default="*", metavar="GLOB", help="Only the mutants whose names match.")
 @click.option(
     "--json",
     "json_file",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="Write the matrix to this file as well.",
+    help="Also write the matrix to this file.",
 )
 @options.keys
 @options.one_distro
@@ -36,11 +40,11 @@ def validate(
     sandbox: str,
     limits: tuple[str, ...],
 ) -> int:
-    """Mark an assignment's own solution, starter and mutants: does it mark what it claims to?
+    """Test an assignment: mark its solution, starter and mutants, and check the verdicts.
 
     ASSIGNMENT is its id, or the path of an assignment.yaml (default: the course's only one).
 
-    Exit status: 0 everything is as expected, 1 something is not.
+    Exit status: 0 all verdicts are as expected, 1 otherwise.
     """
     from grader.course.find import assignment_file, own_keys  # noqa: PLC0415
     from grader.validate import matrix  # noqa: PLC0415
@@ -54,8 +58,8 @@ def validate(
     folder = keys or own_keys(file)
     if folder is None:
         raise UsageError(
-            f"it is not said where the solution of {order.assignment.id} is",
-            remedy="Name the instructor's folder of the assignment with --keys (make: KEYS=…).",
+            f"no folder is given for the solution of {order.assignment.id}",
+            remedy="Give the instructor's folder of the assignment with --keys (make: KEYS=…).",
         )
     wish = command.Wish(
         order=order,
@@ -65,7 +69,7 @@ def validate(
         workers=workers or 0,
         only=only,
     )
-    found = command.validate(wish, say=lambda text: click.echo(text, err=True))
+    found = command.validate(wish, notify=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))
     click.echo()
     click.echo(matrix.summary(found))

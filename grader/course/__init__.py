@@ -1,1 +1,1 @@
-"""Assignments as data: the model, its rules, its policy, and where a course is found."""
+"""Assignments: their model, rules, policy and loader, and how a course is found."""

@@ -1,6 +1,6 @@
-"""A course is a folder of lessons, each a folder with an assignment.yaml: which one is meant.
+"""Finds the course folder and the assignment in it; used by the commands, the guide and the lab.
 
-Everything that names an assignment finds it here: the graders' commands, the guide and the lab.
+A course is a folder of lessons; a lesson is a folder with an assignment.yaml.
 """
 
 from __future__ import annotations
@@ -12,20 +12,20 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.project import CHECKOUT, PACKAGE, SHARES
 
-COURSE = "GRADER_COURSE"  # names another course folder than our own
-LESSON = "GRADER_ASSIGNMENT"  # names the lesson that is meant; a lab sets it for what is in it
+COURSE = "GRADER_COURSE"  # the path of another course folder
+LESSON = "GRADER_ASSIGNMENT"  # the lesson to use; the lab sets it for its programs
 FILE = "assignment.yaml"
 KEYS = PACKAGE / "keys"
 
 
 def course_folder() -> Path:
-    """Return the course folder: $GRADER_COURSE, this checkout's, or the installed package's."""
+    """Return the course folder: $GRADER_COURSE, or the one that comes with the grader."""
     named = os.environ.get(COURSE)
     return Path(named) if named else own_course()
 
 
 def own_course() -> Path:
-    """Return the course that comes with the grader."""
+    """Return the course of this checkout or of the installed package."""
     places = [CHECKOUT / "lab" / "course", *(share / "course" for share in SHARES)]
     return next((place for place in places if place.is_dir()), places[0])
 
@@ -36,20 +36,20 @@ def lessons_of(course: Path) -> list[str]:
 
 
 def names_a_file(assignment: str) -> bool:
-    """Whether an --assignment is the path of a file, and not an id."""
+    """Whether an --assignment is a file's path and not an id."""
     return "/" in assignment or assignment.endswith((".yaml", ".yml"))
 
 
 def is_file(path: Path) -> bool:
-    """Whether there is a file, and one that this user may look at."""
-    return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises for a folder that is closed
+    """Whether the file exists and this user may access it."""
+    return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises PermissionError
 
 
 def chosen(assignment: str | None) -> str:
-    """Return the assignment that is meant, an id or the path of a file.
+    """Return the assignment to use, an id or a file's path.
 
-    That is the one of the command line, else $GRADER_ASSIGNMENT, else the course's only lesson.
-    UsageError, which lists the lessons, if the course has several or none.
+    It is the one of the command line, else $GRADER_ASSIGNMENT, else the course's only lesson.
+    Raises UsageError, with a list of the lessons, if the course has several or none.
     """
     named = assignment or os.environ.get(LESSON)
     if named:
@@ -63,8 +63,7 @@ def chosen(assignment: str | None) -> str:
     raise UsageError(
         say("there are several lessons in {course}", course=str(course)),
         remedy=say(
-            "Name the one that you mean with --assignment (make: ASSIGNMENT=…), or in "
-            "${variable}: {names}.",
+            "Choose one with --assignment (make: ASSIGNMENT=…) or with ${variable}: {names}.",
             variable=LESSON,
             names=", ".join(known),
         ),
@@ -72,10 +71,10 @@ def chosen(assignment: str | None) -> str:
 
 
 def assignment_file(assignment: str | None) -> Path:
-    """Return the file of an assignment: its id's in the course folder, or the path itself.
+    """Return the file of an assignment: the path itself, or the file of that id in the course.
 
-    UsageError, with what there is, for an id that the course does not have, and where none is
-    named and the course has not just one (see `chosen`).
+    Raises UsageError, with a list of the lessons, for an id that the course does not have and
+    if `chosen` finds none.
     """
     named = chosen(assignment)
     if names_a_file(named):
@@ -94,7 +93,7 @@ def assignment_file(assignment: str | None) -> Path:
             course=str(course),
         ),
         remedy=say(
-            "Assignments: {names}; or give a file's path. ${variable} names another course folder.",
+            "Assignments: {names}; or give a file's path. ${variable} sets another course folder.",
             names=", ".join(known),
             variable=COURSE,
         ),
@@ -103,23 +102,23 @@ def assignment_file(assignment: str | None) -> Path:
 
 def _no_course(course: Path) -> UsageError:
     path = str(course)
-    if not os.path.isdir(course):  # noqa: PTH112 - as is_file
+    if not os.path.isdir(course):  # noqa: PTH112 - see is_file
         return UsageError(
             say("there is no course folder {path}", path=path),
-            remedy=say("${variable} names the folder that holds the lessons.", variable=COURSE),
+            remedy=say("Set ${variable} to the folder that holds the lessons.", variable=COURSE),
         )
     lesson = is_file(course / FILE)
     return UsageError(
-        say("{path} is a lesson and not a course", path=path)
+        say("{path} is a lesson, not a course", path=path)
         if lesson
         else say("there is no lesson in the course folder {path}", path=path),
-        remedy=say("Name the folder above it in ${variable}.", variable=COURSE)
+        remedy=say("Set ${variable} to the folder above it.", variable=COURSE)
         if lesson
         else say("A lesson is a folder with an {file}.", file=FILE),
     )
 
 
 def own_keys(file: Path) -> Path | None:
-    """Return the instructor's folder of a lesson of our own course; None for another course's."""
+    """Return the instructor's folder of a lesson of our own course; None for other courses."""
     folder = file.resolve().parent
     return KEYS / folder.name if folder.parent == own_course().resolve() else None

@@ -1,4 +1,4 @@
-"""When a class must hand in, and what a score is worth after that: an assignment's `policy:`."""
+"""The `policy:` of an assignment: the deadline, and the penalty for late submissions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ AMOUNT = re.compile(r"(\d+(?:\.\d+)?)( ?%)?")
 
 
 def _as_text(value: object) -> object:
-    """Return a number as text: points need no quotes."""
+    """Return a number as text, so that YAML needs no quotes around points."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     return f"{value:g}" if is_number else value
 
@@ -29,9 +29,9 @@ class _Part(BaseModel):
 
 
 class Late(_Part):
-    """What each begun day (or hour) costs, and how much it can be in all.
+    """The penalty for each started day or hour; `most` is the largest penalty.
 
-    An amount is points, or a share of the maximum score: `10%`. From `until` on nothing is left.
+    An amount is points, or a share of the maximum score: `10%`. The score is 0 from `until` on.
     """
 
     per_day: Amount = ""
@@ -41,13 +41,13 @@ class Late(_Part):
 
 
 class Policy(_Part):
-    """The policy; one without a due date takes nothing.
+    """The policy; without a due date there is no penalty.
 
-    Who handed in nothing gets no grade unless `missing` is `zero`: nothing that was found is not
-    always nothing that was handed in.
+    A student without a submission gets no grade unless `missing` is `zero`, because a submission
+    that was not found may still exist.
 
-    A due date has its offset from UTC (`2026-11-20T23:59:00+09:00`), or counts in `time_zone`, a
-    name of the IANA time zone database.
+    A due date has its offset from UTC (`2026-11-20T23:59:00+09:00`) or is in `time_zone`, a name
+    of the IANA time zone database.
     """
 
     due: datetime | None = None
@@ -59,17 +59,17 @@ class Policy(_Part):
 
     @property
     def deadline(self) -> datetime | None:
-        """The due date as an instant (UTC)."""
+        """The due date in UTC."""
         return self._instant(self.due)
 
     @property
     def end(self) -> datetime | None:
-        """The instant (UTC) from which nothing is accepted any more."""
+        """The time (UTC) from which no submission is accepted."""
         return self._instant(self.late.until)
 
     @property
     def grace_seconds(self) -> float:
-        """Seconds after the due date that still count as in time."""
+        """Seconds after the due date without a penalty."""
         return duration(self.grace) or 0
 
     def _instant(self, value: datetime | None) -> datetime | None:
@@ -77,7 +77,7 @@ class Policy(_Part):
             return None
         if value.tzinfo is None:
             value = value.replace(tzinfo=ZoneInfo(self.time_zone))
-        # two times of one zone would be subtracted as the clocks on the wall show them
+        # Python subtracts two times of one zone without looking at changes of their UTC offset
         return value.astimezone(timezone.utc)
 
 
@@ -96,18 +96,21 @@ def amount(text: str, max_score: float) -> float | None:
 
 
 def policy_faults(policy: Policy) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """Yield what is wrong beyond types: the key's place, and the words."""
+    """Yield each fault that the types do not catch: the place of its key, and the message."""
     try:
         if policy.time_zone:
             ZoneInfo(policy.time_zone)
     except (ValueError, OSError, KeyError):
-        yield ("time_zone",), f"time_zone: there is no '{policy.time_zone}' (as in Asia/Seoul)"
+        yield (
+            ("time_zone",),
+            f"time_zone: unknown time zone '{policy.time_zone}' (a valid one: Asia/Seoul)",
+        )
         return
     places = {("due",): policy.due, ("late", "until"): policy.late.until}
     for place, instant in places.items():
         name = ".".join(place)
         if instant is not None and instant.tzinfo is None and not policy.time_zone:
-            yield place, f"{name} has no time zone: add +09:00, say, or a time_zone of its own"
+            yield place, f"{name} has no time zone: add an offset such as +09:00, or set time_zone"
             return
         if instant is not None and not 1 < instant.year < 9999:
             yield place, f"{name} is in the year {instant.year}"
@@ -120,8 +123,8 @@ def policy_faults(policy: Policy) -> Iterator[tuple[tuple[str | int, ...], str]]
         if text and amount(text, 100) is None:
             yield ("late", name), f"late.{name} must be points or a share such as 10%, not '{text}'"
     if late.per_day and late.per_hour:
-        yield ("late", "per_hour"), "late has both per_day and per_hour: give one"
+        yield ("late", "per_hour"), "late has both per_day and per_hour: keep one"
     if policy.deadline is None and (late.per_day or late.per_hour or late.until):
-        yield ("late",), "late costs something, but there is no due date"
+        yield ("late",), "late has a penalty, but there is no due date"
     if policy.deadline and policy.end and policy.end < policy.deadline:
         yield ("late", "until"), "late.until is before due"

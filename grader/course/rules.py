@@ -1,4 +1,4 @@
-"""What an assignment must be, beyond its types: each rule with the place that breaks it."""
+"""The rules of an assignment that its types do not express, with the line that breaks a rule."""
 
 from __future__ import annotations
 
@@ -16,18 +16,20 @@ from grader.base.positioned_yaml import Document, Loc
 from grader.course.assignment import Assignment, CheckUse, Output
 from grader.course.policy import Late, Policy, policy_faults
 
-Complaint = tuple[Loc, str]
-Pair = tuple[str, str]
+Fault = tuple[Loc, str]  # the place in the document, and the message
 
 # REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
-NAMES: dict[str, Pair] = {
-    "id": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, a letter first"),
-    "package": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, a letter first"),
-    "node_name": (r"[A-Za-z_][A-Za-z0-9_]*", "letters, digits and _, no digit first"),
-    "executable": (r"[A-Za-z_][A-Za-z0-9_.-]*", "letters, digits, _, - and ., a letter first"),
+NAMES = {  # key: its pattern, and the pattern in words
+    "id": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
+    "package": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
+    "node_name": (r"[A-Za-z_][A-Za-z0-9_]*", "letters, digits and _, not starting with a digit"),
+    "executable": (
+        r"[A-Za-z_][A-Za-z0-9_.-]*",
+        "letters, digits, _, - and ., starting with a letter",
+    ),
     "node_file": (
         r"[A-Za-z_][A-Za-z0-9_]*\.py",
-        "the bare name of a Python module's file, such as my_node.py",
+        "the name of a Python file without a folder, such as my_node.py",
     ),
     "target": (
         r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*",
@@ -46,7 +48,7 @@ TYPES = {
 
 
 class HiddenChecks(BaseModel):
-    """The file of the instructor's side."""
+    """The instructor's file of hidden checks."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -56,40 +58,40 @@ class HiddenChecks(BaseModel):
 def check_content(
     document: Document, *, known_checks: Sequence[str], known_limits: Sequence[str] | None
 ) -> Assignment:
-    """Return the assignment that the document describes; AssignmentError names all its faults."""
+    """Return the assignment in a document; AssignmentError lists all faults."""
     content = document.content
     if isinstance(content, dict) and "sha256" in content:
         raise document.error(("sha256",), "unknown key 'sha256'")
     try:
         assignment = Assignment.model_validate(content, strict=True)
     except ValidationError as error:
-        raise _all_of(document, _complaints(error, Assignment)) from None
+        raise _error_of(document, _type_faults(error, Assignment)) from None
     found = [
         *_names(assignment),
         *_output(assignment.output),
         *_limits(assignment.limits, known_limits),
-        *_uses(assignment.checks, known_checks),
+        *_check_uses(assignment.checks, known_checks),
         *(
             (("policy", *place), f"policy.{text}")
             for place, text in policy_faults(assignment.policy)
         ),
     ]
     if found:
-        raise _all_of(document, found)
+        raise _error_of(document, found)
     return assignment
 
 
 def merge_hidden(
     assignment: Assignment, document: Document, hidden: Document, *, known_checks: Sequence[str]
 ) -> Assignment:
-    """Return the assignment with the hidden checks after the visible ones."""
+    """Return the assignment with the hidden checks added after the visible ones."""
     try:
         extra = HiddenChecks.model_validate(hidden.content, strict=True).checks
     except ValidationError as error:
-        raise _all_of(hidden, _complaints(error, HiddenChecks)) from None
-    found = list(_uses(extra, known_checks, taken=[use.id for use in assignment.checks]))
+        raise _error_of(hidden, _type_faults(error, HiddenChecks)) from None
+    found = list(_check_uses(extra, known_checks, taken=[use.id for use in assignment.checks]))
     if found:
-        raise _all_of(hidden, found)
+        raise _error_of(hidden, found)
     if len(extra) != assignment.hidden_checks:
         raise document.error(
             ("hidden_checks",),
@@ -105,15 +107,15 @@ def _as_hidden(use: CheckUse) -> CheckUse:
     return CheckUse(id=use.id, points=use.points, visibility="hidden")
 
 
-def _all_of(document: Document, complaints: Iterable[Complaint]) -> AssignmentError:
-    rows = {(document.line(loc), text) for loc, text in complaints}
+def _error_of(document: Document, faults: Iterable[Fault]) -> AssignmentError:
+    rows = {(document.line(loc), text) for loc, text in faults}
     return AssignmentError(
         "\n".join(f"{document.path}:{line}: {text}" for line, text in sorted(rows))
     )
 
 
-def _complaints(error: ValidationError, model: type[BaseModel]) -> Iterator[Complaint]:
-    """Yield pydantic's errors in our words; a misspelt key is not told as a missing one as well."""
+def _type_faults(error: ValidationError, model: type[BaseModel]) -> Iterator[Fault]:
+    """Yield pydantic's errors in our words; a misspelt key is not reported as missing too."""
     known = _keys(model)
     meant: set[Loc] = set()
     rest = []
@@ -170,12 +172,12 @@ def _shown(value: Any) -> str:
 
 
 def _shape(loc: Loc) -> Loc:
-    """Return a place without its positions: all members of a list have the same keys."""
+    """Return a place with `*` for each index: all members of a list have the same keys."""
     return tuple("*" if isinstance(part, int) else part for part in loc)
 
 
 def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:
-    """Return the keys that are known at each place."""
+    """Return the known keys of each place."""
     own = tuple(f.alias or name for name, f in model.model_fields.items() if name != "sha256")
     keys: dict[Loc, tuple[str, ...]] = {(): own, ("checks", "*"): tuple(CheckUse.model_fields)}
     if "output" in own:
@@ -185,7 +187,7 @@ def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:
     return keys
 
 
-def _names(assignment: Assignment) -> Iterator[Complaint]:
+def _names(assignment: Assignment) -> Iterator[Fault]:
     for key, (pattern, words) in NAMES.items():
         value = str(getattr(assignment, key))
         if not re.fullmatch(pattern, value, re.ASCII):
@@ -194,24 +196,24 @@ def _names(assignment: Assignment) -> Iterator[Complaint]:
         parts = re.split(r"[.:]", value.removesuffix(".py"))
         reserved = [part for part in parts if keyword.iskeyword(part)]
         if reserved and key in ("package", "node_file", "target"):
-            yield (key,), f"{key}: '{reserved[0]}' is a reserved word of Python"
+            yield (key,), f"{key}: '{reserved[0]}' is a Python keyword"
     if assignment.package == "test":
         yield ("package",), "package: an ament_python package cannot be named 'test'"
     if not assignment.title.strip():
         yield ("title",), "title is empty"
 
 
-def _output(output: Output) -> Iterator[Complaint]:
+def _output(output: Output) -> Iterator[Fault]:
     count = output.text.count("{n}")
     if count != 1:
-        yield ("output", "text"), f"output.text must hold {{n}} exactly once, not {count} times"
+        yield ("output", "text"), f"output.text must contain {{n}} exactly once, not {count} times"
     if not output.text.isprintable():
         yield ("output", "text"), "output.text must be one line, without control characters"
     if output.step == 0:
         yield ("output", "step"), "output.step must not be 0: every line would be the same"
 
 
-def _limits(limits: dict[str, float], known: Sequence[str] | None) -> Iterator[Complaint]:
+def _limits(limits: dict[str, float], known: Sequence[str] | None) -> Iterator[Fault]:
     for name, value in limits.items():
         if known is not None and name not in known:
             close = difflib.get_close_matches(name, known, n=1)
@@ -221,11 +223,11 @@ def _limits(limits: dict[str, float], known: Sequence[str] | None) -> Iterator[C
             yield ("limits", name), f"limits.{name} must be a number above 0, not {value:g}"
 
 
-def _uses(
+def _check_uses(
     uses: Sequence[CheckUse], known: Sequence[str], taken: Sequence[str] = ()
-) -> Iterator[Complaint]:
+) -> Iterator[Fault]:
     if not uses and not taken:
-        yield ("checks",), "checks is empty: an assignment needs at least one"
+        yield ("checks",), "checks is empty: an assignment needs at least one check"
     seen = set(taken)
     for i, use in enumerate(uses):
         if use.id not in known:
@@ -233,5 +235,5 @@ def _uses(
             hint = f" (did you mean '{close[0]}'?)" if close else f"; known: {', '.join(known)}"
             yield ("checks", i, "id"), f"unknown check '{use.id}'{hint}"
         elif use.id in seen:
-            yield ("checks", i, "id"), f"the check '{use.id}' is there twice"
+            yield ("checks", i, "id"), f"the check '{use.id}' is listed twice"
         seen.add(use.id)

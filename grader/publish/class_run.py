@@ -28,7 +28,7 @@ from grader.batch.work import Job, Pool
 from grader.publish.class_table import changes_of, class_page, regrade_page
 from grader.publish.outputs import INDEX, Outcome, Outputs
 from grader.publish.written import raise_failures
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 
 MOST_A_CORE = 2  # workers, while cores have nothing to do
 
@@ -71,7 +71,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
         system=asked.system,
         roster=asked.roster,
         accepts=asked.accepts,
-        say=_say,
+        notify=_notify,
     )
     ended: KeyboardInterrupt | SurroundingsError | None = None
     with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
@@ -82,7 +82,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
                 chosen = None if asked.regrade else _chosen(asked.students, plan)
                 if dry_run:
                     count = len(plan.items if chosen is None else chosen)
-                    _say(f"a regrade would mark {count} again")
+                    _notify(f"a regrade would mark {count} again")
                 else:
                     plan = run.ask_regrade(ledger, plan, chosen)
             _say_plan(plan)
@@ -99,7 +99,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
             except (KeyboardInterrupt, SurroundingsError) as why:
                 ended = why
         result = result_now()
-        written = outputs.write(result, say=_say)
+        written = outputs.write(result, notify=_notify)
         _show(result, plan, ledger, asked, written)
         status = _status(result)
     if ended is not None:
@@ -114,9 +114,9 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
 
 def _say_ended(ended: KeyboardInterrupt | SurroundingsError, written: Outcome) -> None:
     for failure in written.failures:
-        _say(str(failure))
+        _notify(str(failure))
     if isinstance(ended, KeyboardInterrupt):
-        _say("interrupted: what was marked is kept, and the same command goes on from there")
+        _notify("interrupted: what was marked is kept, and the same command goes on from there")
 
 
 def _result(
@@ -140,7 +140,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
     """Open what marks: workers on this machine, or those of a cluster."""
     order = asked.order
     if not asked.scheduler:
-        setting = run.prove(order, say=_say)
+        setting = run.prove(order, notify=_notify)
         cores = run.cores_here()
         most = asked.workers or MOST_A_CORE * cores
         yield setting, LocalPool(setting.job, asked.workers or cores, most=most)
@@ -148,7 +148,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
     from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
 
     job = Job(order.assignment, order.distro.name, order.sandbox, order.limits, order.lang)
-    with Cluster(asked.scheduler, job, say=_say) as cluster:
+    with Cluster(asked.scheduler, job, notify=_notify) as cluster:
         setting = run.Setting(
             assignment=order.assignment,
             distro=order.distro,
@@ -172,8 +172,8 @@ def _say_faults(result: ClassResult) -> None:
         who, it = (
             ("1 submission was", "it") if count == 1 else (f"{count} submissions were", "them")
         )
-        _say(f"{who} not marked: the grader failed on {it}, try by try, and works without {it}")
-        _say("the reasons are in the gradebook's notes; the same command tries again")
+        _notify(f"{who} not marked: the grader failed on {it}, try by try, and works without {it}")
+        _notify("the reasons are in the gradebook's notes; the same command tries again")
 
 
 def _status(result: ClassResult) -> int:
@@ -185,7 +185,7 @@ def _status(result: ClassResult) -> int:
 def _say_plan(plan: run.Plan) -> None:
     again = sum((item.student, item.key) in plan.regrades for item in plan.todo)
     words = f"{len(plan.todo)} to mark" + (f" ({again} again)" if again else "")
-    _say(f"{words}, {plan.marked} marked before")
+    _notify(f"{words}, {plan.marked} marked before")
 
 
 def _show(
@@ -203,10 +203,10 @@ def _show(
     _print(f"page       {asked.out / INDEX}")
     _print(f"gradebook  {asked.out / GRADEBOOK}")
     if written.state == "unchanged":
-        _say("nothing has changed since these were written")
+        _notify("nothing has changed since these were written")
 
 
-def _say(text: str) -> None:
+def _notify(text: str) -> None:
     _write(sys.stderr, text)
 
 

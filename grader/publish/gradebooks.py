@@ -39,12 +39,12 @@ def write_outputs(
     canvas: CanvasGradebook | None = None,
     canvas_column: str = "",
     show_hidden: bool = False,
-    say: Callable[[str], None] | None = None,
+    notify: Callable[[str], None] | None = None,
 ) -> Written:
     """Write the files of a class below `out` (made if it is not there) and return their paths.
 
     `worksheet` and `canvas` are the teacher's own files, of which filled copies are made; what
-    could not be filled in is told to `say`. What fails is in `failures`: UsageError for a teacher's
+    could not be filled in is told to `notify`. What fails is in `failures`: UsageError for a teacher's
     file that cannot be used so, SurroundingsError if the folder cannot be written. The files may
     reach the disk a while later.
     """
@@ -64,10 +64,10 @@ def write_outputs(
         made[CANVAS] = lambda: Filled(new_gradebook(result, title=canvas_column))
     for name, make in made.items():
         with written.going_on():
-            _write(out, "", name, make(), written, say)
+            _write(out, "", name, make(), written, notify)
     for name, page in _feedback(result, show_hidden=show_hidden):
         with written.going_on():
-            _write(out, FEEDBACK, name, Filled(page()), written, say)
+            _write(out, FEEDBACK, name, Filled(page()), written, notify)
     return written
 
 
@@ -99,7 +99,7 @@ def _write(
     name: str,
     made: Filled,
     written: Written,
-    say: Callable[[str], None] | None,
+    notify: Callable[[str], None] | None,
 ) -> None:
     """Write one file into `out`, or into a folder of ours in it."""
     try:
@@ -113,6 +113,6 @@ def _write(
     except OSError as error:
         raise could_not_write(error, out, what=folder or name) from error
     written.files.append(out / folder / name)
-    if say is not None:
+    if notify is not None:
         for warning in made.warnings:
-            say(warning)
+            notify(warning)

@@ -64,7 +64,7 @@ class Outputs:
         rest = [one for one in found if one.key not in corrected and one.key not in but]
         refuse_lower(rest, self.accepts, marked=marked)
 
-    def write(self, result: ClassResult, *, say: Callable[[str], None]) -> Outcome:
+    def write(self, result: ClassResult, *, notify: Callable[[str], None]) -> Outcome:
         """Write everything that can be written, unless it is there or a grade would go down."""
         if self._are_there(result):
             return Outcome("unchanged")
@@ -72,7 +72,7 @@ class Outputs:
             self.refuse_lower(result, marked=True)
         except UsageError as error:
             return Outcome("refused", (error,))
-        return Outcome("written", tuple(self._write(result, say=say)))
+        return Outcome("written", tuple(self._write(result, notify=notify)))
 
     def _are_there(self, result: ClassResult) -> bool:
         noted = self._noted()
@@ -80,7 +80,7 @@ class Outputs:
             return False
         return all(Path(file).exists() for file in noted["files"])
 
-    def _write(self, result: ClassResult, *, say: Callable[[str], None]) -> list[Exception]:
+    def _write(self, result: ClassResult, *, notify: Callable[[str], None]) -> list[Exception]:
         # until all is written it is not known what is there: a run may be killed meanwhile
         begun = {name: value for name, value in self._noted().items() if name == "at"}
         self.ledger.note(self._name, json.dumps(begun))
@@ -95,7 +95,7 @@ class Outputs:
             canvas=self.known.sheets.canvas,
             canvas_column=self.sheets.canvas_column,
             show_hidden=self.sheets.show_hidden,
-            say=say,
+            notify=notify,
         )
         with written.going_on():
             written.files.append(write_site(result, self.out))

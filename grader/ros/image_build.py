@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 import grader
-from grader.base.cache import Say
+from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.project import CHECKOUT, SHARES
 from grader.ros.distro import Distro
@@ -58,7 +58,7 @@ def build_image(
     stage: Stage,
     base: Base,
     network: Network,
-    say: Say,
+    notify: Notify,
 ) -> str:
     """Build an image (and its wheels base), tag it, and return its id.
 
@@ -72,12 +72,12 @@ def build_image(
             )
         under = image_name(distro, "base", "wheels")
         build = {**arguments, "WHEELS_BASE": network.wheels_base}
-        _build(client, "docker/wheels.Dockerfile", "wheels", under, build, network, say)
+        _build(client, "docker/wheels.Dockerfile", "wheels", under, build, network, notify)
         arguments |= {"BASE": under, "ROS": "wheels"}
     else:
         arguments |= {"BASE": network.ros_base or distro.pinned_image, "ROS": "image"}
     name = image_name(distro, stage, base)
-    return _build(client, "docker/Dockerfile", stage, name, arguments, network, say)
+    return _build(client, "docker/Dockerfile", stage, name, arguments, network, notify)
 
 
 def _build(
@@ -87,11 +87,11 @@ def _build(
     name: str,
     arguments: dict[str, str],
     network: Network,
-    say: Say,
+    notify: Notify,
 ) -> str:
     import docker.errors  # noqa: PLC0415
 
-    say(f"building {name} (the first time takes a few minutes)")
+    notify(f"building {name} (the first time takes a few minutes)")
     tail: list[str] = []
     try:
         with tempfile.TemporaryFile() as context:
@@ -112,7 +112,7 @@ def _build(
                 tail = [*tail[1 - TAIL :], text]
                 step = STEP.match(text)
                 if step:
-                    say(f"  {step.group(1)} {step.group(2)} {step.group(3)[:70]}".rstrip())
+                    notify(f"  {step.group(1)} {step.group(2)} {step.group(3)[:70]}".rstrip())
         return str(client.images.get(name).id)
     except _BuildError as error:
         raise _failed(name, str(error), tail, arguments) from None

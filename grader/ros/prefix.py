@@ -21,7 +21,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.base.cache import Say, cache_root, discard, make_once
+from grader.base.cache import Notify, cache_root, discard, make_once
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
 from grader.ros.distro import HERE, Distro
@@ -80,7 +80,7 @@ def base_interpreter() -> Path:
     return Path(sys.executable).resolve()
 
 
-def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
+def find_ros(distro: Distro, *, prove: Prove, notify: Notify = print) -> Ros:
     """Return the ROS installation for a distro; make and test the wheels prefix if necessary.
 
     $GRADER_ROS selects `wheels`, `system` (an existing /opt/ros/<distro>) or `auto` (the system's
@@ -101,7 +101,7 @@ def find_ros(distro: Distro, *, prove: Prove, say: Say = print) -> Ros:
     # a symlink belongs to the `account` sandbox, which removes it again
     if choice in ("auto", "wheels") and is_wheels and not system.is_symlink():
         return _wheels(distro, system, (system / "bin" / "python3").resolve())  # in an image
-    return _wheels(distro, wheels_prefix(distro, prove=prove, say=say), base_interpreter())
+    return _wheels(distro, wheels_prefix(distro, prove=prove, notify=notify), base_interpreter())
 
 
 def prefix_path(distro: Distro) -> Path:
@@ -134,18 +134,18 @@ def prefix_path(distro: Distro) -> Path:
     return _prefixes() / f"{distro.name}-{tag}-{key.hexdigest()[:16]}"
 
 
-def wheels_prefix(distro: Distro, *, prove: Prove, say: Say = print) -> Path:
+def wheels_prefix(distro: Distro, *, prove: Prove, notify: Notify = print) -> Path:
     """Return the wheels prefix of a distro; make and test it if it is not in the cache.
 
     Raises BrokenRosError if a program does not run even after the prefix was made twice.
     """
     folder = prefix_path(distro)
     if folder.is_dir() and not _is_complete(folder):
-        discard(folder, unless=_is_complete, say=say)
+        discard(folder, unless=_is_complete, notify=notify)
     if not folder.is_dir():
-        say(Message(MAKING, {"distro": distro.name}))
-        make_once(folder, lambda staging: _make(distro, staging, prove, say), say=say)
-        say(Message(READY, {"distro": distro.name, "path": str(folder)}))
+        notify(Message(MAKING, {"distro": distro.name}))
+        make_once(folder, lambda staging: _make(distro, staging, prove, notify), notify=notify)
+        notify(Message(READY, {"distro": distro.name, "path": str(folder)}))
     return folder
 
 
@@ -163,22 +163,22 @@ def _is_complete(folder: Path) -> bool:
     return all(os.access(folder / "bin" / name, os.X_OK) for name in PROGRAMS)
 
 
-def _make(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
+def _make(distro: Distro, staging: Path, prove: Prove, notify: Notify) -> None:
     try:
-        _make_and_prove(distro, staging, prove, say)
+        _make_and_prove(distro, staging, prove, notify)
     except BrokenRosError as broken:
-        say(Message(MAKING_AGAIN, {"reason": broken.message}))
+        notify(Message(MAKING_AGAIN, {"reason": broken.message}))
         for entry in staging.iterdir():
             if entry.is_dir() and not entry.is_symlink():
                 shutil.rmtree(entry)
             else:
                 entry.unlink()
-        _make_and_prove(distro, staging, prove, say)
+        _make_and_prove(distro, staging, prove, notify)
 
 
-def _make_and_prove(distro: Distro, staging: Path, prove: Prove, say: Say) -> None:
+def _make_and_prove(distro: Distro, staging: Path, prove: Prove, notify: Notify) -> None:
     interpreter = base_interpreter()
-    make_prefix(distro, staging, interpreter, say=say)
+    make_prefix(distro, staging, interpreter, notify=notify)
     prove(_wheels(distro, staging, interpreter))
 
 

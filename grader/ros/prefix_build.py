@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from grader.base.cache import Say
+from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
 from grader.ros.distro import HERE, Distro
@@ -29,13 +29,13 @@ CHECK_NETWORK = msg(
 )
 
 
-def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, say: Say) -> None:
+def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, notify: Notify) -> None:
     """Make the wheels prefix of a distro in an empty folder, for this base interpreter.
 
     Raises SurroundingsError if pip cannot install the wheels.
     """
     python = f"{sys.version_info.major}.{sys.version_info.minor}"
-    _install(distro, staging, say)
+    _install(distro, staging, notify)
     site = staging / "lib" / f"python{python}" / "site-packages"
     if not (site / "rclpy").is_dir():
         raise SurroundingsError(f"pip did not install rclpy into {site}")
@@ -56,7 +56,7 @@ def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, say: Say) -
     (staging / "wheels-prefix.json").write_text(json.dumps(versions, indent=1), encoding="utf-8")
 
 
-def _install(distro: Distro, staging: Path, say: Say) -> None:
+def _install(distro: Distro, staging: Path, notify: Notify) -> None:
     lock = distro.lock
     assert lock is not None
     total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
@@ -77,9 +77,9 @@ def _install(distro: Distro, staging: Path, say: Say) -> None:
             if line.startswith("Collecting "):
                 seen += 1
                 if seen % 25 == 0:
-                    say(Message(PROGRESS, {"seen": seen, "total": total}))
+                    notify(Message(PROGRESS, {"seen": seen, "total": total}))
             elif line.startswith("Installing collected"):
-                say(Message(UNPACKING))
+                notify(Message(UNPACKING))
     if pip.returncode:
         raise SurroundingsError(
             Message(PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),

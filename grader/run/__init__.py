@@ -1,1 +1,1 @@
-"""Builds and runs one package in a sandbox, and observes it."""
+"""Builds and runs one package in a sandbox, and observes the node."""

@@ -1,8 +1,8 @@
 """Virtual time: the node runs with `use_sim_time`, and this module drives its `/clock`.
 
-The loop is closed: after each `/clock` message a barrier proves that the node has done what was
-due (two round trips to its parameter service, docs/architecture.md), so the period is measured exactly,
-however busy the machine is. Nodes that do not follow `/clock` are watched on the wall clock.
+After each `/clock` message a barrier proves that the node has run the callbacks that were due (two
+round trips to its parameter service, docs/architecture.md). The measured period is therefore exact
+on a busy machine too. Nodes that do not follow `/clock` are watched on the wall clock.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from grader.run.observer import SECOND, Event, Observer, Watch
 
 MILLISECOND = 1_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier
-SETTLE_SECONDS = 2.5  # wall time in which a node that spins answers for the first time
-SLOW_BARRIER = 0.2  # seconds of wall time after which the next tick itself is answer enough
-UNANSWERED = 5  # barriers in a row after which a node that did answer has stopped to
-TRIES, TRY_SECONDS = 12, 0.5  # a tick is missing after that many barriers and that much wall time
-GRID = 20  # steps a period when the period has to be found out
+SETTLE_SECONDS = 2.5  # wall time within which a spinning node gives its first answer
+SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record ends the next ones
+UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
+TRIES, TRY_SECONDS = 12, 0.5  # barriers and wall time after which a tick is missing
+GRID = 20  # steps per period while the actual period is measured
 WALL_TICKS = 5
-WALL_SPARE = 3.0  # seconds of wall time beyond the ticks' own
-STILL = 1.3  # periods of wall time for which the clock stands still to unmask a wall clock
+WALL_SPARE = 3.0  # seconds of wall time in addition to the ticks'
+STILL = 1.3  # periods of wall time without a /clock message, to detect a wall clock
 
 
 class VirtualClock:
-    """Drives `/clock` for one node and watches what comes when."""
+    """Drives `/clock` for one node and records which lines come when."""
 
     def __init__(
         self, observer: Observer, output: Output, *, deadline: float, fine: bool = False
@@ -37,7 +37,7 @@ class VirtualClock:
         self._fine = fine
         self._observer = observer
         self._output = output
-        self._deadline = deadline  # of time.monotonic()
+        self._deadline = deadline  # by time.monotonic()
         self._at = 0
         self._before = 0
         self._unanswered = 0
@@ -46,25 +46,25 @@ class VirtualClock:
         self._due_at = -1
         self._period = round(output.period * SECOND)
 
-    def drive(self, watch: Watch, tell: Callable[[Event], None]) -> None:
-        """Fill `watch`: N due instants, nothing a millisecond before, one tick at each."""
+    def drive(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
+        """Fill `watch`: check that one tick comes at each due instant and none 1 ms before it."""
         if not self._settle(watch):
             if self._over():
                 return
             watch.note = say("the node does not answer: it is not spinning")
-            self._watch_wall(watch, tell)
+            self._watch_wall(watch, on_event)
             if watch.counted or not self._settle(watch):
                 return
         watch.clock = "virtual"
         began = time.monotonic()
-        if not self._at_due_instants(watch, self._period, tell):
-            self._find_period(watch, tell)
+        if not self._at_due_instants(watch, self._period, on_event):
+            self._find_period(watch, on_event)
         promptly = time.monotonic() - began < 0.5 * self._output.period * len(watch.dues)
         if watch.missing or watch.early or not promptly:
-            self._unmask(watch, tell)
+            self._unmask(watch, on_event)
 
     def _settle(self, watch: Watch) -> bool:
-        """Start the clock at 1 ms and return whether the node answers: then it spins."""
+        """Start the clock at 1 ms; return whether the node answers, that is, whether it spins."""
         deadline = time.monotonic() + SETTLE_SECONDS
         while True:
             events, barrier = self._step(MILLISECOND, seconds=SETTLE_SECONDS / 10)
@@ -74,8 +74,8 @@ class VirtualClock:
                 watch.settled = watch.settled or bool(barrier)
                 return watch.settled
 
-    def _at_due_instants(self, watch: Watch, phase: int, tell: Callable[[Event], None]) -> bool:
-        """Watch the due instants from `phase` on; return whether each had its tick, and no other."""
+    def _at_due_instants(self, watch: Watch, phase: int, on_event: Callable[[Event], None]) -> bool:
+        """Watch the due instants from `phase` on; return whether ticks came at these only."""
         already = len(watch.dues)
         for k in range(already, self._output.ticks):
             due = phase + (k - already) * self._period
@@ -87,7 +87,7 @@ class VirtualClock:
             watch.dues.append(due / SECOND)
             watch.events += found
             for event in found:
-                tell(event)
+                on_event(event)
             if not found:
                 watch.missing.append(k)
             if not found or watch.early or self._over():
@@ -95,8 +95,9 @@ class VirtualClock:
         return True
 
     def _go_to(self, at: int) -> list[Event]:
-        """Set the clock to an instant, in one step or, if fine, in many: a node that has faster
-        timers beside (or under) the count loses some of their ticks when the clock jumps.
+        """Set the clock to an instant, in one step or, if `fine`, in many.
+
+        A node with faster timers loses some of their ticks when the clock jumps.
         """
         events: list[Event] = []
         if self._fine:
@@ -107,7 +108,7 @@ class VirtualClock:
         return events + self._step(at)[0]
 
     def _wait_for_tick(self, due: int, k: int) -> list[Event]:
-        """Step to a due instant and return what came; [] only after enough barriers and time."""
+        """Step to a due instant and return the events; [] only after enough barriers and time."""
         began = time.monotonic()
         found: list[Event] = []
         for attempt in range(10 * TRIES):
@@ -115,15 +116,15 @@ class VirtualClock:
             found += [event if event.due is not None else replace(event, due=k) for event in events]
             if any(event.n is not None for event in found):
                 break
-            enough = TRIES / 4 if found else TRIES  # another line has come: is it the tick?
+            enough = TRIES / 4 if found else TRIES  # (another line came; the tick may follow)
             if attempt >= enough and (found or time.monotonic() - began > TRY_SECONDS):
                 break
             if self._over():
                 break
         return found
 
-    def _find_period(self, watch: Watch, tell: Callable[[Event], None]) -> None:
-        """Find out at which instants the ticks do come: small steps, then exactly if it is P."""
+    def _find_period(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
+        """Measure the period in small steps; if it is right, check the phase to 1 ms."""
         step = max(self._period // GRID, MILLISECOND)
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
@@ -134,7 +135,7 @@ class VirtualClock:
             watch.events += events
             ticks = [event for event in events if event.n is not None] or events
             for event in ticks:
-                tell(event)
+                on_event(event)
             fresh += [event.virtual for event in ticks]
         instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))
         if len(instants) > 1:
@@ -142,12 +143,12 @@ class VirtualClock:
             watch.period = statistics.median(gaps)
             tolerance = step / SECOND * 1.01
             if all(abs(gap - self._output.period) <= tolerance for gap in gaps) and len(fresh) > 2:
-                self._verify_phase(watch, round(instants[-1] * SECOND), step, tell)
+                self._verify_phase(watch, round(instants[-1] * SECOND), step, on_event)
 
     def _verify_phase(
-        self, watch: Watch, last: int, step: int, tell: Callable[[Event], None]
+        self, watch: Watch, last: int, step: int, on_event: Callable[[Event], None]
     ) -> None:
-        """The period may be right and only begun later: find the phase to 1 ms and ask again."""
+        """Find the phase to 1 ms and check the due instants again: the timer may be late."""
         events, _ = self._step(last + self._period - step)
         watch.events += events
         at = self._at
@@ -159,13 +160,13 @@ class VirtualClock:
             return
         kept = (watch.early, watch.missing, watch.dues)
         watch.early, watch.missing, watch.dues = [], [], []
-        if self._at_due_instants(watch, at + self._period, tell):
+        if self._at_due_instants(watch, at + self._period, on_event):
             watch.period = self._output.period
         else:
             watch.early, watch.missing, watch.dues = kept
 
-    def _unmask(self, watch: Watch, tell: Callable[[Event], None]) -> None:
-        """Let the clock stand still: what comes now follows the wall clock."""
+    def _unmask(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
+        """Stop the clock for a while: lines that still come follow the wall clock."""
         deadline = min(self._deadline, time.monotonic() + STILL * self._output.period)
         still: list[Event] = []
         while time.monotonic() < deadline and not self._observer.over:
@@ -174,11 +175,11 @@ class VirtualClock:
         if any(event.n is not None for event in still) or (still and not watch.dues):
             watch.note = say("lines came while the ROS clock stood still")
             watch.period = None
-            self._watch_wall(watch, tell)
+            self._watch_wall(watch, on_event)
 
-    def _watch_wall(self, watch: Watch, tell: Callable[[Event], None]) -> None:
-        """Watch a node that does not follow `/clock`: a fixed number of ticks by their stamps."""
-        watch_wall(self._observer, self._output, watch, tell, deadline=self._deadline)
+    def _watch_wall(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
+        """Watch a node that does not follow `/clock`."""
+        watch_wall(self._observer, self._output, watch, on_event, deadline=self._deadline)
 
     def _step(
         self,
@@ -188,7 +189,7 @@ class VirtualClock:
         until_log: bool = False,
         seconds: float = BARRIER_SECONDS,
     ) -> tuple[list[Event], bool | None]:
-        """Set the clock, make the barrier, and return what has come."""
+        """Set the clock, make the barrier, and return the new events and the barrier's result."""
         self._at = max(at, self._at)
         observer = self._observer
         observer.now = self._at / SECOND
@@ -198,7 +199,7 @@ class VirtualClock:
         self._slow = self._slow or time.time() - published > SLOW_BARRIER
         events = observer.take(answer, seconds=0.02 if wait else 0)
         events += observer.catch_up(answer.logs)
-        events = self._where_they_belong(events, published)
+        events = self._at_their_instants(events, published)
         silent = answer.barrier is False and not events
         self._unanswered = self._unanswered + 1 if silent else 0
         self._before = self._at
@@ -206,8 +207,8 @@ class VirtualClock:
             raise ForeignClock(events)
         return events, answer.barrier
 
-    def _where_they_belong(self, events: list[Event], published: float) -> list[Event]:
-        """Give what was logged before this step's clock message to the instant before."""
+    def _at_their_instants(self, events: list[Event], published: float) -> list[Event]:
+        """Assign events from before this step's clock message to the previous instant."""
         due = self._due if self._before == self._due_at else None
         return [
             replace(event, virtual=self._before / SECOND, due=due)
@@ -222,7 +223,7 @@ class VirtualClock:
 
 
 class ForeignClock(Exception):  # noqa: N818
-    """Somebody else publishes `/clock` too: it measures nothing then."""
+    """Another node publishes `/clock` too, so that virtual time measures nothing."""
 
     def __init__(self, events: list[Event]) -> None:
         super().__init__("foreign clock")
@@ -233,11 +234,11 @@ def watch_wall(
     observer: Observer,
     output: Output,
     watch: Watch,
-    tell: Callable[[Event], None],
+    on_event: Callable[[Event], None],
     *,
     deadline: float,
 ) -> None:
-    """Watch a fixed number of ticks on the wall clock; the period is the median of their stamps."""
+    """Watch a fixed number of ticks on the wall clock; the period is the median of the gaps."""
     watch.clock = "wall"
     watch.dues, watch.missing, watch.early = [], [], []
     end = min(deadline, time.monotonic() + (WALL_TICKS + 1) * output.period + WALL_SPARE)
@@ -247,7 +248,7 @@ def watch_wall(
         events = observer.take(observer.probe.ask("wait", seconds=0.05))
         watch.events += events
         for event in events:
-            tell(event)
+            on_event(event)
     watch.events += observer.settle()
     watch.events.sort(key=lambda event: event.wall)
     stamps = [event.wall for event in watch.counted]

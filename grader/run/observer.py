@@ -1,4 +1,4 @@
-"""What a run put out: the terminal's lines and ROS's log records brought together as events."""
+"""The output of a run: lines of the terminal and ROS log records, merged into events."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from grader.run.probe_link import Answer, LogRecord, NodeSeen, ProbeLink
 from grader.run.terminal import Line, Terminal
 
 SECOND = 1_000_000_000
-GRACE = 0.1  # seconds of wall time for a log record to arrive after its line on the terminal
-LATE_GRACE = 1.0  # the same for what was logged before the probe had found the node
-PREFIX = 60  # bytes, about, that a log record has on a terminal beside its text
+GRACE = 0.1  # seconds of wall time within which a log record follows its line on the terminal
+LATE_GRACE = 1.0  # the same for records from before the probe had discovered the node
+PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
 Source = Literal["logger", "print", "faked"]
 
 
 @dataclass(frozen=True)
 class Event:
-    """One line that the node put out: when, and what ROS saw of it.
+    """One line of the node's output: when it came, and its log record if ROS saw it.
 
-    `virtual` and `wall` in seconds (None: the clock had not been started); `due` is the number of
-    the due instant at which it came, counted from 0, None if it came at another time.
+    `virtual` and `wall` are in seconds; `n` is the number in a line of the expected form, else
+    None; `due` is the index of the due instant at which it came, None if it came at another time.
     """
 
     text: str
@@ -40,7 +40,7 @@ class Event:
 
 @dataclass
 class Watch:
-    """What a run showed: every event in order, and how the count was timed."""
+    """The events of a run in order, and the timing of its count."""
 
     clock: Literal["virtual", "wall"] | None = None
     events: list[Event] = field(default_factory=list)
@@ -54,21 +54,21 @@ class Watch:
 
     @property
     def counted(self) -> list[Event]:
-        """The events that are taken for the count: those of the pattern, else any."""
+        """The events of the count: lines of the expected form, else any lines."""
         own = [event for event in self.events if event.n is not None]
         if own:
             return own
         before = {id(event) for event in self.before_start}
         others = [e for e in without_tracebacks(self.events) if id(e) not in before]
         moments = {event.due if self.clock == "virtual" else event.wall for event in others}
-        # what comes once only is a message or a traceback, and no count
+        # lines at one moment only are a message or a traceback, not a count
         return others if len(moments - {None}) > 1 else []
 
 
 def without_tracebacks(events: Iterable[Event]) -> Iterator[Event]:
-    """Yield the events before the first traceback, and of those after it what ROS itself saw.
+    """Yield the events before the first traceback, and the logged ones after it.
 
-    (A traceback reaches the terminal in pieces, at several moments: it is no count for that.)
+    A traceback reaches the terminal in pieces, at several moments, and would look like a count.
     """
     broke = False
     for event in events:
@@ -78,7 +78,7 @@ def without_tracebacks(events: Iterable[Event]) -> Iterator[Event]:
 
 
 class Observer:
-    """Brings together what the terminal showed and what ROS saw."""
+    """Merges the lines of the terminal with the log records of ROS."""
 
     def __init__(self, terminal: Terminal, probe: ProbeLink, output: Output) -> None:
         self.terminal = terminal
@@ -91,33 +91,33 @@ class Observer:
         self._shown: set[int] = set()  # the stamps of the records that the terminal showed
         self.now = 0.0  # virtual seconds
         self._linked: float | None = None
-        self._mirrored = True  # whether the terminal shows what the logger says
-        self.logged = 0  # bytes that the log records would have on a terminal
+        self._mirrored = True  # whether log records appear on the terminal
+        self.logged = 0  # bytes that the log records would take on a terminal
 
     @property
     def flooded(self) -> bool:
-        """Whether the node has put out more than it may: on the terminal, or on /rosout alone."""
+        """Whether the output exceeds the limit, on the terminal or on /rosout alone."""
         return self.terminal.flooded or self.logged >= self.terminal.most
 
     @property
     def over(self) -> bool:
-        """Whether nothing more is to be seen: the command has ended, or was stopped for its output."""
+        """Whether no more output is read: the command has ended or exceeded the limit."""
         return self.terminal.ended or self.flooded
 
     def linked(self, nodes: Sequence[NodeSeen]) -> None:
-        """Note when the probe could first hear a node's log records: older ones come late."""
+        """Note when the probe first saw a node's /rosout publisher: older records come late."""
         if self._linked is None and any(node.rosout for node in nodes):
             self._linked = time.time()
 
     def number(self, text: str) -> int | None:
-        """Return the count in a line of the expected form, None for any other line."""
+        """Return the number in a line of the expected form, None for any other line."""
         match = self._pattern.fullmatch(text)
         if match is None or str(int(match.group(1))) != match.group(1):
-            return None  # 007 is no 7
+            return None  # 007 is not 7
         return int(match.group(1))
 
     def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
-        """Return the new events of an answer and of the terminal, in order."""
+        """Return the new events of a probe answer and of the terminal, in order."""
         events = [self._of_record(record) for record in (answer.logs if answer else ())]
         for line in self.terminal.read(seconds):
             for part in line.parts():
@@ -136,7 +136,7 @@ class Observer:
         return Event(text, wall, self.now, source, self.number(text), record=record)
 
     def _match(self) -> list[Event]:
-        """Return the lines that look like log records but are none of ROS's, after a grace time."""
+        """Return the lines that look like log records but have had none for the grace time."""
         known = {
             (r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]
         }
@@ -154,11 +154,11 @@ class Observer:
         return faked
 
     def visible(self, events: Iterable[Event]) -> list[Event]:
-        """Return the events that a person at the terminal saw."""
+        """Return the events that the terminal showed."""
         return [e for e in events if e.record is None or e.record.stamp in self._shown]
 
     def _is_overdue(self, line: Line) -> bool:
-        """Whether a line's log record would have come by now."""
+        """Whether a line's log record should have come by now."""
         if self._linked is None:
             return time.time() - line.wall > LATE_GRACE
         if line.wall < self._linked:
@@ -166,10 +166,10 @@ class Observer:
         return time.time() - line.wall > GRACE
 
     def catch_up(self, records: Sequence[LogRecord]) -> list[Event]:
-        """Return what was printed before the records, or right after them, and came later.
+        """Wait for the records' lines on the terminal; return the events that come with them.
 
-        A container's terminal is slower than its network. A record's own line follows on the
-        terminal what was printed before it; what was printed after it may take as long again.
+        A container's terminal is slower than its network. What was printed before a record comes
+        before its line; what was printed after it may take as long again.
         """
         began = time.monotonic()
         events: list[Event] = []
@@ -182,8 +182,9 @@ class Observer:
         return events
 
     def settle(self) -> list[Event]:
-        """Give every line that is still waiting for its log record its grace time, and every record
-        that is still waiting for its line: a container's terminal is slower than its network.
+        """Wait until each log line has its record and each record its line, or is overdue.
+
+        A container's terminal is slower than its network.
         """
         events: list[Event] = []
         deadline = time.monotonic() + 2 * LATE_GRACE

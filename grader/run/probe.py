@@ -1,14 +1,16 @@
 """The probe: a small program that runs in a sandbox with the distro's own rclpy.
 
-It drives `/clock`, watches the ROS graph and `/rosout`, and proves by a barrier that a node has
-done what was due. It speaks JSON lines: one command in, one answer out. It imports nothing of the
-grader (it may run under another Python) and knows nothing of points.
+It drives `/clock`, watches the ROS graph and `/rosout`, and proves with a barrier that a node has
+run the callbacks that were due. The protocol is JSON lines: one command in, one answer out. It
+imports nothing of the grader, because it may run under another Python.
 
-Commands (`do`), all times in nanoseconds of ROS time, `seconds` the longest wall time to take:
-`look` answers at once; `wait` until something new was logged, or the graph changed; `clock`
-publishes `at` and makes two round trips to every node (docs/architecture.md, "The barrier";
-`until_log`: or until something is logged); `end`.
-Answer: `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock).
+Commands (`do`); times are nanoseconds of ROS time, `seconds` is the most wall time to take:
+- `look` answers at once;
+- `wait` answers when something was logged or the graph changed;
+- `clock` publishes `at` and makes two round trips to every node (docs/architecture.md, "The
+  barrier"); with `until_log` it also answers when something was logged;
+- `end` ends the probe.
+The answer has `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock).
 """
 
 from __future__ import annotations
@@ -27,13 +29,13 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 NAME = "_grader_probe"
-LONGEST_TEXT = 2_000  # characters of one log record that are passed on
+LONGEST_TEXT = 2_000  # characters of a log record that are passed on
 MOST_LOGS = 2_000  # records in one answer
 MOST_NODES = 8
 
 
 class Probe:
-    """One rclpy node that looks at the others."""
+    """An rclpy node that observes the others."""
 
     def __init__(self) -> None:
         rclpy.init(args=[])
@@ -71,7 +73,7 @@ class Probe:
         )
 
     def graph(self) -> list[dict[str, Any]]:
-        """Return the other nodes with what is known of them."""
+        """Return the other nodes, and which of their endpoints are known."""
         found: dict[str, dict[str, Any]] = {}
         for name, space in self.node.get_node_names_and_namespaces():
             if name != NAME and len(found) < MOST_NODES:
@@ -97,14 +99,14 @@ class Probe:
         return self.clients[full]
 
     def matched(self) -> bool:
-        """Return whether the other side's readers and writers have found ours."""
+        """Return whether a subscription has matched our /clock publisher."""
         return bool(self.clock.get_subscription_count() > 0)
 
     def barrier(self, trips: int, deadline: float, *, until_log: bool) -> bool | None:
-        """Make round trips to every node with parameter services; None if there is none.
+        """Make round trips to every node with parameter services; return whether all answered.
 
-        With `until_log` the first new log record is answer enough (None then): the parameter
-        services of a node on many threads can be slow.
+        None if there is no such node, or if `until_log` and a log record came first: the
+        parameter services of a node with many threads can be slow.
         """
         known = len(self.logs)
         ready = [client for client in self.clients.values() if client.service_is_ready()]
@@ -124,7 +126,7 @@ class Probe:
         return True
 
     def answer(self, command: dict[str, Any]) -> dict[str, Any]:
-        """Do one command and return its answer."""
+        """Carry out one command and return its answer."""
         deadline = time.monotonic() + command.get("seconds", 0)
         barrier = None
         if command["do"] == "clock":
@@ -150,7 +152,7 @@ class Probe:
 
 def main() -> None:
     """Answer commands until the end of the input."""
-    # what C libraries print must not end up between the answers
+    # the output of C libraries must not get between the answers
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(2, 1)
     probe = Probe()
@@ -160,7 +162,7 @@ def main() -> None:
         if command["do"] == "end":
             break
         answers.write(json.dumps(probe.answer(command)) + "\n")
-    os._exit(0)  # nothing of ours is left to tidy: the namespaces end with us
+    os._exit(0)  # no clean-up is needed: the namespaces end with this process
 
 
 main()

@@ -1,4 +1,4 @@
-"""The grader's end of the probe: one JSON line out, one in, never anything but text to be judged."""
+"""The grader's side of the probe: one JSON line out, one in. Its answers are untrusted data."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ SOURCE = Path(__file__).with_name("probe.py")
 START_SECONDS = 30.0
 LONGEST_ANSWER = 8_000_000  # bytes
 END_SECONDS = 1.0
-PATIENCE = 20.0  # seconds beyond a command's own time in which an answer must come
+PATIENCE = 20.0  # seconds in addition to a command's own, within which the answer must come
 
 
 @dataclass(frozen=True)
 class LogRecord:
-    """One record of /rosout; `stamp` in nanoseconds of the epoch, `level` 10 to 50."""
+    """One record of /rosout; `stamp` in nanoseconds since the epoch, `level` 10 to 50."""
 
     level: int
     name: str
@@ -35,7 +35,10 @@ class LogRecord:
 
 @dataclass(frozen=True)
 class NodeSeen:
-    """A node on the graph: its full name, and whether it has a /clock subscription and so on."""
+    """A node on the graph: its full name, and which endpoints it has.
+
+    `clock` is a /clock subscription, `rosout` a /rosout publisher, `parameters` the services.
+    """
 
     name: str
     clock: bool
@@ -45,7 +48,7 @@ class NodeSeen:
 
 @dataclass(frozen=True)
 class Answer:
-    """What the probe said. `barrier`: every node answered (None: there is none to ask)."""
+    """An answer of the probe; `barrier` is whether every node answered, None if unknown."""
 
     barrier: bool | None = None
     logs: tuple[LogRecord, ...] = ()
@@ -55,11 +58,11 @@ class Answer:
 
 
 class ProbeError(SurroundingsError):
-    """The probe did not answer: our side, never the student's."""
+    """The probe did not answer: a fault of the grader's side, never of the student's."""
 
 
 class ProbeLink:
-    """A probe in a sandbox. It starts at once and answers when rclpy is up."""
+    """A probe in a sandbox. It starts at once and answers as soon as rclpy is up."""
 
     def __init__(self, sandbox: Sandbox) -> None:
         setup = f'. "{sandbox.ros_path}/setup.bash"; exec python3 -c "$PROBE"'
@@ -70,7 +73,7 @@ class ProbeLink:
         self._buffer = b""
         self._ready = False
         self.until = math.inf
-        """The instant of time.monotonic() after which no answer is waited for."""
+        """The time (by time.monotonic()) until which answers are awaited."""
 
     def ready(self) -> None:
         """Wait until rclpy is up in the probe."""
@@ -96,14 +99,14 @@ class ProbeLink:
                 matched=said.get("matched", False),
             )
         except (KeyError, TypeError) as error:
-            raise self._lost("its answer is not one of a probe") from error
+            raise self._lost("its answer lacks keys or has unknown ones") from error
 
     def _read(self, seconds: float) -> dict[str, Any]:
         deadline = min(time.monotonic() + seconds, self.until)
         while b"\n" not in self._buffer:
             left = deadline - time.monotonic()
             data = self._pipe.read(left) if left > 0 else None
-            if data is None:  # (a part of an answer, however fast more of it comes, is none)
+            if data is None:  # (an unfinished answer does not extend the deadline)
                 raise self._lost(f"no answer within {seconds:.0f} s")
             if not data or len(self._buffer) > LONGEST_ANSWER:
                 raise self._lost("it has ended")
@@ -123,7 +126,7 @@ class ProbeLink:
         return ProbeError(f"the probe failed: {why}" + (f"\n{said}" if said else ""))
 
     def close(self) -> None:
-        """End the probe: it is asked to, and killed if it does not."""
+        """Tell the probe to end, and kill it if it does not."""
         with contextlib.suppress(OSError, ValueError):
             self._pipe.write(b'{"do": "end"}\n')
         self._pipe.finish(END_SECONDS)

@@ -16,17 +16,18 @@ from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
 from grader.run.terminal import Terminal
 from grader.sandbox.base import UNRUNNABLE, Sandbox
 
-UNSEEN_SECONDS = 5.0  # wall time after its first line in which a node is on the graph, if it is one
-COMPLETE_SECONDS = 2.0  # wall time for all endpoints of a node that is on the graph to be seen
-OWN_TRACEBACK = '/bin/ros2", line '  # of the command itself
-END_SECONDS = 10.0  # of a run's room, for ending what does not end by itself
+UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
+COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
+OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
+END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
 
 @dataclass
 class Run:
-    """What one run showed. Times in seconds: `first_line` since `ros2 run` was started.
+    """The result of one run; times in seconds.
 
-    `logged` is how many bytes its log records would have on a terminal.
+    `first_line_seconds` is counted from the start of `ros2 run`; `logged` is the number of bytes
+    that the log records would take on a terminal.
     """
 
     command: str
@@ -49,13 +50,13 @@ class Run:
 
     @property
     def doubts_ros2(self) -> bool:
-        """Whether `ros2` itself may not have run (the student's code can bring this about too)."""
+        """Whether `ros2` itself may have failed to run (the student's code can cause this too)."""
         unrunnable = self.status in UNRUNNABLE or OWN_TRACEBACK in self.transcript
         return self.ended_by_itself and not self.nodes and unrunnable
 
 
 def ros2_run(assignment: Assignment) -> str:
-    """Return the student's command with the one thing that is added to it."""
+    """Return the student's `ros2 run` command, with `use_sim_time` added."""
     words = ["ros2", "run", assignment.package, assignment.executable]
     return shlex.join([*words, "--ros-args", "-p", "use_sim_time:=true"])
 
@@ -64,16 +65,16 @@ def observe(
     sandbox: Sandbox,
     assignment: Assignment,
     probe: ProbeLink,
-    tell: Callable[[Event], None],
+    on_event: Callable[[Event], None],
     *,
     until: float = math.inf,
     fine: bool = False,
 ) -> Run:
-    """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, say what was seen.
+    """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, return the result.
 
-    It is over at `until` (of time.monotonic()), whatever happens. Raises ProbeError if our own side
-    failed. If the probe met a limit, the node fed it too much; if the node runs on beyond its
-    limits when the probe fails, that is what ends the run: both are the run's `resource`.
+    The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
+    failed. It is the run's `resource` instead if the probe exceeded a limit, because the node
+    flooded it, or if the node still runs beyond its time limit when the probe fails.
     """
     limits = sandbox.limits
     run = Run(command=ros2_run(assignment))
@@ -89,7 +90,7 @@ def observe(
         if run.nodes and not terminal.ended:
             deadline = min(begin + limits.run_seconds, probe.until)
             clock = VirtualClock(observer, assignment.output, deadline=deadline, fine=fine)
-            _watch(run, observer, clock, tell, follows=follows, deadline=deadline)
+            _watch(run, observer, clock, on_event, follows=follows, deadline=deadline)
         run.watch.events += observer.settle()
         watch = run.watch
         for seen in (watch.events, watch.before_start, watch.early):
@@ -104,7 +105,7 @@ def observe(
         run.watch.events += observer.take()
     except ProbeError:
         overdue = time.monotonic() - begin > longest
-        terminal.read()  # so that it is known whether the node runs on
+        terminal.read()  # updates terminal.ended
         overdue = overdue and not terminal.ended
         run.resource = sandbox.probe_limit_hit() or ("wall time" if overdue else "")
         if not run.resource:
@@ -148,7 +149,7 @@ def _watch(
     run: Run,
     observer: Observer,
     clock: VirtualClock,
-    tell: Callable[[Event], None],
+    on_event: Callable[[Event], None],
     *,
     follows: bool,
     deadline: float,
@@ -156,20 +157,20 @@ def _watch(
     output = observer.output
     if follows:
         try:
-            clock.drive(run.watch, tell)
+            clock.drive(run.watch, on_event)
         except ForeignClock as foreign:
             run.watch.events += foreign.events
             run.watch.note = say("the node publishes /clock itself")
-            watch_wall(observer, output, run.watch, tell, deadline=deadline)
+            watch_wall(observer, output, run.watch, on_event, deadline=deadline)
     else:
         run.watch.note = say("the node does not follow /clock")
-        watch_wall(observer, output, run.watch, tell, deadline=deadline)
+        watch_wall(observer, output, run.watch, on_event, deadline=deadline)
     nodes = observer.probe.ask("look").nodes
     run.nodes = nodes or run.nodes
 
 
 def _stop(run: Run, terminal: Terminal, seconds: float) -> None:
-    """Press Ctrl+C and see how it ends."""
+    """Press Ctrl+C and record how the node ends."""
     pressed = time.monotonic()
     if run.flooded:
         return

@@ -1,4 +1,4 @@
-"""A marking session: one opened sandbox with a probe in it, in which one package is built and run."""
+"""A marking session: builds and runs one package in an open sandbox with a probe in it."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.proof import prove_again
 
 WORKS_SECONDS = 10.0
-RUNS = 3  # how often a run is tried when our own side fails
-AGREE = 0.1  # of the period: two runs on the wall clock that differ by more say nothing
+RUNS = 3  # attempts at a run if our own side fails
+AGREE = 0.1  # of the period: two runs on the wall clock that differ by more are inconsistent
 
 
-class Unobserved(Exception):  # noqa: N818 - it says nothing about the node
-    """Our own side kept us from seeing what the node does."""
+class Unobserved(Exception):  # noqa: N818 - not an error of the node
+    """Our own side failed, so that the node could not be observed."""
 
 
 class Session:
-    """Builds and runs one package in an opened sandbox; `timing` has the seconds of each stage.
+    """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
-    All of it has the limits' `verdict_seconds`: nothing is begun, or begun again, for which what is
-    left of them has no room.
+    A session may take the limits' `verdict_seconds`; a run that does not fit into what is left of
+    them is not started.
     """
 
     def __init__(self, sandbox: Sandbox, assignment: Assignment) -> None:
@@ -38,7 +38,7 @@ class Session:
         self.assignment = assignment
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
-        self._ceiling = time.monotonic() + sandbox.limits.verdict_seconds
+        self._deadline = time.monotonic() + sandbox.limits.verdict_seconds
 
     def __enter__(self) -> Session:
         return self
@@ -53,9 +53,9 @@ class Session:
         self.sandbox.close()
 
     def build(self, submission: Submission) -> Build:
-        """Build the package; the probe starts up beside it, on another core.
+        """Build the package; the probe starts meanwhile, on another core.
 
-        Raises BrokenRosError if it is colcon that does not run.
+        Raises BrokenRosError if colcon itself does not run.
         """
         begin = time.monotonic()
         self._probe = self._probe or ProbeLink(self.sandbox)
@@ -67,36 +67,37 @@ class Session:
             self.timing["build"] += time.monotonic() - begin
         return replace(made, stopped_by=made.stopped_by or self._resource(made.status))
 
-    def run(self, tell: Callable[[Event], None]) -> Run:
-        """Run the node; a run that our own side spoilt is repeated; Unobserved if all were.
+    def run(self, on_event: Callable[[Event], None]) -> Run:
+        """Run the node and return the result; repeat the run if our own side failed.
 
-        A run that would cost points for its timing is repeated too, with the clock in fine steps:
-        neither the load of the machine nor a jump of the clock may look like the node's fault. What
-        the verdict's ceiling leaves no time for is not repeated.
-        Raises BrokenRosError if it is ros2 that does not run.
+        A run that would cost points for its timing is repeated too, with the clock in fine steps,
+        because load or a jump of the clock must not look like the node's fault. A run is repeated
+        only if the verdict's time limit leaves time for it.
+        Raises Unobserved if our own side failed each time, BrokenRosError if ros2 itself does not
+        run.
         """
         begin = time.monotonic()
         try:
-            run = self._run(tell)
+            run = self._run(on_event)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
             if self._doubtful(run):
-                # the ticks of a second run are not reported: the listener has heard them once
+                # the second run reports no ticks: the listener already has those of the first
                 run = self._second_opinion(run, self._run(unheard, fine=True))
             return run
         finally:
             self.timing["run"] += time.monotonic() - begin
 
-    def _run(self, tell: Callable[[Event], None], *, fine: bool = False) -> Run:
+    def _run(self, on_event: Callable[[Event], None], *, fine: bool = False) -> Run:
         failure: ProbeError | None = None
         tries = 0
-        while tries < RUNS and self._has_room():
+        while tries < RUNS and self._has_time():
             tries += 1
             self._probe = self._probe or ProbeLink(self.sandbox)
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._ceiling)
+            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
             try:
                 run = observe(
-                    self.sandbox, self.assignment, self._probe, tell, until=until, fine=fine
+                    self.sandbox, self.assignment, self._probe, on_event, until=until, fine=fine
                 )
             except ProbeError as error:
                 failure = error
@@ -104,24 +105,24 @@ class Session:
                 continue
             run.resource = run.resource or self.sandbox.resource_limit_hit()
             if run.ended_by_itself and not run.nodes and not run.resource and not self._works():
-                failure = ProbeError(f"the sandbox starts no command any more:\n{run.transcript}")
+                failure = ProbeError(f"the sandbox no longer starts commands:\n{run.transcript}")
                 continue
             return run
         if failure is None:
-            raise Unobserved("the verdict's time was used up, and a run would not have fitted in")
+            raise Unobserved("the verdict's time limit left no time for a run")
         prove_again(self.sandbox)
-        raise Unobserved(f"the probe failed in {tries} of {tries} runs, the last time: {failure}")
+        raise Unobserved(f"the probe failed in all {tries} runs, the last time: {failure}")
 
     def _works(self) -> bool:
-        """Whether a command that does nothing succeeds: that one ended at once is the node's then."""
+        """Whether a command that does nothing succeeds; if so, the node ended by itself."""
         return self.sandbox.run(["true"], seconds=WORKS_SECONDS).status == 0
 
-    def _has_room(self) -> bool:
-        """Whether the verdict's ceiling leaves time for a whole run."""
-        return self._ceiling - time.monotonic() >= self.sandbox.limits.max_run_seconds
+    def _has_time(self) -> bool:
+        """Whether the verdict's time limit leaves time for a whole run."""
+        return self._deadline - time.monotonic() >= self.sandbox.limits.max_run_seconds
 
     def _doubtful(self, run: Run) -> bool:
-        """Whether load could have made this run look worse than the node is."""
+        """Whether load of the machine may have made this run look worse than the node is."""
         if run.ended_by_itself or run.flooded or run.resource:
             return False
         unseen = not run.nodes and bool(run.watch.counted)

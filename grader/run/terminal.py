@@ -1,4 +1,4 @@
-"""A pseudo-terminal with `ros2 run` on it, and what came on it: lines with their times, Ctrl+C."""
+"""A pseudo-terminal that runs `ros2 run`: its lines with their times, and Ctrl+C."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from grader.sandbox.base import Console
 
 ANSI = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])")
 LOG_LINE = re.compile(r"\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)")
-LONGEST_LINE = 4_000  # characters; what a line has beyond them is left out
-POLL_SECONDS = 0.002  # between two looks at a process that is ending
-DRAIN_SECONDS = 0.05  # beyond its time, in which a read takes what has come already
+LONGEST_LINE = 4_000  # characters; longer lines are cut
+POLL_SECONDS = 0.002  # between two checks of a process that is ending
+DRAIN_SECONDS = 0.05  # extra time in which a read takes data that has already come
 
 
 @dataclass(frozen=True)
 class Line:
-    """One line of output: `wall` is when it was read (seconds of the epoch)."""
+    """One line of output; `wall` is when it was read (seconds since the epoch)."""
 
     text: str
     wall: float
@@ -32,7 +32,7 @@ class Line:
         return level, int(seconds) * 1_000_000_000 + int(nanoseconds), name, text
 
     def parts(self) -> list[Line]:
-        """Return what was printed without a line end before a log record, and the record."""
+        """Split a line in which text without a line end stands before a log record."""
         match = LOG_LINE.search(self.text)
         if match is None or match.start() == 0:
             return [self]
@@ -41,7 +41,7 @@ class Line:
 
 
 class Terminal:
-    """Reads a console; what it prints is cut while it is read."""
+    """Reads a console, up to `most` bytes."""
 
     def __init__(self, console: Console, *, most: int) -> None:
         self.started = time.time()
@@ -54,13 +54,13 @@ class Terminal:
 
     @property
     def transcript(self) -> str:
-        """Everything that was read so far, without control sequences."""
+        """All output read so far, without control sequences."""
         return _clean(bytes(self._raw))
 
     def read(self, seconds: float = 0) -> list[Line]:
         """Return the lines that have come, waiting up to `seconds` for the first.
 
-        No output can extend that: dots without a line end are no line, and they may never cease.
+        Output without a line end does not extend that time.
         """
         deadline = time.monotonic() + max(0.0, seconds)
         lines: list[Line] = []
@@ -95,7 +95,7 @@ class Terminal:
             self.ended = True
 
     def finish(self, seconds: float) -> tuple[list[Line], bool]:
-        """Read until the command has ended; return the last lines, and whether it did in time."""
+        """Read until the command has ended; return the last lines and whether it ended in time."""
         deadline = time.monotonic() + seconds
         lines: list[Line] = []
         while not self.ended and not self.flooded:
@@ -106,16 +106,16 @@ class Terminal:
         while self._console.poll() is None:
             if time.monotonic() > deadline:
                 return lines, False
-            time.sleep(POLL_SECONDS)  # the terminal is shut already: only the status is to come
+            time.sleep(POLL_SECONDS)  # the terminal is closed: only the status is missing
         return lines, True
 
     @property
     def status(self) -> tuple[int | None, int | None]:
-        """Exit status and signal of the command; both None while it runs."""
+        """The exit status and the signal of the command; both None while it runs."""
         return self._console.poll() or (None, None)
 
     def close(self) -> None:
-        """End what still runs on it."""
+        """End everything that still runs on it."""
         self._console.end()
 
 

@@ -1,7 +1,7 @@
-"""The workspace: `src/<package>` as the course teaches it, built by the real colcon in the sandbox.
+"""The workspace: `src/<package>` as the course teaches it, built by colcon in the sandbox.
 
-`colcon build` runs the student's setup.py, so it is the student's code that runs here; what comes
-back is text and a list of files.
+`colcon build` runs the student's setup.py, that is, the student's code. The result is text and a
+list of files.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from grader.package.submission import Submission
 from grader.sandbox.base import UNRUNNABLE, Outcome, Sandbox
 
 BUILD = "colcon build --symlink-install"
-SUMMARY = "\nSummary: "  # colcon's last words, however the packages fared
-MOST_LISTED = 2_000_000  # bytes of the listing of what was built
-MOST_SAID = 2_000  # characters of what a command of ours that failed has said
+SUMMARY = "\nSummary: "  # at the end of colcon's output, whether the packages were built or not
+MOST_LISTED = 2_000_000  # bytes of the list of built files
+MOST_OUTPUT = 2_000  # characters of the output of a failed command of ours
 LAY_OUT_SECONDS = 60.0
 INSPECT_SECONDS = 20.0
 HOOK = re.compile(r"^install/([^/]+)/share/\1/hook/ament_prefix_path\.")
@@ -37,7 +37,7 @@ true
 
 @dataclass(frozen=True)
 class Installed:
-    """A file in the workspace after the build; `kind` as find's %y: f, d, l (with `target`)."""
+    """A file in the workspace after the build; `kind` is find's %y: f, d, l (with `target`)."""
 
     kind: str
     mode: int
@@ -47,7 +47,7 @@ class Installed:
 
 @dataclass(frozen=True)
 class Build:
-    """How the build went. `status` is None where a limit ended it (`stopped_by` says which)."""
+    """The result of the build; `status` is None if the limit `stopped_by` ended it."""
 
     command: str
     status: int | None
@@ -59,29 +59,30 @@ class Build:
 
     @property
     def doubts_colcon(self) -> bool:
-        """Whether colcon itself may not have run (setup.py can bring this about as well)."""
+        """Whether colcon itself may have failed to run (setup.py can cause this too)."""
         ended = self.status != 0 and not self.stopped_by
         return ended and (self.status in UNRUNNABLE or SUMMARY not in self.log)
 
     def is_installed(self, package: str) -> bool:
-        """Whether ROS finds the package: its marker is in an index that the overlay names.
+        """Whether ROS finds the package: its marker is in a prefix on AMENT_PREFIX_PATH.
 
-        (Where colcon did not know it for a ROS package, nothing adds its prefix to
-        AMENT_PREFIX_PATH, and ros2 run does not find it, marker or no marker.)
+        If colcon did not recognise a ROS package, no hook adds its prefix to AMENT_PREFIX_PATH,
+        and ros2 run does not find it even if the marker is installed.
         """
         markers = self.installed(f"share/ament_index/resource_index/packages/{package}")
         hooks = [path for path in self.files if HOOK.search(path)]
         return any(hook.split("/")[1] == path.split("/")[1] for path in markers for hook in hooks)
 
     def installed(self, place: str) -> list[str]:
-        """Return the paths of a file in the overlay: colcon makes a prefix for each package, named
-        by the manifest, and ROS looks in all of them.
+        """Return the paths at which the overlay has a file.
+
+        colcon makes a prefix for each package, named as in its manifest; ROS looks in all of them.
         """
         return [path for path in self.files if PREFIX.sub("", path) == place]
 
 
 def as_tar(submission: Submission, folder: str) -> bytes:
-    """Return the package as a tar stream with `folder` as its root."""
+    """Return the package as a tar archive, at `src/<folder>`."""
     stream = io.BytesIO()
     now = int(time.time())
     with tarfile.open(fileobj=stream, mode="w", format=tarfile.PAX_FORMAT) as tar:
@@ -111,7 +112,7 @@ def _entry(name: str, kind: bytes, mode: int, now: int) -> tarfile.TarInfo:
 def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
     """Lay out the workspace and build it; SurroundingsError only if our own side failed.
 
-    colcon and the student's setup.py have a command of their own: whatever it ends with is theirs.
+    colcon and setup.py run in a command of their own, whose failure is the student's.
     """
     lay_out(sandbox, as_tar(submission, package))
     outcome = sandbox.run(
@@ -131,23 +132,23 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
 
 
 def lay_out(sandbox: Sandbox, files: bytes) -> None:
-    """Unpack a tar stream into the workspace; SurroundingsError if that fails.
+    """Unpack a tar archive into the workspace; SurroundingsError if that fails.
 
-    Nothing of the student's runs here.
+    No code of the student's runs here.
     """
     script = f"tar -xf - && {_setup(sandbox)}"
     outcome = sandbox.run(["bash", "-c", script], stdin=files, seconds=LAY_OUT_SECONDS)
-    _ours(outcome, say("the workspace could not be laid out"))
+    _check_ours(outcome, say("the workspace could not be laid out"))
 
 
 def _setup(sandbox: Sandbox) -> str:
     return f'. "{sandbox.ros_path}/setup.bash"'
 
 
-def _ours(outcome: Outcome, failed: str) -> None:
-    """Raise SurroundingsError if a command that runs nothing of the student's has not succeeded."""
+def _check_ours(outcome: Outcome, failed: str) -> None:
+    """Raise SurroundingsError if a command that runs none of the student's code failed."""
     if outcome.status != 0:
-        said = _text(outcome)[-MOST_SAID:].strip() or outcome.stopped_by or f"{outcome.status}"
+        said = _text(outcome)[-MOST_OUTPUT:].strip() or outcome.stopped_by or f"{outcome.status}"
         raise SurroundingsError(joined(failed, said, by=":\n"))
 
 
@@ -159,8 +160,8 @@ def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], str]:
     outcome: Outcome = sandbox.run(
         ["sh", "-c", INSPECT], seconds=INSPECT_SECONDS, output=MOST_LISTED
     )
-    if not outcome.stopped_by:  # (a limit that ends it is met by what the build has left)
-        _ours(outcome, say("what was built could not be listed"))
+    if not outcome.stopped_by:  # (only what the build left behind can make it exceed a limit)
+        _check_ours(outcome, say("the built files could not be listed"))
     listing, _, rest = outcome.output.decode("utf-8", errors="replace").partition("\0\0\n")
     if not rest and "\0\n" in listing:
         listing, _, rest = listing.partition("\0\n")

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from grader.base.cache import Say
+from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
@@ -31,11 +31,11 @@ def check_name(name: str) -> None:
 
 
 def open_sandbox(
-    name: str, distro: Distro, limits: Limits, *, own_code: bool = False, say: Say = print
+    name: str, distro: Distro, limits: Limits, *, own_code: bool = False, notify: Notify = print
 ) -> Sandbox:
     """Return an open sandbox with a ROS installation of that distro; the caller closes it.
 
-    `own_code` allows `auto` to fall back to `none`, for a student's own package. `say` is called
+    `own_code` allows `auto` to fall back to `none`, for a student's own package. `notify` is called
     with progress texts while a prefix or an image is made. Raises SurroundingsError with cause and
     remedy if no sandbox is available.
     """
@@ -43,7 +43,7 @@ def open_sandbox(
     tried: list[SurroundingsError] = []
     for choice in _choices(name, own_code=own_code):
         try:
-            sandbox = _make(choice, distro, limits, say, required=name != "auto")
+            sandbox = _make(choice, distro, limits, notify, required=name != "auto")
             if sandbox is not None:
                 return sandbox.__enter__()
         except BrokenRosError:
@@ -71,12 +71,12 @@ def _choices(name: str, *, own_code: bool) -> list[str]:
 
 
 def _make(
-    choice: str, distro: Distro, limits: Limits, say: Say, *, required: bool
+    choice: str, distro: Distro, limits: Limits, notify: Notify, *, required: bool
 ) -> Sandbox | None:
     # sandboxes are imported lazily to keep `grader --help` fast
     if choice == "docker":
-        return _docker(distro, limits, say, required=required)
-    ros = proven_ros(distro, say=say)
+        return _docker(distro, limits, notify, required=required)
+    ros = proven_ros(distro, notify=notify)
     if choice == "bubblewrap":
         from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
 
@@ -88,7 +88,7 @@ def _make(
     )
 
 
-def _docker(distro: Distro, limits: Limits, say: Say, *, required: bool) -> Sandbox | None:
+def _docker(distro: Distro, limits: Limits, notify: Notify, *, required: bool) -> Sandbox | None:
     """Return the `docker` sandbox; None if it is not `required` and daemon or image are missing.
 
     An image is built only if it is required: `auto` never pulls gigabytes.
@@ -107,7 +107,9 @@ def _docker(distro: Distro, limits: Limits, say: Say, *, required: bool) -> Sand
     image = images.find_image(client, distro)
     if image is None and required:
         network = image_build.Network()
-        image_build.build_image(client, distro, stage="grade", base="ros", network=network, say=say)
+        image_build.build_image(
+            client, distro, stage="grade", base="ros", network=network, notify=notify
+        )
         image = images.find_image(client, distro)
     if image is None:
         client.close()

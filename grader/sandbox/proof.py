@@ -6,7 +6,7 @@ with a status that means "could not be started", before the student is blamed fo
 
 from __future__ import annotations
 
-from grader.base.cache import Say, discard
+from grader.base.cache import Notify, discard
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.base.unheard import unheard
@@ -36,9 +36,9 @@ done
 """
 
 
-def proven_ros(distro: Distro, *, say: Say = print) -> Ros:
+def proven_ros(distro: Distro, *, notify: Notify = print) -> Ros:
     """Return the ROS installation for a distro (see `find_ros`); a newly made one is tested."""
-    return find_ros(distro, prove=prove_ros, say=say)
+    return find_ros(distro, prove=prove_ros, notify=notify)
 
 
 def prove_ros(ros: Ros) -> None:
@@ -75,7 +75,7 @@ def prove_again(sandbox: Sandbox) -> None:
         _prove(sandbox, REMOVED)
     except BrokenRosError:
         # do not report that this waits for another grader that makes the same prefix
-        discard(ros.path, unless=lambda _: False, say=unheard)
+        discard(ros.path, unless=lambda _: False, notify=unheard)
         raise
 
 

@@ -18,8 +18,8 @@ from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult, CheckStatus
 from grader.validate.tree import Tree, write_tree
 from grader.verdict.checks.all import CHECKS
-from grader.verdict.mark import Order
-from grader.verdict.static import ask_files
+from grader.verdict.order import Order
+from grader.verdict.static import evaluate_static
 
 # the stages of the checks that need no build
 STATIC_STAGES = ("package", "source", "entry_point")
@@ -73,7 +73,7 @@ def submit_path(path: Path, order: Order) -> Submission:
 def mark_files(submission: Submission, order: Order) -> Marked:
     """Mark a package by its files only, up to the first check that needs a build."""
     only = [check for check in CHECKS if check.partition(".")[0] in STATIC_STAGES]
-    results = ask_files(submission, order.assignment, only=only, lang=order.lang)
+    results = evaluate_static(submission, order.assignment, only=only, lang=order.lang)
     return _marked(itertools.takewhile(lambda result: result.status not in UNDECIDED, results))
 
 
@@ -85,7 +85,7 @@ def mark_all(
     `workers`: how many at once (0: as a class is marked). Raises SurroundingsError if no sandbox
     can be opened.
     """
-    job = prove(order, say=unheard).job
+    job = prove(order, notify=unheard).job
     cores = cores_here()
     pool = LocalPool(job, workers or cores, most=workers or MOST_A_CORE * cores)
     tasks = (Task(name, name, name, submission.sha256, submission) for name, submission in work)

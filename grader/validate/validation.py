@@ -18,7 +18,7 @@ from grader.validate.mutant import Mutant
 from grader.validate.named import MUTANTS, Written, read_mutants
 from grader.validate.tree import Tree, digest, read_tree
 from grader.verdict.checks.all import CHECKS
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"
@@ -41,8 +41,8 @@ class Wish:
     only: str = "*"
 
 
-def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
-    """Mark the solution, the starter and the mutants; `say` receives lines of progress.
+def validate(wish: Wish, notify: Callable[[str], None]) -> Matrix:
+    """Mark the solution, the starter and the mutants; `notify` receives lines of progress.
 
     Raises UsageError (AssignmentError for a fault in the files), SurroundingsError.
     """
@@ -55,8 +55,8 @@ def validate(wish: Wish, say: Callable[[str], None]) -> Matrix:
         raise UsageError(f"no mutant's name matches '{wish.only}'")
     marked, waiting = _by_files(chosen, original, wish.order)
     if not wish.static:
-        say(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
-        marked |= _by_running({**_ends(wish), **waiting}, wish, say)
+        notify(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
+        marked |= _by_running({**_ends(wish), **waiting}, wish, notify)
     rows = tuple(Row(m, marked[m.name]) for m in chosen if m.name in marked)
     return Matrix(
         assignment=assignment.id,
@@ -139,7 +139,7 @@ def _by_files(
 
 
 def _by_running(
-    waiting: dict[str, Submission], wish: Wish, say: Callable[[str], None]
+    waiting: dict[str, Submission], wish: Wish, notify: Callable[[str], None]
 ) -> dict[str, Marked]:
     """Mark the submissions that need a build and a run, and report progress."""
     marked: dict[str, Marked] = {}
@@ -150,5 +150,5 @@ def _by_running(
         if now - reported >= PROGRESS_EVERY:
             reported = now
             left = (now - begin) / len(marked) * (len(waiting) - len(marked))
-            say(f"{len(marked)} of {len(waiting)} run, about {left:.0f} s left")
+            notify(f"{len(marked)} of {len(waiting)} run, about {left:.0f} s left")
     return marked

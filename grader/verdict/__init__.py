@@ -1,1 +1,1 @@
-"""One verdict: from an order through the checks to the report."""
+"""Marks one submission: from the order through the checks to the report."""

@@ -1,4 +1,4 @@
-"""Puts what was found together into the report."""
+"""Composes the report."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from grader.report import model
 from grader.run.run import Run
 from grader.verdict.evidence import Evidence
 
-MOST_EVIDENCE = 40_000  # characters of build log and of transcript in the report
+MOST_EVIDENCE = 40_000  # characters, of the build log and of the transcript each
 
 
 def compose(
@@ -27,7 +27,7 @@ def compose(
     started: datetime,
     translate: Translator,
 ) -> model.Report:
-    """Return the report of one submission; its texts are in the language of `speak`."""
+    """Return the report of one submission; its texts are in the language of `translate`."""
     assignment, submission = evidence.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None
@@ -65,7 +65,7 @@ def compose(
 
 
 def _printable(path: Path) -> str:
-    """Return a path as text that JSON can hold; bytes that are no UTF-8 are spelled out."""
+    """Return a path as text for JSON; bytes that are not UTF-8 are escaped."""
     return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
@@ -105,7 +105,7 @@ def _observed(run: Run | None, period: float) -> model.Observed:
 
 
 def _cut(text: str, translate: Translator) -> str:
-    """Return a text cut in its middle: how it began and how it ended tell the most."""
+    """Return a text without its middle if it is too long: start and end say the most."""
     if len(text) <= MOST_EVIDENCE:
         return text
     half = MOST_EVIDENCE // 2

@@ -1,4 +1,4 @@
-"""From what a check saw to what the student did: the root cause stands before its consequences."""
+"""Finds the mistake behind a failed check; the root cause comes before its consequences."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
 OF_MAIN = ("run.exits_at_once", "run.no_node")
-SHORTEST = 3  # characters of a line that is worth being shown
+SHORTEST = 3  # characters of a source line that is worth showing
 
 
 @dataclass(kw_only=True)
 class Diagnosis:
     """Why a check failed: the mistakes, the root cause first, with the texts of its entry.
 
-    `consequence_of` is the check decided before that failed for the same mistake ("" if none did).
+    `consequence_of` is an earlier check that failed because of the same mistake, else "".
     """
 
     mistakes: list[Mistake]
@@ -48,7 +48,7 @@ class Diagnosis:
 
     @classmethod
     def of(cls, failed: Failed) -> Diagnosis:
-        """Return what the check itself found. KeyError for a mistake that the catalogue lacks."""
+        """Return the check's own diagnosis. KeyError if the catalogue lacks its mistake."""
         kind = CATALOGUE[failed.mistake.id]
         values = {**failed.mistake.params, **failed.words}
         return cls(
@@ -63,14 +63,14 @@ class Diagnosis:
 
 
 def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
-    """Look for the mistake behind a failed check, and put it first."""
+    """Return the diagnosis of a failed check, with the root cause first if it is found."""
     diagnosis = Diagnosis.of(failed)
     symptom = failed.mistake.id
     if not symptom.startswith("run."):
         return diagnosis
     try:
         found = _root(symptom, diagnosis, evidence)
-    except RecursionError:  # nobody's first node; what the check saw still holds
+    except RecursionError:  # (a hostile source; the check's own diagnosis is kept)
         found = None
     if found is not None:
         _explain(diagnosis, found)
@@ -107,7 +107,7 @@ def _raised(error: str, where: Where | None, evidence: Evidence) -> Finding | No
 
 
 def _not_installed(error: str, evidence: Evidence) -> Finding | None:
-    """Tell a module that was not installed from one that is not there."""
+    """Return why the node's own module was not installed; None if another one is missing."""
     package = evidence.assignment.package
     module = rf"{re.escape(package)}(?:\.{re.escape(evidence.assignment.node_file[:-3])})?"
     if not re.search(rf"No module named '{module}'", error):
@@ -119,7 +119,7 @@ def _not_installed(error: str, evidence: Evidence) -> Finding | None:
 
 
 def _text(diagnosis: Diagnosis, suspect: Suspect) -> Finding | None:
-    """Tell a text with the wrong number in it from another text."""
+    """Return the mistake in the number of a wrong text; None if the rest of the text differs."""
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     line = diagnosis.where.line if diagnosis.where else None
     head, tail = suspect.output.text.split("{n}")
@@ -132,7 +132,7 @@ def _text(diagnosis: Diagnosis, suspect: Suspect) -> Finding | None:
 
 
 def _explain(diagnosis: Diagnosis, found: Finding) -> None:
-    """Take over what the root cause's entry says."""
+    """Use the texts of the root cause's catalogue entry."""
     kind = CATALOGUE[found.kind]
     values = {**found.params, **found.words}
     diagnosis.rationale = kind.rationale(values, found.variant)
@@ -147,7 +147,7 @@ def _explain(diagnosis: Diagnosis, found: Finding) -> None:
 
 
 def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
-    """Add the line of the source itself to what was found."""
+    """Add the source line to the `actual` text."""
     where = diagnosis.where
     within = file_at(evidence, where.file) if where is not None and where.line else None
     if where is None or within is None:
@@ -159,7 +159,7 @@ def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
 
 
 def _same_root(diagnosis: Diagnosis, evidence: Evidence) -> str:
-    """Return the check decided before that failed for the same mistake at the same place."""
+    """Return the earlier check that failed because of the same mistake at the same place."""
     root = diagnosis.mistakes[0]
     for check_id, result in evidence.results.items():
         same = result.mistakes[:1] == [root] and result.where == diagnosis.where

@@ -1,6 +1,4 @@
-"""What the checks may look at: the assignment, the submission, and, made when first asked for, the
-build and the run.
-"""
+"""The evidence for the checks: the assignment, the submission, the build and the run."""
 
 from __future__ import annotations
 
@@ -17,7 +15,10 @@ from grader.verdict.outcome import Inconclusive
 
 
 class Evidence:
-    """The evidence of one verdict; `results` holds the checks that are decided."""
+    """The evidence of one verdict; `results` has the results of the checks evaluated so far.
+
+    The build and the run are made on first access.
+    """
 
     def __init__(
         self,
@@ -37,17 +38,17 @@ class Evidence:
 
     @cached_property
     def build(self) -> Build:
-        """The build; made now if nobody has asked before."""
+        """The build; made on first access."""
         return self._make_build()
 
     @property
     def run(self) -> Run:
-        """The run; made now if nobody has asked before. Raises Inconclusive where it failed us."""
+        """The run; made on first access. Raises Inconclusive if our own side failed."""
         if self._run is None:
             if self.run_failed is not None:
                 raise self.run_failed
             try:
-                _ = self.build  # also where no check asks how it went
+                _ = self.build  # (a run needs a build, even if no check uses its result)
                 self._run = self._make_run()
             except Unobserved as failure:
                 self.run_failed = Inconclusive(str(failure))
@@ -56,25 +57,25 @@ class Evidence:
 
     @property
     def has_run(self) -> bool:
-        """Whether there is a run to look at."""
+        """Whether the run was made."""
         return self._run is not None
 
     @property
     def was_built(self) -> bool:
-        """Whether somebody has asked for the build."""
+        """Whether the build was made."""
         return "build" in self.__dict__
 
     def is_hidden(self, check_id: str) -> bool:
-        """Whether students do not see a check."""
+        """Whether a check is hidden from students."""
         uses = {use.id: use.visibility for use in self.assignment.checks}
         return uses.get(check_id, "visible") != "visible"
 
     def has_failed(self, check_id: str) -> bool:
-        """Whether a check was decided and failed."""
+        """Whether a check was evaluated and failed."""
         result = self.results.get(check_id)
         return result is not None and result.status == "failed"
 
     def has_mistake(self, check_id: str, *mistakes: str) -> bool:
-        """Whether a check failed for one of these mistakes."""
+        """Whether a check failed because of one of these mistakes."""
         result = self.results.get(check_id)
         return result is not None and any(m.id in mistakes for m in result.mistakes)

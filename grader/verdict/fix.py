@@ -1,4 +1,4 @@
-"""Fixes one mistake after the other until none is left that can be fixed, all in memory."""
+"""Fixes a package in memory, one mistake after the other, until no other can be fixed."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
-from grader.verdict.static import findings
+from grader.verdict.static import static_findings
 
 MOST_STEPS = 30
-"""How many fixes one package gets at most: each mistake needs one, and a package has 16 checks."""
+"""The most fixes of one package: each mistake needs one, and a package has 16 checks."""
 MOST_PATCH = 50_000
-"""Bytes of a diff in a report: twice that of every line of an exercise."""
+"""Bytes of a diff in a report: twice the size of a diff that changes all lines of an exercise."""
 Judge = Callable[[Files], list[Finding]]
 
 
 @dataclass(frozen=True)
-class Plan:
-    """The files as they are and as they would be, what was fixed, and what is left."""
+class FixPlan:
+    """The files before and after the fixes; the findings that were fixed, and those left."""
 
     old: Files
     new: Files
@@ -34,14 +34,14 @@ class Plan:
 
     @property
     def patch(self) -> bytes:
-        """The difference; empty where nothing is to be changed."""
+        """The diff; empty if nothing changes."""
         return diff(self.old, self.new)
 
 
 def patch_for(result: CheckResult, submission: Submission, assignment: Assignment) -> str:
-    """Return the diff after which a check that failed passes; empty where no fix is certain.
+    """Return the diff with which a failed check passes; empty if no fix is certain.
 
-    What only a run tells cannot be asked here again: there the fix knows the mistake by its form.
+    Checks that need a run are not evaluated again: their fix relies on the form of the mistake.
     """
     finding = finding_of(result)
     if finding is None or submission.root is None:
@@ -57,31 +57,31 @@ def patch_for(result: CheckResult, submission: Submission, assignment: Assignmen
         return ""
     try:
         return patch.decode("utf-8")
-    except UnicodeDecodeError:  # JSON holds no other bytes
+    except UnicodeDecodeError:  # JSON cannot contain other bytes
         return ""
 
 
 def fix_files(
     submission: Submission, assignment: Assignment, only: str = "", *, lang: str = SOURCE
-) -> Plan:
-    """Fix what the files alone show to be wrong (in one check, if `only` names it)."""
+) -> FixPlan:
+    """Fix the mistakes that the files alone show (of the check `only`, if given)."""
 
     def judge(files: Files) -> list[Finding]:
-        return findings(files, submission, assignment, only, lang=lang)
+        return static_findings(files, submission, assignment, only, lang=lang)
 
     old = Files.of(submission)
     if only:
         return fix_all(old, assignment, judge)
-    # (a setup.py that Python cannot read answers nothing: no check of the files fails by it)
+    # (no static check fails because of a setup.py that Python cannot read, so fix it first)
     readable = syntax.setup_py(Case(old, Finding("", ""), assignment)) or old
     plan = fix_all(readable, assignment, judge)
     return _advised(replace(plan, old=old), assignment, judge)
 
 
-def fix_all(files: Files, assignment: Assignment, judge: Judge) -> Plan:
-    """Fix until the judge finds nothing more that can be fixed.
+def fix_all(files: Files, assignment: Assignment, judge: Judge) -> FixPlan:
+    """Fix until `judge` finds nothing more that can be fixed.
 
-    A fix after which the same is found again has not helped: it is taken back.
+    A fix is dropped if `judge` still finds the same afterwards.
     """
     start, fixed = files, []
     found = judge(files)
@@ -91,7 +91,7 @@ def fix_all(files: Files, assignment: Assignment, judge: Judge) -> Plan:
             break
         done, files, found = step
         fixed.append(done)
-    return Plan(start, files, tuple(fixed), tuple(found))
+    return FixPlan(start, files, tuple(fixed), tuple(found))
 
 
 def _step(
@@ -111,7 +111,7 @@ def _step(
 
 
 def _no_worse(before: list[Finding], after: list[Finding], case: Case) -> bool:
-    """Whether no check fails that passed before, but for later ones, which can be asked only now."""
+    """Whether no check newly fails, except later ones, which could not be evaluated before."""
     order = [use.id for use in case.assignment.checks]
     at = order.index(case.finding.check) if case.finding.check in order else len(order)
     new = {f.check for f in after} - {f.check for f in before}
@@ -126,7 +126,7 @@ def _tries(case: Case, fixes: Iterable[Fix]) -> Iterable[Files]:
 
 
 def _breaks_python(old: Files, new: Files) -> bool:
-    """Whether a file that Python could read is one that it cannot read after a fix."""
+    """Whether a fix makes a file unreadable for Python."""
     for path, file in new.by_path.items():
         before = old.by_path.get(path)
         changed = before is not None and before.data != file.data
@@ -138,11 +138,11 @@ def _breaks_python(old: Files, new: Files) -> bool:
 
 
 def first_fix(case: Case, fixes: Iterable[Fix]) -> Files | None:
-    """Return what the first fix makes that is certain; None if none is."""
+    """Return the files after the first fix that is certain; None if none is."""
     return next(iter(_tries(case, fixes)), None)
 
 
-def _advised(plan: Plan, assignment: Assignment, judge: Judge) -> Plan:
+def _advised(plan: FixPlan, assignment: Assignment, judge: Judge) -> FixPlan:
     files, left = plan.new, list(plan.left)
     for attempt in ADVISED:
         case = Case(files, Finding("", ""), assignment)

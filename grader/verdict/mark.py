@@ -1,15 +1,13 @@
-"""The runner: takes one submission through intake, build and run, and decides each check.
+"""Marks one submission: intake, build, run and checks.
 
-It prints nothing: it emits events, and returns the report.
+It prints nothing: it emits events and returns the report.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from datetime import datetime, timezone
-from pathlib import Path
 
 import grader
 from grader.base.i18n.message import say
@@ -18,16 +16,15 @@ from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission, take_in
 from grader.report import events, model
-from grader.ros.distro import Distro
 from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
-from grader.sandbox.limits import Limits
-from grader.verdict.ask import Question, ask_in_order
 from grader.verdict.compose import compose
+from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
+from grader.verdict.order import Order
 from grader.verdict.recording import Recording, evidence_of, record
 
 STAGES = {
@@ -39,28 +36,11 @@ STAGES = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
-class Order:
-    """What is to be marked, and how; `lang` is the language of every text in the report."""
-
-    path: Path
-    assignment: Assignment
-    distro: Distro
-    sandbox: str = "auto"
-    name: str | None = None
-    limits: Limits = field(default_factory=Limits)
-    own_code: bool = False
-    lang: str = "en"
-    student_id: str = ""
-    modes_kept: bool = True
-    """False where the way here lost the exec bits of the files (see `take_in`)."""
-
-
 def grade(order: Order, listener: events.Listener) -> model.Report:
     """Mark one submission on one distro.
 
-    Raises UsageError for a path that does not exist or cannot be read, SurroundingsError where
-    the grader's own surroundings fail; everything else is in the report.
+    Raises UsageError if the path does not exist or cannot be read, SurroundingsError if the
+    grader's own surroundings fail; everything else is in the report.
     """
     begin = time.monotonic()
     submission = take_in(
@@ -81,9 +61,9 @@ def mark(
     intake: float = 0,
     keep: Callable[[Recording], None] | None = None,
 ) -> model.Report:
-    """Mark a submission whose intake took `intake` seconds; raises as `grade`.
+    """Mark a submission whose intake took `intake` seconds; see `grade`.
 
-    `keep` receives the recording of the evidence.
+    `keep` is called with the recording of the evidence.
     """
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
@@ -96,7 +76,7 @@ def mark(
         order.distro,
         order.limits,
         own_code=order.own_code,
-        say=lambda text: listener(events.Note(text)),
+        notify=lambda text: listener(events.Note(text)),
     )
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))
@@ -179,7 +159,7 @@ def _decide(
     evidence: Evidence, listener: events.Listener, translate: Translator
 ) -> list[model.CheckResult]:
     stages = _Stages(listener, translate)
-    for result in ask_in_order(evidence, translate, announce=stages.announce):
+    for result in evaluate_checks(evidence, translate, announce=stages.announce):
         if result.status == "failed":
             patch = _patch(result, evidence, listener)
             evidence.results[result.id] = result.model_copy(update={"patch": patch})
@@ -189,22 +169,24 @@ def _decide(
 
 
 class _Stages:
-    """Tells a listener of each check that is asked, and of the stage that it belongs to."""
+    """Emits the events for each check and for the stage that it belongs to."""
 
     def __init__(self, listener: events.Listener, translate: Translator) -> None:
         self._listener = listener
-        self._speak = translate
+        self._translate = translate
         self._stage = ""
         self._begin = 0.0
 
-    def announce(self, question: Question) -> None:
-        stage, title = STAGES[question.check.id.partition(".")[0]]
+    def announce(self, assigned: AssignedCheck) -> None:
+        stage, title = STAGES[assigned.check.id.partition(".")[0]]
         if stage != self._stage:
             self.finish()
             self._stage, self._begin = stage, time.monotonic()
-            self._listener(events.StageStarted(stage, self._speak(title)))
-        check = question.check
-        self._listener(events.CheckStarted(check.id, self._speak(check.title), question.visibility))
+            self._listener(events.StageStarted(stage, self._translate(title)))
+        check = assigned.check
+        self._listener(
+            events.CheckStarted(check.id, self._translate(check.title), assigned.visibility)
+        )
 
     def finish(self) -> None:
         if self._stage:
@@ -215,6 +197,6 @@ class _Stages:
 def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:
     try:
         return patch_for(result, evidence.submission, evidence.assignment)
-    except Exception as fault:  # of ours: it must not lose the verdict, which has no change then
-        listener(events.Note(f"{result.id}: no change could be made, a fault of ours: {fault!r}"))
+    except Exception as fault:  # a bug of ours must not lose the verdict, which has no fix then
+        listener(events.Note(f"{result.id}: no fix was made because of a fault of ours: {fault!r}"))
         return ""

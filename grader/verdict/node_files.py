@@ -1,4 +1,4 @@
-"""The files of the package in which the mistake may be: the node's own, and what it imports."""
+"""Finds the files that may contain the mistake: the node's own, and the modules it imports."""
 
 from __future__ import annotations
 
@@ -11,34 +11,34 @@ from grader.verdict.checks.parsed import file_of, names_in, node_path
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
-MOST_MODULES = 10  # modules beside the node's file that are looked into
+MOST_MODULES = 10  # modules searched in addition to the node's file
 
 
 @dataclass(frozen=True)
 class NodeFile:
-    """A file of the package (its path there), and what its source says."""
+    """A file of the package: its path in the package, and its source."""
 
     path: str
     source: NodeSource
 
 
 def file_at(evidence: Evidence, path: str) -> NodeFile | None:
-    """Return a file of the package; None if it is not there or Python cannot read it."""
+    """Return a file of the package; None if it does not exist or Python cannot read it."""
     file = file_of(evidence, path)
     source = read_node(file.data) if file is not None and not file.unreadable else None
     return NodeFile(path, source) if source is not None else None
 
 
 def file_with_main(evidence: Evidence) -> NodeFile | None:
-    """Return the node's file; None if it leaves the node to a module of its own."""
+    """Return the node's file; None if the node's class is in another module."""
     found = file_at(evidence, node_path(evidence))
-    return None if found is None or _leaves_it(found, evidence) else found
+    return None if found is None or _imports_the_node(found, evidence) else found
 
 
 def file_with_node(evidence: Evidence) -> NodeFile | None:
-    """Return the file that has the node's class: the node's own, or a module that it imports."""
+    """Return the file with the node's class: the node's file, or a module that it imports."""
     found = file_at(evidence, node_path(evidence))
-    if found is None or not _leaves_it(found, evidence):
+    if found is None or not _imports_the_node(found, evidence):
         return found
     inner = evidence.assignment.package
     for name in sorted(names_in(evidence, inner))[:MOST_MODULES]:
@@ -48,6 +48,6 @@ def file_with_node(evidence: Evidence) -> NodeFile | None:
     return None
 
 
-def _leaves_it(found: NodeFile, evidence: Evidence) -> bool:
+def _imports_the_node(found: NodeFile, evidence: Evidence) -> bool:
     own = found.source.imports_of(evidence.assignment.package)
     return own and found.source.node_class is None

@@ -1,21 +1,39 @@
-"""From the words of the command line to what is to be marked; every word is checked first."""
+"""The order to mark a submission, made from the command line's options."""
 
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import chosen_language
-from grader.course.assignment import Assignment, load_assignment
+from grader.course.assignment import Assignment
 from grader.course.find import assignment_file, own_keys
-from grader.ros.distro import find_distro
+from grader.course.load import load_assignment
+from grader.ros.distro import Distro, find_distro
 from grader.sandbox.choose import check_name
 from grader.sandbox.limits import UNITS, Limits
-from grader.verdict.mark import Order
 
 HIDDEN = "hidden.yaml"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Order:
+    """What to mark, and how; `lang` is the language of the report."""
+
+    path: Path
+    assignment: Assignment
+    distro: Distro
+    sandbox: str = "auto"
+    name: str | None = None
+    limits: Limits = field(default_factory=Limits)
+    own_code: bool = False
+    lang: str = "en"
+    student_id: str = ""
+    modes_kept: bool = True
+    """False if the exec bits were lost on the way here (see `take_in`)."""
 
 
 def make_orders(
@@ -30,17 +48,18 @@ def make_orders(
     keys: Path | None = None,
     lang: str | None = None,
 ) -> list[Order]:
-    """Check every word of the command line before anything is run.
+    """Check all options and return one order for each distro.
 
-    `assignment` is an id, a file's path, or None for the one that is meant (`lessons.chosen`);
-    `keys` the instructor's folder of it (default: the grader's own, if any).
+    `assignment` is an id, a file's path, or None for the default (`course.find.chosen`); `keys` is
+    its folder of the instructor (default: the grader's own, if any). `own_code` is for a student's
+    own package: without the hidden checks, and with no sandbox if none is available.
     """
     check_name(sandbox)
     distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
     if not distros:
         raise UsageError(say("no distro was named"), remedy=say("For example: --distro jazzy"))
     given = _limit_values(limits)
-    wanted = visible_part(assignment) if own_code else with_hidden(assignment, keys)
+    wanted = load_visible(assignment) if own_code else load_with_hidden(assignment, keys)
     bounds = Limits().override(wanted.limits).override(given)
     return [
         Order(
@@ -57,8 +76,8 @@ def make_orders(
     ]
 
 
-def own_place() -> Path:
-    """Return where a student's own package is when no path is given: ~/ros2_ws, else here."""
+def default_path() -> Path:
+    """Return where to look for a student's own package: ~/ros2_ws, else the current folder."""
     workspace = Path.home() / "ros2_ws"
     return workspace if workspace.is_dir() else Path.cwd()
 
@@ -76,15 +95,15 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
     return values
 
 
-def visible_part(assignment: str | None) -> Assignment:
-    """Return an assignment as students have it: of its id or its file's path, or the one meant."""
+def load_visible(assignment: str | None) -> Assignment:
+    """Load an assignment without its hidden checks; see `make_orders` for `assignment`."""
     return load_assignment(assignment_file(assignment), known_limits=tuple(UNITS))
 
 
-def with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
-    """Return an assignment with the hidden checks of the instructor's folder.
+def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
+    """Load an assignment with the hidden checks of the instructor's folder.
 
-    Raises UsageError where it announces hidden checks and that folder has none.
+    Raises UsageError if it announces hidden checks and that folder has none.
     """
     file = assignment_file(assignment)
     folder = keys or own_keys(file)
@@ -101,6 +120,6 @@ def with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
                 count=loaded.hidden_checks,
                 name=str(hidden or HIDDEN),
             ),
-            remedy=say("Name the folder that has {name} with --keys.", name=HIDDEN),
+            remedy=say("Give the folder that has {name} with --keys.", name=HIDDEN),
         )
     return loaded

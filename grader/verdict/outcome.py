@@ -1,4 +1,4 @@
-"""What a check may find: `Passed`, or an `Outcome` that it raises."""
+"""The outcomes of a check: it returns `Passed` or raises another `Outcome`."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from grader.report.model import Mistake, Where
 
 @dataclass(frozen=True, kw_only=True)
 class Passed:
-    """The check holds; `actual` is what was found, `advice` what could still be better."""
+    """The check passed; `actual` is what was found, `advice` what could be better."""
 
     actual: str = ""
     advice: Sequence[str] = ()
 
 
-class Outcome(Exception):  # noqa: N818 - what a check says is not an error
-    """Anything but a pass."""
+class Outcome(Exception):  # noqa: N818 - an outcome is not an error
+    """Any outcome except a pass."""
 
 
 class Failed(Outcome):
-    """The check does not hold: which mistake it is, what was expected, what was found, and where.
+    """The check failed: the mistake, what was expected, what was found, and where.
 
-    The catalogue entry supplies the rationale and the fix (`variant` chooses among its texts;
-    `params`, which the report has, and `words`, which it has not, fill them). `fix` replaces the
-    entry's if only the check knows what to do.
+    The catalogue entry supplies the rationale and the fix: `variant` selects one of its texts,
+    `params` and `words` fill the placeholders (only `params` are in the report). `fix` replaces
+    the entry's fix if only the check knows what to do.
     """
 
     def __init__(
@@ -54,7 +54,7 @@ class Failed(Outcome):
 
 
 class Blocked(Outcome):
-    """The check cannot be asked because another one failed: it is skipped, never failed."""
+    """The check cannot be evaluated because another one failed: it is skipped, never failed."""
 
     def __init__(self, *, by: str) -> None:
         super().__init__(by)
@@ -62,7 +62,7 @@ class Blocked(Outcome):
 
 
 class Inconclusive(Outcome):
-    """Our side, or the load of the machine, kept us from knowing."""
+    """The check could not be decided, because of our own side or the load of the machine."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(reason)

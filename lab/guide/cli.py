@@ -19,8 +19,8 @@ from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
-from grader.course.assignment import load_assignment
 from grader.course.find import assignment_file
+from grader.course.load import load_assignment
 from grader.ros.distro import DEFAULT
 from lab.guide.lesson import Lesson, Step, lesson_file, read_lesson
 from lab.guide.progress import StudentState, current, next_actions

@@ -170,7 +170,7 @@ def _entry_point(state: StudentState) -> str:
     except (PythonFault, SetupCfgFault) as fault:
         return say("setup.py or setup.cfg cannot be read: {reason}", reason=fault.text)
     entries = found.group("console_scripts") + config.group("console_scripts")
-    if not found.told and (state.package / "setup.py").is_file():
+    if not found.is_static and (state.package / "setup.py").is_file():
         return ""  # (only a build shows the entry points)
     mine = [entry for entry in entries if entry.name == assignment.executable]
     if not mine:

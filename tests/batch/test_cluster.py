@@ -106,7 +106,7 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
     first = start_worker()
     start_worker()
     names = ["solution", "entry_missing"] * 4
-    with Cluster(scheduler, JOB, say=print) as cluster:
+    with Cluster(scheduler, JOB, notify=print) as cluster:
         found: list[Done] = []
         for done in cluster.run(tasks(tmp_path, names), started=_unheard):
             found.append(done)
@@ -121,7 +121,7 @@ def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
 ) -> None:
     with (
         scheduler_and_worker() as (scheduler, address),
-        Cluster(address, JOB, say=print) as cluster,
+        Cluster(address, JOB, notify=print) as cluster,
     ):
         wait = cluster._wait
 
@@ -178,7 +178,7 @@ def test_a_worker_without_a_sandbox_is_not_used(
     start_worker()
     start_worker(PATH="/nowhere")
     said: list[str] = []
-    with Cluster(scheduler, JOB, say=said.append) as cluster:
+    with Cluster(scheduler, JOB, notify=said.append) as cluster:
         (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=_unheard)
     assert _scores([done]) == {"solution-0": 100}
     assert len([line for line in said if "marks in bubblewrap" in line]) == 1
@@ -190,7 +190,7 @@ def test_workers_of_which_none_can_mark_are_refused(
 ) -> None:
     start_worker()
     job = replace(JOB, distro="lyrical")
-    with pytest.raises(SurroundingsError, match="no worker"), Cluster(scheduler, job, say=print):
+    with pytest.raises(SurroundingsError, match="no worker"), Cluster(scheduler, job, notify=print):
         pass
 
 

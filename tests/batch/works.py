@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from grader.batch.work import Job, Task
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from grader.package.submission import take_in
 from grader.sandbox.limits import Limits
 from tests.corpus.broken import BROKEN

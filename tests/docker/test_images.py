@@ -174,7 +174,7 @@ def test_a_distro_without_wheels_has_no_wheels_image(client: DockerClient) -> No
             stage="grade",
             base="wheels",
             network=Network(),
-            say=lambda text: None,
+            notify=lambda text: None,
         )
     assert "BASE=ros" in caught.value.remedy
 
@@ -187,7 +187,7 @@ def test_a_base_that_cannot_be_had_is_said_with_what_to_do(client: DockerClient)
             stage="grade",
             base="ros",
             network=Network(ros_base="registry.invalid/ros:lyrical-ros-base"),
-            say=lambda text: None,
+            notify=lambda text: None,
         )
     assert "make_base.sh" in caught.value.remedy
     assert "BASE=wheels" in caught.value.remedy
@@ -203,7 +203,7 @@ def test_a_certificate_that_is_none_is_refused(client: DockerClient, tmp_path: P
                 stage="grade",
                 base="wheels",
                 network=Network(extra_ca=file),
-                say=lambda text: None,
+                notify=lambda text: None,
             )
 
 
@@ -217,7 +217,7 @@ def test_a_second_build_is_made_of_the_cache(client: DockerClient) -> None:
             stage="grade",
             base="ros",
             network=engine.network(),
-            say=lines.append,
+            notify=lines.append,
         )
         for _ in range(2)
     ]

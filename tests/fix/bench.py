@@ -9,7 +9,7 @@ from pathlib import Path
 from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
 from grader.validate.tree import Edit
-from grader.verdict.fix import Plan, fix_files
+from grader.verdict.fix import FixPlan, fix_files
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.static_bench import ASSIGNMENT
@@ -27,7 +27,7 @@ def edited(folder: Path, *edits: Edit, name: str = "edited") -> Path:
     return write(Package(name=name, edits=edits), folder)
 
 
-def plan_of(path: Path) -> Plan:
+def plan_of(path: Path) -> FixPlan:
     """Return what the files alone have fixed."""
     return fix_files(taken(path), ASSIGNMENT)
 

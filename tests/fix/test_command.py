@@ -67,7 +67,7 @@ def test_a_setup_py_that_cannot_be_read_is_not_called_right(tmp_path: Path) -> N
     root = edited(tmp_path, Replace(SETUP, "setup(\n    name", "setup((\n    name"))
     done = stage.run(stage.grader("fix", "--no-run", root))
     assert done.returncode == 1
-    assert "left    entry_point.mapping: the files alone do not tell" in done.stderr
+    assert "left    entry_point.mapping: the files alone do not show it" in done.stderr
     one = stage.run(stage.grader("fix", "--check", "entry_point.mapping", root))
     assert one.returncode == 1
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.cli.fix_package import Wish, make_plan
+from grader.cli.fix_package import FixRequest, make_plan
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.fixes.table import BY_MISTAKE, fixes_for
@@ -128,7 +128,7 @@ def test_the_real_verdict_is_full_after_the_fix(name: str, tmp_path: Path) -> No
     root = write(package(name), tmp_path)
     limits = ("build_seconds=30", "start_seconds=15")
     (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
-    plan = make_plan(Wish(order=order), taken(root), tell=print)
+    plan = make_plan(FixRequest(order=order), taken(root), notify=print)
     assert not plan.left, plan.left
     assert plan.patch
 

@@ -8,7 +8,7 @@ import pytest
 
 from grader.validate.tree import Crlf, Write
 from grader.verdict.fix import patch_for
-from grader.verdict.static import decided
+from grader.verdict.static import static_results
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
@@ -50,7 +50,7 @@ def test_most_of_what_files_show_is_fixed() -> None:
 def test_every_check_of_the_files_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert not plan.left
-    results = decided(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
+    results = static_results(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
     status = {check: result.status for check, result in results.items()}
     assert set(status) >= {"package.manifest", "source.shebang", "entry_point.mapping"}
     assert set(status.values()) == {"passed"}
@@ -80,7 +80,7 @@ def test_what_is_fixed_stays_as_it_is(package: Package, tmp_path: Path) -> None:
 def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_path: Path) -> None:
     submission = taken(write(package, tmp_path))
     for check_id in package.expect_failed:
-        result = decided(submission, ASSIGNMENT)[check_id]
+        result = static_results(submission, ASSIGNMENT)[check_id]
         patch = patch_for(result, submission, ASSIGNMENT)
         assert patch.startswith("diff --git a/"), check_id
 
@@ -98,7 +98,7 @@ def test_where_nothing_is_certain_the_file_at_fault_stays(package: Package, tmp_
 @pytest.mark.parametrize("package", [p for p in BROKEN if p.name in NOTHING_TO_MARK], ids=named)
 def test_without_a_package_there_is_no_patch(package: Package, tmp_path: Path) -> None:
     submission = taken(write(package, tmp_path))
-    result = decided(submission, ASSIGNMENT)["package.found"]
+    result = static_results(submission, ASSIGNMENT)["package.found"]
     assert patch_for(result, submission, ASSIGNMENT) == ""
 
 
@@ -129,7 +129,7 @@ def test_a_report_is_not_filled_by_the_diff_of_a_huge_file(tmp_path: Path) -> No
         code = b"#!/usr/bin/env python3\r\n" + b"x = 'some text of a line'\r\n" * size
         (root / NODE).write_bytes(code)
         submission = taken(root)
-        result = decided(submission, ASSIGNMENT)["source.shebang"]
+        result = static_results(submission, ASSIGNMENT)["source.shebang"]
         assert result.mistakes[0].id == "source.crlf"
         assert bool(patch_for(result, submission, ASSIGNMENT)) is has_patch
 
@@ -138,6 +138,6 @@ def test_a_diff_that_json_cannot_hold_is_left_out_of_a_report(tmp_path: Path) ->
     code = b"#!/usr/bin/env python3\r\n# -*- coding: latin-1 -*-\r\n# f\xfcr\r\nx = 1\r\n"
     root = write(Package(name="latin", edits=(Write(NODE, code),)), tmp_path)
     submission = taken(root)
-    result = decided(submission, ASSIGNMENT)["source.shebang"]
+    result = static_results(submission, ASSIGNMENT)["source.shebang"]
     assert patch_for(result, submission, ASSIGNMENT) == ""
     assert contents(plan_of(root).new)[NODE] == code.replace(b"\r\n", b"\n")

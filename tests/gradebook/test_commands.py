@@ -56,7 +56,7 @@ def test_the_archive_is_written_for_its_owner_only(tmp_path: Path) -> None:
     ("words", "status", "said"),
     [
         (["convert", "gradescope", "/no/such"], 2, "/no/such"),
-        (["convert", "gradescope", str(stage.ROOT / "setup.py")], 2, "no report"),
+        (["convert", "gradescope", str(stage.ROOT / "setup.py")], 2, "not a report"),
         (["convert", "gradscope", "x"], 2, "gradscope"),
         (["gradescope-zip", "--distro", "jazy", "x.zip"], 2, "did you mean 'jazzy'?"),
         (["gradescope-zip", "--sandbox", "acount", "x.zip"], 2, "did you mean 'account'?"),

@@ -26,8 +26,8 @@ from grader.report import events
 from grader.report.model import Report
 from grader.ros.prefix import Ros
 from grader.validate.tree import Replace
-from grader.verdict.mark import Order, grade
-from grader.verdict.order import make_orders
+from grader.verdict.mark import grade
+from grader.verdict.order import Order, make_orders
 from tests import stage, weather
 from tests.corpus.build import write
 from tests.corpus.model import Package

@@ -32,7 +32,7 @@ from grader.publish import junit
 from grader.publish.feedback import html_page, short_html
 from grader.publish.markdown import markdown
 from grader.report.model import Evidence, Report
-from grader.verdict.mark import Order
+from grader.verdict.order import Order
 from tests import stage
 from tests.gradebook.filled import comment
 from tests.marking import ASSIGNMENT

@@ -34,7 +34,7 @@ def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) 
         out,
         worksheet=read_worksheet(english(*range(23))),
         canvas=read_gradebook(export(POSSIBLE, *(student(n) for n in range(24))), column="4711"),
-        say=said.append,
+        notify=said.append,
     ).files
     assert set(written) == files(out)
     names = {path.name for path in written if path.parent == out}

@@ -11,7 +11,7 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from grader.course.assignment import load_assignment
+from grader.course.load import load_assignment
 from lab.guide import progress as steps
 from lab.guide.lesson import read_lesson
 from tests import stage

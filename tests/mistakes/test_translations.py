@@ -16,7 +16,7 @@ from babel.messages.extract import extract_from_file
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import LANGUAGES
 from grader.cli import update_translations as update
-from grader.cli.localized import CLICK, CLICK_COUNTED
+from grader.cli.localized import CLICK, CLICK_PLURALS
 from tests.stage import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
@@ -47,7 +47,7 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
         )
         assert message.string, f"{place}: {template!r} has no translation"
         assert placeholders(str(message.string)) == placeholders(template), template
-    for one, many in CLICK_COUNTED:
+    for one, many in CLICK_PLURALS:
         message = catalog.get(one)
         assert message is not None, one
         forms = tuple(message.string or ())
@@ -99,7 +99,7 @@ def test_what_click_says_is_what_click_says() -> None:
         for path in folder.glob("*.py")
         for _, found, _, _ in extract_from_file("python", path, keywords=keywords)
     }
-    assert {*CLICK, *CLICK_COUNTED} <= said
+    assert {*CLICK, *CLICK_PLURALS} <= said
 
 
 def test_korean_sentences_are_in_the_formal_polite_style() -> None:
@@ -111,7 +111,7 @@ def test_korean_sentences_are_in_the_formal_polite_style() -> None:
 @pytest.mark.parametrize("lang", OTHERS)
 def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang: str) -> None:
     path = update.po_path(lang)
-    catalog = update.gathered(lang)
+    catalog = update.collect(lang)
     again = "run python -m grader.cli.update_translations"
     assert path.read_bytes() == update.po_bytes(catalog), again
     assert path.with_suffix(".mo").read_bytes() == update.mo_bytes(catalog), again
@@ -119,7 +119,7 @@ def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang
 
 def test_there_are_no_texts_left_over() -> None:
     known = {template for template, _ in update.templates()}
-    assert {m.id for m in update.read("ko") if m.id} == {*known, *CLICK_COUNTED}
+    assert {m.id for m in update.read("ko") if m.id} == {*known, *CLICK_PLURALS}
 
 
 def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -127,7 +127,7 @@ def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -
     known.add("Delete the line.", "그 줄을 고치십시오.")
     monkeypatch.setattr(update, "read", lambda lang: known)
     monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
-    kept = update.gathered("ko", {"Delete the line.": "Fix the line."}).get("Fix the line.")
+    kept = update.collect("ko", {"Delete the line.": "Fix the line."}).get("Fix the line.")
     assert kept is not None
     assert kept.string == "그 줄을 고치십시오."
 
@@ -144,4 +144,4 @@ def test_a_map_of_renamed_texts_that_does_not_fit_the_source_is_refused(
 ) -> None:
     monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
     with pytest.raises(UsageError, match=reason):
-        update.gathered("ko", renamed)
+        update.collect("ko", renamed)

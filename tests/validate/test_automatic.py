@@ -6,8 +6,8 @@ import ast
 
 import pytest
 
-from grader.course.assignment import load_assignment
 from grader.course.find import KEYS
+from grader.course.load import load_assignment
 from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code

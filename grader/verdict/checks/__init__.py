@@ -1,1 +1,1 @@
-"""The checks: one module for each stage."""
+"""The checks: one module for each stage, or for a part of one."""

@@ -1,9 +1,9 @@
-"""Every built-in check, in the order in which they are asked (a cause before what it causes)."""
+"""All built-in checks in the order of evaluation: each after those that it depends on."""
 
 from __future__ import annotations
 
 from grader.verdict.checks import build, counting, installed, package, source, starting, timing
-from grader.verdict.registry import Check
+from grader.verdict.checks.declare import Check
 
 CHECKS: dict[str, Check] = {
     declared.id: declared

@@ -1,4 +1,4 @@
-"""The build stage: does the real `colcon build` make the package that ROS then finds?"""
+"""The build stage: does `colcon build` install the package so that ROS finds it?"""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.report.model import Where
+from grader.verdict.checks.declare import check
 from grader.verdict.outcome import Blocked, Failed, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 NEVER_CALLED = "was never called"
-ANSWER = 'File "<unknown>", line '  # colcon evaluates the answer: it has no file name
+ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
 
 @check("build.colcon", depends=["package.found"])
@@ -65,7 +65,8 @@ def _stopped(evidence: Evidence) -> Failed:
         "build.resource",
         expected=say("colcon build within the limits of the sandbox"),
         actual=say(
-            "the build was stopped: it met the limit on {limit}", limit=limit_name(build.stopped_by)
+            "the build was stopped: it reached the limit on {limit}",
+            limit=limit_name(build.stopped_by),
         ),
         where=Where(file="setup.py"),
         params={"limit": build.stopped_by},
@@ -97,7 +98,7 @@ def _broken(evidence: Evidence) -> Failed:
         return Failed(
             "build.exited",
             expected=expected,
-            actual=say("setup.py ended before it had called setup()"),
+            actual=say("setup.py ended before it called setup()"),
             where=where,
         )
     if error:
@@ -118,7 +119,7 @@ def _broken(evidence: Evidence) -> Failed:
 
 
 def limit_name(limit: str) -> str:
-    """Return what a limit is called in a sentence."""
+    """Return the translatable name of a limit."""
     names = {
         "wall time": say("wall time"),
         "memory": say("memory"),
@@ -131,8 +132,8 @@ def limit_name(limit: str) -> str:
 def setup_error(log: str) -> tuple[str, int | None]:
     """Return the Python error that ended setup.py, and its line there, if any.
 
-    colcon asks setup.py in a process of its own, by distutils' run_setup, which knows no file name;
-    that this process failed is an error in colcon's own traceback, behind the one that counts.
+    colcon runs setup.py in a process of its own with distutils' run_setup, so that the traceback
+    has no file name. colcon's own traceback about the failed process follows that of setup.py.
     """
     of_setup = re.sub(r"^subprocess\.CalledProcessError: .*$", "", log, flags=re.MULTILINE)
     error, line = python_error(of_setup, "setup.py")

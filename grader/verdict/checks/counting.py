@@ -1,4 +1,4 @@
-"""The running stage, second part: does the node count, in the right words and through its logger?"""
+"""The run stage, part 2: does the node count, with the right text and through its logger?"""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import compared
+from grader.verdict.checks.declare import check
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
 from grader.verdict.outcome import Blocked, Failed, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.report.model import Where
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 INFO = 20
-LOST = 1.0  # seconds before the last line of a node that ended, whose records may be lost with it
+LOST = 1.0  # seconds before a node ended, whose log records may be lost
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
@@ -53,7 +53,9 @@ def output(evidence: Evidence) -> Passed:
     _must_go_on(evidence, expected)
     advice = []
     if any(event.n is None for event in events + run.watch.events if event.due is not None):
-        advice.append(say("Other lines come beside the count; they were not asked for."))
+        advice.append(
+            say("There are other lines besides the count; the exercise does not ask for them.")
+        )
     lines = say("{count} lines: {shown}, …", count=len(numbers), shown=shown)
     return Passed(actual=lines, advice=advice)
 
@@ -85,11 +87,14 @@ def _status(evidence: Evidence) -> str:
 
 
 def _count_fault(evidence: Evidence, numbers: list[int]) -> tuple[str, str]:
-    """Return mistake and what is wrong, if the numbers are not start, start + step, …."""
+    """Return the mistake and what was found if the numbers are not start, start + step, ….
+
+    Both are empty if the numbers are right.
+    """
     wanted, run = evidence.assignment.output, evidence.run
     dues = [event.due for event in run.watch.counted if event.due is not None]
     if len(dues) != len(set(dues)):
-        return "run.twice", say("more than one line came at a time")
+        return "run.twice", say("several lines came at the same time")
     if len(numbers) > 1 and len(set(numbers)) == 1:
         return "run.constant_counter", say("the number never changes")
     steps = {b - a for a, b in zip(numbers, numbers[1:])}
@@ -129,7 +134,7 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
 
 
 def _difference(wanted: str, found: str) -> str:
-    """Return what was found; where it is like what was wanted, with the difference marked."""
+    """Return what was found, with the difference marked if it is similar to what was wanted."""
     return compared(found, wanted) or repr(found[:200])
 
 
@@ -144,14 +149,14 @@ def logger(evidence: Evidence) -> Passed:
     expected = say("log records of the node on /rosout, level INFO")
     for event in events:
         if run.ended_by_itself and event.source == "faked" and event.wall > events[-1].wall - LOST:
-            continue  # a node that ends at once can take its last records with it
+            continue  # the last records of a node that ends may be lost
         _judge_record(event, names, expected, line_of(evidence, event.record))
     said = say("{count} records of [{name}], INFO", count=len(events), name=min(names, default=""))
     return Passed(actual=said)
 
 
 def _judge_record(event: Event, names: set[str], expected: str, where: Where) -> None:
-    """Raise Failed for a line that is no record of the node's own logger, at level INFO."""
+    """Raise Failed unless the line is an INFO record of the node's own logger."""
     if event.source == "print":
         text = event.text[:80]
         raise Failed(
@@ -166,7 +171,7 @@ def _judge_record(event: Event, names: set[str], expected: str, where: Where) ->
         raise Failed(
             "run.faked_log",
             expected=expected,
-            actual=say("a line in the form of a log record that ROS never logged"),
+            actual=say("a line that looks like a log record, but ROS never logged it"),
             where=where,
         )
     if event.record is not None and event.record.name not in names:

@@ -1,4 +1,4 @@
-"""What can be wrong with an entry of console_scripts: each fault told apart, with its one fix."""
+"""The faults of an entry of console_scripts: each is a mistake of its own, with one fix."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def wanted_entry(evidence: Evidence) -> str:
 
 
 def title_of(mistake: str) -> Message:
-    """Return what the catalogue says in a few words of a mistake."""
+    """Return a mistake's title in the catalogue."""
     return Message(CATALOGUE[mistake].title)
 
 
@@ -56,7 +56,7 @@ def _failed(
 
 
 def broken(evidence: Evidence, entry: Entry) -> Failed:
-    """Return what keeps setuptools from reading an entry (ours or another: it stops the build)."""
+    """Return the fault of an entry that setuptools cannot read; any such entry stops the build."""
     pieces = [piece for piece, _ in entry.pieces]
     if len(pieces) > 1 and sum("=" in piece or ":" in piece for piece in pieces) > 1:
         return _failed(
@@ -66,10 +66,10 @@ def broken(evidence: Evidence, entry: Entry) -> Failed:
             words={"before": shown(pieces[0])},
             line=str(entry.pieces[0][1]),
         )
-    asked = entry.name == evidence.assignment.executable
-    asked = asked or evidence.assignment.executable in entry.text
+    executable = evidence.assignment.executable
+    is_wanted = entry.name == executable or executable in entry.text
     mistake = _fault_of(entry.text, entry.target)
-    return _failed(evidence, entry, mistake, variant="" if asked else "other")
+    return _failed(evidence, entry, mistake, variant="" if is_wanted else "other")
 
 
 def _fault_of(text: str, target: str) -> str:
@@ -91,14 +91,14 @@ def _fault_of(text: str, target: str) -> str:
 
 
 def duplicate(evidence: Evidence, entries: list[Entry]) -> Failed:
-    """Return the fault of several entries of one name."""
+    """Return the fault of several entries with one name."""
     lines = ", ".join(str(entry.line) for entry in entries[:3])
-    said = say("the name is there {count} times, on lines {lines}", count=len(entries), lines=lines)
+    said = say("the name is used {count} times, on lines {lines}", count=len(entries), lines=lines)
     return _failed(evidence, entries[1], "setup.duplicate_entry", said)
 
 
 def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
-    """Return why there is no executable of the name: another name, another group, or no entry."""
+    """Return why no executable has the name: another name, another group, or no entry."""
     wanted = evidence.assignment.executable
     entries = points.group("console_scripts")
     same = [e for e in entries if "".join(e.target.split()) == evidence.assignment.target]
@@ -152,7 +152,7 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         line, variant = comment[0], "comment"
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
     elif not points.groups:
-        variant, actual = "nothing", say("setup() is given no entry_points")
+        variant, actual = "nothing", say("setup() has no entry_points argument")
     return Failed(
         "setup.no_entry",
         expected=say("'{entry}' among the console_scripts", entry=wanted_entry(evidence)),
@@ -164,7 +164,7 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
 
 
 def other_target(evidence: Evidence, entry: Entry) -> Failed:
-    """Return which part of the target is not what was asked for."""
+    """Return which part of the target is wrong."""
     target = "".join(entry.target.split())
     mistake, because = _part(evidence, target)
     return _failed(
@@ -186,7 +186,7 @@ def _part(evidence: Evidence, target: str) -> tuple[str, str]:
     if module == wanted:
         if not colon:
             return "setup.no_function", say(
-                "':{function}' is left out: a module cannot be called", function=function
+                "':{function}' is missing: a module cannot be called", function=function
             )
         other = say(
             "the function is '{given}', not '{function}'", given=shown(given), function=function
@@ -209,7 +209,7 @@ def _part(evidence: Evidence, target: str) -> tuple[str, str]:
     submission = evidence.submission
     if submission.file(f"{path}.py") or submission.file(f"{path}/__init__.py"):
         return "setup.other_module", say(
-            "it leads to another module: '{module}'", module=shown(module)
+            "it names another module: '{module}'", module=shown(module)
         )
     modules = {n.removesuffix(".py") for n in names_in(evidence, package) if n.endswith(".py")}
     hint = meant(nearest(module.rpartition(".")[2], {*modules, stem}))

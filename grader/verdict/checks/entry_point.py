@@ -1,7 +1,7 @@
-"""The entry point as setup.py (or setup.cfg) writes it: which of its parts is wrong?
+"""The entry point in the source of setup.py or setup.cfg: which of its parts is wrong?
 
-`entry_points` maps the name that `ros2 run` is given to a function in a module of the package:
-`name = package.module:function`. What only running setup.py would tell is left to the build.
+`entry_points` maps the executable's name, an argument of `ros2 run`, to a function in a module of
+the package: `name = package.module:function`. If setup.py computes it, only the build can tell.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.values import Table
 from grader.report.model import Where
 from grader.verdict.checks import entry_faults
-from grader.verdict.checks.parsed import file_of, node_path, reader_said, setup_py_of
+from grader.verdict.checks.parsed import file_of, node_path, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ GROUP = "console_scripts"
 
 
 def mapping_from_source(evidence: Evidence) -> Passed | None:
-    """Judge the mapping from the text alone; None if only running setup.py would tell.
+    """Check the mapping in the source; None if only running setup.py would show it.
 
     Raises Failed with the part that is wrong.
     """
@@ -37,7 +37,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if file is None or file.unreadable:
         raise _no_setup_py(file.reason if file else "")
     setup = setup_py_of(evidence)
-    if setup is None or not setup.told:
+    if setup is None or not setup.is_static:
         return None
     points = _points(evidence, setup)
     if points is None:
@@ -51,7 +51,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if len(named) > 1:
         raise entry_faults.duplicate(evidence, named)
     if not named:
-        if not points.told:
+        if not points.is_static:
             return None
         raise entry_faults.missing(evidence, points, setup)
     entry = named[0]
@@ -63,9 +63,10 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
 
 
 def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
-    """Return the entry points that count: setup.py's, or setup.cfg's where it has none.
+    """Return the effective entry points: setup.py's, or setup.cfg's if setup.py has none.
 
-    (setuptools lets setup.cfg fill in only what setup() was not given.)
+    setuptools uses setup.cfg only for arguments that setup() was not given. None if they are
+    unknown, because pyproject.toml may have them.
     """
     value = setup.argument("entry_points")
     empty = isinstance(value, Table) and not value.pairs
@@ -86,7 +87,7 @@ def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
 
 
 def _no_setup_py(reason: str) -> Failed:
-    cannot = say("setup.py cannot be read: {reason}", reason=reader_said(reason))
+    cannot = say("setup.py cannot be read: {reason}", reason=printable_reason(reason))
     return Failed(
         "setup.missing",
         expected=say("a setup.py with the entry point"),
@@ -96,7 +97,7 @@ def _no_setup_py(reason: str) -> Failed:
 
 
 def _advice(evidence: Evidence) -> list[str]:
-    """Return advice where the node's file has no such function: then the mapping leads nowhere."""
+    """Return advice if the node's file does not define the function of the mapping."""
     module, _, function = evidence.assignment.target.partition(":")
     path = module.replace(".", "/") + ".py"
     file = file_of(evidence, path)
@@ -118,7 +119,7 @@ def _advice(evidence: Evidence) -> list[str]:
 
 
 def _top_names(tree: ast.Module) -> set[str]:
-    """Return every name that the module could have, wherever it is bound (`*` for all)."""
+    """Return every name that the module may define, wherever it is bound (`*` for any)."""
     names: set[str] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):

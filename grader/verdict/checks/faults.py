@@ -1,4 +1,4 @@
-"""What the checks of a run have in common: places, tracebacks, and verdicts on limits."""
+"""Shared by the checks of a run: places, tracebacks, and the failures on limits."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
 
 
 def node_file(evidence: Evidence) -> Where:
-    """Return the node's file as the place of a fault that has no line."""
+    """Return the node's file as the place of a fault without a line."""
     return Where(file=f"{evidence.assignment.package}/{evidence.assignment.node_file}")
 
 
 def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
-    """Return the line of the node's file that logged a record, the file alone if that is unknown."""
+    """Return the line of the node's file that logged a record; only the file if it is unknown."""
     place = node_file(evidence)
     if record is not None and record.line > 0 and record.file.endswith(place.file):
         return Where(file=place.file, line=record.line)
@@ -34,7 +34,7 @@ def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
 
 
 def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
-    """Return the last error that the run printed, and the student's own line it came from."""
+    """Return the last error that the run printed, and the line of the student's code, if any."""
     error, _ = python_error(run.transcript, evidence.assignment.node_file)
     package = evidence.assignment.package
     mine = [m for m in FRAME.findall(run.transcript) if m[0].startswith(f"{package}/")]
@@ -44,13 +44,13 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
 
 
 def words(evidence: Evidence) -> dict[str, Value]:
-    """Return what the assignment and the node's source fill into a mistake's texts."""
+    """Return the values of assignment and node source for the texts of a mistake."""
     within = file_with_node(evidence)
     return words_of(evidence.assignment, within.source if within is not None else None)
 
 
 def flood(evidence: Evidence, expected: str) -> Failed:
-    """Return the verdict on a node that printed more than the limit."""
+    """Return the failure of a node that printed more than the limit."""
     run = evidence.run
     size = f"{max(len(run.transcript.encode()), run.logged) / 1e6:.1f}"
     return Failed(
@@ -62,12 +62,12 @@ def flood(evidence: Evidence, expected: str) -> Failed:
 
 
 def resource(evidence: Evidence, expected: str) -> Failed:
-    """Return the verdict on a node that met a limit on memory or processes."""
+    """Return the failure of a node that reached a limit, for example on memory or processes."""
     limit = evidence.run.resource
     return Failed(
         "run.resource",
         expected=expected,
-        actual=say("it met the limit on {limit} and was stopped", limit=limit_name(limit)),
+        actual=say("it reached the limit on {limit} and was stopped", limit=limit_name(limit)),
         where=node_file(evidence),
         params={"limit": limit},
     )

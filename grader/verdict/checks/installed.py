@@ -1,6 +1,6 @@
 """The installed stage: is the executable where `ros2 run` looks for it?
 
-"No executable found" has four causes (docs/architecture.md); each gets its own answer here.
+"No executable found" has four causes (docs/architecture.md); each is a mistake of its own.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.report.model import Where
 from grader.verdict.checks.build import setup_error
+from grader.verdict.checks.declare import check
 from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.outcome import Blocked, Failed, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 @check("entry_point.mapping", depends=["package.found"])
 def mapping(evidence: Evidence) -> Passed:
     """setup.py maps the executable's name to the function that starts the node."""
-    said = mapping_from_source(evidence)
-    if said is not None:
-        return said
+    passed = mapping_from_source(evidence)
+    if passed is not None:
+        return passed
     assignment = evidence.assignment
     if not evidence.build.is_installed(assignment.package):
         raise Blocked(by="build.colcon")
@@ -35,7 +35,7 @@ def mapping(evidence: Evidence) -> Passed:
                 entry = f"{name} = {target}"
                 return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
             raise _computed(evidence, f"{name} = {target}")
-    none = say("no entry of the name {executable}", executable=assignment.executable)
+    none = say("no entry named {executable}", executable=assignment.executable)
     raise _computed(evidence, none)
 
 
@@ -52,7 +52,7 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
 
 @check("entry_point.executable", depends=["build.colcon"])
 def executable(evidence: Evidence) -> Passed:
-    """`ros2 run` finds the executable where it looks for it."""
+    """The executable is where `ros2 run` looks for it."""
     package, name = evidence.assignment.package, evidence.assignment.executable
     files = evidence.build.files
     place = f"install/{package}/lib/{package}/{name}"
@@ -85,10 +85,10 @@ def executable(evidence: Evidence) -> Passed:
         )
     error, _ = setup_error(evidence.build.log)
     nothing = say(
-        "nothing of the name {name} was installed: ros2 run says No executable found", name=name
+        "nothing named {name} was installed: ros2 run says No executable found", name=name
     )
     with_error = say(
-        "nothing of the name {name} was installed ({error}): ros2 run says No executable found",
+        "nothing named {name} was installed ({error}): ros2 run says No executable found",
         name=name,
         error=error,
     )

@@ -1,4 +1,4 @@
-"""What `package.manifest` looks at: package.xml, and whether setup.py has the same name."""
+"""The check `package.manifest`: package.xml, and whether setup.py has the same name."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
 from grader.package.source.manifest import REQUIRED, Element, Manifest, ManifestError, read_manifest
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of, names_in, reader_said, setup_py_of
+from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 FILE = "package.xml"
 BUILD_TYPE = "<export><build_type>ament_python</build_type></export>"
-XML_FAULTS = {  # what expat says most often, so that it can be said in another language
+XML_FAULTS = {  # expat's most frequent messages, so that they can be translated
     str(fault): fault
     for fault in (
         say("mismatched tag"),
@@ -43,7 +43,7 @@ COMMON = (
 
 
 def check_manifest(evidence: Evidence) -> Passed:
-    """Judge package.xml; Failed names the first thing that is wrong."""
+    """Check package.xml; raise Failed for the first fault."""
     manifest = _read(evidence)
     _check_build_type_place(manifest)
     _check_rules(manifest)
@@ -86,10 +86,10 @@ def _read(evidence: Evidence) -> Manifest:
             words={"close": shown(close)},
         )
     if file.unreadable:
-        reason = reader_said(file.reason)
+        reason = printable_reason(file.reason)
         raise _failed(
             "package.manifest_unreadable",
-            say("package.xml has no content here: {reason}", reason=reason),
+            say("package.xml was not read: {reason}", reason=reason),
             None,
         )
     try:
@@ -99,9 +99,9 @@ def _read(evidence: Evidence) -> Manifest:
 
 
 def _unusable(error: ManifestError, *, empty: bool) -> Failed:
-    text = XML_FAULTS.get(error.text) or reader_said(error.text)
+    text = XML_FAULTS.get(error.text) or printable_reason(error.text)
     if error.kind == "doctype":
-        actual: str = say("{text}: it is not read any further", text=text)
+        actual: str = say("{text}: the rest of the file is not read", text=text)
         return _failed("package.manifest_doctype", actual, error.line)
     if error.kind != "xml":
         return _failed("package.manifest_rules", text, error.line)
@@ -125,7 +125,7 @@ def _check_rules(manifest: Manifest) -> None:
                 "package.manifest_tag",
                 say("<{tag}> is empty", tag=tag) if element else say("<{tag}> is missing", tag=tag),
                 element.line if element else None,
-                expected=say("<{tag}> with something in it", tag=tag),
+                expected=say("<{tag}> that is not empty", tag=tag),
                 variant="empty" if element else "",
                 params={"tag": tag},
             )
@@ -139,12 +139,12 @@ def _check_rules(manifest: Manifest) -> None:
 
 
 def shown_long(text: str) -> str:
-    """Return a message that may be longer than a name."""
+    """Return a message in printable form; unlike `shown`, it may be longer than a name."""
     return " ".join(shown(part) for part in text.split()[:60])
 
 
 def _line_of_fault(manifest: Manifest) -> int | None:
-    """Return the line of the tag that catkin_pkg's message is about, if it names one."""
+    """Return the line of the tag that catkin_pkg's message names, if any."""
     for element in manifest.elements:
         tag = element.tag
         if any(f"{mark}{tag}{mark}" in manifest.fault for mark in "\"'") or (
@@ -190,7 +190,7 @@ def _check_setup_name(evidence: Evidence) -> None:
 
 def _check_build_type_place(manifest: Manifest) -> None:
     for element in manifest.all("build_type"):
-        raise _build_type(element, say("<build_type> stands outside of <export>"))
+        raise _build_type(element, say("<build_type> is outside of <export>"))
 
 
 def _check_build_type(manifest: Manifest) -> None:
@@ -217,7 +217,7 @@ def _build_type(element: Element | None, actual: str) -> Failed:
 
 
 def _advice(manifest: Manifest) -> list[str]:
-    """Return what could be better and costs nothing."""
+    """Return advice that costs no points."""
     names = {element.text: element.line for element in manifest.depends}
     advice: list[str] = []
     if "rclpy" not in names:

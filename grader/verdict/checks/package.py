@@ -1,4 +1,4 @@
-"""The package stage: is it there, and do the parts that carry its name agree?"""
+"""The package stage: is there a package, and is its name the same everywhere?"""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_
 from grader.package.source.setup_py import INDEX
 from grader.package.source.values import Computed, Listing, Text, Value
 from grader.report.model import Where
+from grader.verdict.checks.declare import check
 from grader.verdict.checks.manifest import check_manifest
-from grader.verdict.checks.parsed import file_of, names_in, reader_said, setup_py_of
+from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -50,7 +50,7 @@ def manifest(evidence: Evidence) -> Passed:
 
 @check("package.marker", depends=["package.found"])
 def marker(evidence: Evidence) -> Passed:
-    """The marker file by which ROS finds the package is there and is installed."""
+    """The marker file by which ROS finds the package exists and is installed."""
     package = evidence.assignment.package
     path = f"resource/{package}"
     there = evidence.submission.file(path)
@@ -60,10 +60,10 @@ def marker(evidence: Evidence) -> Passed:
     if setup is None:
         return Passed(actual=path)
     data_files = setup.argument("data_files")
-    installed, told = _installed_in(data_files, INDEX)
-    if any(item.value.rpartition("/")[2] == package for item in installed) or not told:
+    installed, all_known = _installed_in(data_files, INDEX)
+    if any(item.value.rpartition("/")[2] == package for item in installed) or not all_known:
         where = say("{path}, installed in {folder}", path=path, folder=INDEX)
-        return Passed(actual=where if told else path)
+        return Passed(actual=where if all_known else path)
     if installed:
         raise _other_marker(evidence, installed[0])
     line = data_files.line if data_files is not None else setup.line
@@ -102,7 +102,7 @@ def _other_marker(evidence: Evidence, item: Text) -> Failed:
     path = shown(item.value)
     actual = say("it installs {path}", path=path)
     if missing:
-        actual = say("it installs {path}, which is not there", path=path)
+        actual = say("it installs {path}, which does not exist", path=path)
     wanted = f"resource/{package}"
     return Failed(
         "package.marker_missing" if missing else "package.marker_not_installed",
@@ -116,29 +116,29 @@ def _other_marker(evidence: Evidence, item: Text) -> Failed:
 
 
 def _installed_in(data_files: Value | None, folder: str) -> tuple[list[Text], bool]:
-    """Return what data_files puts into a folder, and whether all of it could be told."""
+    """Return the files that data_files installs in a folder, and whether all of them are known."""
     if data_files is None:
         return [], True
     if not isinstance(data_files, Listing):
         return [], False
     found: list[Text] = []
-    told = True
+    all_known = True
     for pair in data_files.items:
         if not isinstance(pair, Listing) or len(pair.items) != 2:
-            told = False
+            all_known = False
             continue
         place, files = pair.items
         if isinstance(place, Computed) or not isinstance(files, Listing):
-            told = False
+            all_known = False
         elif isinstance(place, Text) and place.value.strip("/") == folder:
             found += [item for item in files.items if isinstance(item, Text)]
-            told = told and all(isinstance(item, Text) for item in files.items)
-    return found, told
+            all_known = all_known and all(isinstance(item, Text) for item in files.items)
+    return found, all_known
 
 
 @check("package.setup_cfg", depends=["package.found"])
 def setup_cfg(evidence: Evidence) -> Passed:
-    """setup.cfg has executables installed where `ros2 run` looks."""
+    """setup.cfg installs executables where `ros2 run` looks."""
     package = evidence.assignment.package
     wanted = f"$base/lib/{package}"
     expected = say(
@@ -159,7 +159,7 @@ def setup_cfg(evidence: Evidence) -> Passed:
         raise Failed(
             "package.setup_cfg_syntax",
             expected=expected,
-            actual=say("setup.cfg cannot be understood: {text}", text=reader_said(fault.text)),
+            actual=say("setup.cfg cannot be parsed: {text}", text=printable_reason(fault.text)),
             where=Where(file="setup.cfg", line=fault.line),
         ) from None
     advice = [
@@ -171,7 +171,7 @@ def setup_cfg(evidence: Evidence) -> Passed:
 
 def _no_cfg(evidence: Evidence, reason: str) -> str:
     if reason:
-        return say("setup.cfg cannot be read: {reason}", reason=reader_said(reason))
+        return say("setup.cfg cannot be read: {reason}", reason=printable_reason(reason))
     close = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8)
     return with_difference(say("there is no setup.cfg") + meant(close), close, "setup.cfg")
 

@@ -1,4 +1,4 @@
-"""The package's own files for the static checks: there or not, readable or not, parsed or not."""
+"""Access to the package's files for the static checks."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 def file_of(evidence: Evidence, path: str) -> SourceFile | None:
-    """Return a file of the package (no folder), or None."""
+    """Return a file of the package; None if it does not exist or is a folder."""
     found = evidence.submission.file(path)
     return found if found is not None and found.kind == "file" else None
 
 
 def setup_py_of(evidence: Evidence) -> SetupPy | None:
-    """Return what setup.py says; None if it is missing or Python cannot read it."""
+    """Return the parsed setup.py; None if it is missing or Python cannot read it."""
     file = file_of(evidence, "setup.py")
     if file is None or file.unreadable:
         return None
@@ -32,7 +32,7 @@ def setup_py_of(evidence: Evidence) -> SetupPy | None:
 
 
 def node_path(evidence: Evidence) -> str:
-    """Return the path in the package that the assignment asks the node's file to have."""
+    """Return the path of the node's file in the package, as the assignment requires it."""
     return f"{evidence.assignment.package}/{evidence.assignment.node_file}"
 
 
@@ -47,8 +47,8 @@ def names_in(evidence: Evidence, folder: str) -> list[str]:
     return [name for name in rest if "/" not in name]
 
 
-def reader_said(text: str) -> str:
-    """Return why a file could not be read: words of ours as they are, others fit to be shown."""
+def printable_reason(text: str) -> str:
+    """Return why a file could not be read, with the student's and other foreign text escaped."""
     if not isinstance(text, Message):
         return shown(text)
     values = {name: shown(v) if isinstance(v, str) else v for name, v in text.params.items()}

@@ -1,4 +1,4 @@
-"""The source stage: the node's own file, its exec bit and its first line."""
+"""The source stage: the node's file, its exec bit and its first line."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from grader.mistakes.hints import hints
 from grader.package.source.node import NodeSource
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of, names_in, node_path, reader_said
+from grader.verdict.checks.declare import check
+from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.package.intake.model import SourceFile
@@ -35,11 +35,11 @@ def node_file(evidence: Evidence) -> Passed:
     if file is None:
         raise _not_there(evidence, path)
     if file.unreadable:
-        reason = reader_said(file.reason)
+        reason = printable_reason(file.reason)
         raise Failed(
             "source.unreadable_node_file",
             expected=say("a file {path} that can be read", path=path),
-            actual=say("it has no content here: {reason}", reason=reason),
+            actual=say("it was not read: {reason}", reason=reason),
             where=Where(file=path),
         )
     if not file.data.strip():
@@ -74,7 +74,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
         return Failed(
             "source.node_file_is_link",
             expected=expected,
-            actual=say("it is a link that leads out of the package"),
+            actual=say("it is a link to a place outside of the package"),
             where=Where(file=path),
         )
     inside = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
@@ -82,13 +82,13 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     elsewhere = inside or list(submission.node_files)
     if elsewhere:
         place = shown(elsewhere[0])
-        lies = say("it lies in {path}", path=place)
+        actual_place = say("it is in {path}", path=place)
         if not inside:
-            lies = say("it lies in {path}, outside of the package", path=place)
+            actual_place = say("it is in {path}, outside of the package", path=place)
         return Failed(
             "source.misplaced_node_file",
             expected=expected,
-            actual=lies,
+            actual=actual_place,
             where=Where(file=shown(inside[0])) if inside else None,
             params={"path": place},
             words={"wanted": path},
@@ -108,7 +108,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             words={"there": there, "path": path},
         )
     files = ", ".join(shown(n) for n in beside[:4]) or say("no file of yours yet")
-    actual = say("{inner}/ holds {files}", inner=inner, files=files)
+    actual = say("{inner}/ contains {files}", inner=inner, files=files)
     if not submission.file(inner):
         actual = say("there is no folder {inner} in the package", inner=inner)
     return Failed(
@@ -121,7 +121,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
 
 
 def _not_python(path: str, fault: PythonFault) -> Failed:
-    text = reader_said(fault.text)
+    text = printable_reason(fault.text)
     code = say("in: {code}", code=shown(fault.shown)) if fault.shown else ""
     return Failed(
         "source.not_utf8" if fault.kind == "encoding" else "source.syntax_error",
@@ -148,10 +148,10 @@ def exec_bit(evidence: Evidence) -> Passed:
     file = _node(evidence)
     mode = f"{file.mode & 0o777:04o}"
     if evidence.submission.modes == "unknown":
-        note = say("not known: the place that it was handed in from keeps no exec bits")
+        note = say("unknown: the submission came without exec bits")
         if evidence.assignment.modes == "accept-unknown":
             advice = say(
-                "See for yourself: ls -l {path} shows an x if the file is executable.", path=path
+                "Check it yourself: ls -l {path} shows an x if the file is executable.", path=path
             )
             return Passed(actual=note, advice=[advice])
         raise Failed(
@@ -199,13 +199,11 @@ def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
         actual = say("a byte order mark (three invisible bytes) is in front of line 1")
     elif first[:2] == b"#!" and (b"\r" in first):
         mistake = "source.crlf"
-        actual = say(
-            "line 1 ends as Windows ends lines (CRLF): Linux looks for a program 'python3\\r'"
-        )
+        actual = say("line 1 has a Windows line end (CRLF): Linux looks for a program 'python3\\r'")
     elif first[:2] == b"#!":
         mistake, actual = "source.wrong_shebang", with_difference(text, text, SHEBANG)
         if PYTHON3.fullmatch(first):
-            actual = say("{text}: env takes all that follows it for one program's name", text=text)
+            actual = say("{text}: env takes everything after it as one program name", text=text)
     elif later:
         mistake, line = "source.shebang_not_first", later[0]
         actual = say("the shebang is on line {line}; line 1 is: {text}", line=line, text=text)

@@ -1,4 +1,4 @@
-"""The running stage, first part: does the node start, stay, and end when Ctrl+C is pressed?"""
+"""The run stage, part 1: does the node start, keep running, and end on Ctrl+C?"""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
+from grader.verdict.checks.declare import check
 from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
-SIGNALLED = 240  # ros2 run passes on minus the number of the signal that ended the node, mod 256
+SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, modulo 256
 
 
 @check("run.starts", depends=["entry_point.executable"])
 def starts(evidence: Evidence) -> Passed:
-    """`ros2 run` starts the node and it stays."""
+    """`ros2 run` starts the node, and the node keeps running."""
     run = evidence.run
     if run.started:
         seconds = f"{run.node_seconds or 0:.1f}"
-        said = say("the node was on the ROS graph {seconds} s later", seconds=seconds)
+        said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)
         return Passed(actual=said)
     if run.resource:
         raise resource(evidence, say("the node starts within the limits of the sandbox"))
@@ -38,7 +38,7 @@ def starts(evidence: Evidence) -> Passed:
 
 
 def _ended(evidence: Evidence) -> Outcome:
-    """Return what is to be said of a program that ended before there was a node."""
+    """Return the outcome of a program that ended before its node was seen."""
     run = evidence.run
     for cause in ("source.node_file", "entry_point.mapping"):
         if evidence.has_failed(cause):
@@ -51,7 +51,7 @@ def _ended(evidence: Evidence) -> Outcome:
         return Failed(
             "run.died_at_start",
             expected=say("the node starts and runs until Ctrl+C"),
-            actual=say("it stopped at its start with {error}", error=error),
+            actual=say("it stopped on startup with {error}", error=error),
             where=where,
             params={"error": error.partition(":")[0], "text": error},
         )
@@ -78,7 +78,7 @@ def _no_node(evidence: Evidence, actual: str) -> Failed:
 
 @check("run.node_name", depends=["run.starts"])
 def node_name(evidence: Evidence) -> Passed:
-    """The node has the name that was asked for."""
+    """The node has the required name."""
     wanted = evidence.assignment.node_name
     names = [node.name for node in evidence.run.nodes]
     if f"/{wanted}" in names:
@@ -98,7 +98,7 @@ def node_name(evidence: Evidence) -> Passed:
 
 
 def _handler_fails(last: str) -> bool:
-    """Whether it was a line of the student's, run because of Ctrl+C, that raised the last error."""
+    """Whether the last error came from the student's own handling of Ctrl+C."""
     _, handling, after = last.rpartition("During handling of the above exception")
     return bool(handling) and OWN_ERROR.search(after) is not None
 
@@ -114,7 +114,7 @@ def interrupt(evidence: Evidence) -> Passed:
         raise Failed(
             "run.ignores_interrupt",
             expected=expected,
-            actual=say("it was still there and had to be killed"),
+            actual=say("it was still running and had to be killed"),
             where=node_file(evidence),
             words=words(evidence),
         )
@@ -125,7 +125,7 @@ def interrupt(evidence: Evidence) -> Passed:
         status=str(run.status),
     )
     if run.status in (0, 130, 254) or run.signal == 2:
-        caught = say("try: … except KeyboardInterrupt: around rclpy.spin spares the traceback.")
+        caught = say("try: … except KeyboardInterrupt: around rclpy.spin avoids the traceback.")
         return Passed(actual=actual, advice=[caught] if run.status == 254 else [])
     if run.status is not None and run.status > SIGNALLED:
         crashed = say(
@@ -136,8 +136,8 @@ def interrupt(evidence: Evidence) -> Passed:
         return Passed(actual=actual, advice=[crashed])
     if "rcl_shutdown already called" in last:
         known = say(
-            "The traceback after Ctrl+C is known: ROS has shut down already when your "
-            "rclpy.shutdown() is called. rclpy.try_shutdown() does it without."
+            "The traceback after Ctrl+C is a common one: ROS has already shut down when your "
+            "rclpy.shutdown() is called. rclpy.try_shutdown() avoids it."
         )
         return Passed(actual=actual, advice=[known])
     interrupted = "ExternalShutdownException" in last or "KeyboardInterrupt" in last

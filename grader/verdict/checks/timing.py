@@ -1,4 +1,4 @@
-"""The running stage, third part: do the lines come at the right instants?"""
+"""The run stage, part 3: do the lines come at the right instants?"""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.mistakes.from_source import longest_sleep
+from grader.verdict.checks.declare import check
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.node_files import file_with_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
-from grader.verdict.registry import check
 
 if TYPE_CHECKING:
     from grader.run.observer import Event
     from grader.verdict.evidence import Evidence
 
-WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # of the period, and seconds
+WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
 
 
 @check("run.period", depends=["run.starts"])
@@ -43,13 +43,13 @@ def period(evidence: Evidence) -> Passed:
         )
     on_time = [event for event in events if event.due is not None]
     stopped = len(on_time) > 1 and abs((watch.period or wanted.period) - wanted.period) < 0.001
-    if not watch.early and (not watch.missing or stopped):  # that it stops is run.output's to say
+    if not watch.early and (not watch.missing or stopped):  # run.output reports a stop
         slow = _kept_apart(evidence, on_time)
         if slow:
             actual = say("a line about every {period} s", period=f"{slow:.2f}")
             raise _wrong_period(evidence, expected, actual, seconds=slow)
         each = say(
-            "{count} lines, each at its instant (to 1 ms of ROS time), none between",
+            "{count} lines, each at its instant (to 1 ms of ROS time), none in between",
             count=len(on_time),
         )
         return Passed(actual=each)
@@ -66,8 +66,9 @@ def period(evidence: Evidence) -> Passed:
 def _kept_apart(evidence: Evidence, on_time: Sequence[Event]) -> float:
     """Return the wall time (s) between the lines of a callback that sleeps for more than a period.
 
-    ROS time waits for it; whoever looks at a terminal does too. Only a sleep that stands in the
-    source counts: what else takes long may be the machine's load. 0 where there is none.
+    ROS time waits for the callback, so the lines are on time, but on a terminal they come late.
+    Only a sleep in the source counts: any other delay may be the machine's load. 0 if there is
+    none.
     """
     within = file_with_node(evidence)
     slept = longest_sleep(within.source) if within is not None else None
@@ -87,7 +88,7 @@ def _wall_period(evidence: Evidence, expected: str) -> Passed:
     actual = say("a line every {period} s of wall time (median)", period=median)
     if abs(watch.period - wanted.period) <= slack:
         advice = say(
-            "Judged on the wall clock, since {note}. A timer made with create_timer follows "
+            "Measured on the wall clock, because {note}. A timer made with create_timer follows "
             "ROS time, in simulation too; a loop with sleep does not.",
             note=watch.note,
         )

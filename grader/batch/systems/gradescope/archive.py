@@ -18,7 +18,7 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.project import CHECKOUT
 from grader.course.find import assignment_file
-from grader.verdict.order import HIDDEN, with_hidden
+from grader.verdict.order import HIDDEN, load_with_hidden
 
 PARTS = (
     "grader",
@@ -98,7 +98,7 @@ def gradescope_zip(
     if file.resolve() != (root / "lab/course" / named / file.name).resolve():
         files |= _own_assignment(file)
         named = f"{OWN_ASSIGNMENT}/{file.name}"
-    with_hidden(assignment, keys)  # what is wrong is told here, and not at Gradescope
+    load_with_hidden(assignment, keys)  # what is wrong is told here, and not at Gradescope
     words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
     if keys is not None and (keys / HIDDEN).is_file():
         files[f"{OWN_KEYS}/{HIDDEN}"] = ((keys / HIDDEN).read_bytes(), FILE)

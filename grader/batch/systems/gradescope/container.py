@@ -29,8 +29,8 @@ from grader.batch.systems.gradescope import write as gradescope
 from grader.report import events
 from grader.report.blocks import UNSEEN
 from grader.report.model import CheckResult, Report
-from grader.verdict.mark import Order, grade
-from grader.verdict.order import make_orders
+from grader.verdict.mark import grade
+from grader.verdict.order import Order, make_orders
 
 RESULTS = "results.json"
 METADATA = "submission_metadata.json"

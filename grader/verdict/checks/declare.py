@@ -1,6 +1,6 @@
-"""How a check is declared and what it may say.
+"""Declares checks.
 
-A check is a function of a `Verdict`'s evidence. It returns `Passed` (or None, which is the same)
+A check is a function of a verdict's evidence. It returns `Passed` (or None, which means the same)
 or raises `Failed`, `Blocked` or `Inconclusive`; it prints nothing.
 """
 
@@ -29,8 +29,8 @@ class Check:
     depends: tuple[str, ...]
     function: CheckFunction = field(repr=False)
 
-    def ask(self, evidence: Evidence) -> Passed | Failed | Blocked | Inconclusive:
-        """Return what it says of this evidence. What else it raises is a fault of ours."""
+    def evaluate(self, evidence: Evidence) -> Passed | Failed | Blocked | Inconclusive:
+        """Return the outcome for this evidence. Any other exception is a bug of ours."""
         try:
             return self.function(evidence) or Passed()
         except (Failed, Blocked, Inconclusive) as outcome:
@@ -38,7 +38,7 @@ class Check:
 
 
 def check(check_id: str, *, depends: Sequence[str] = ()) -> Callable[[CheckFunction], Check]:
-    """Declare a check: its id, and the checks without which it makes no sense to ask."""
+    """Declare a check: its id, and the checks that must pass before it is evaluated."""
 
     def declare(function: CheckFunction) -> Check:
         title = (function.__doc__ or check_id).strip().splitlines()[0].rstrip(".")

@@ -1,4 +1,4 @@
-"""Asks the checks in order, and puts what each one found into a result in the reader's language."""
+"""Evaluates the checks in order; the texts of the results are in the reader's language."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
 from grader.verdict.checks.all import CHECKS
+from grader.verdict.checks.declare import Check
 from grader.verdict.diagnose import diagnose
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Inconclusive, Passed
-from grader.verdict.registry import Check
 
 
 @dataclass(frozen=True)
-class Question:
-    """A check that an assignment uses; `depends` names those of its dependencies that it uses too."""
+class AssignedCheck:
+    """A check of an assignment; `depends` has those of its dependencies that are assigned too."""
 
     check: Check
     points: float
@@ -29,14 +29,14 @@ class Question:
     depends: tuple[str, ...]
 
 
-Announce = Callable[[Question], None]
+Announce = Callable[[AssignedCheck], None]
 
 
-def questions(assignment: Assignment) -> list[Question]:
-    """Return what an assignment asks, a cause before what it causes."""
+def assigned_checks(assignment: Assignment) -> list[AssignedCheck]:
+    """Return an assignment's checks, each after those that it depends on."""
     uses = {use.id: use for use in assignment.checks}
     return [
-        Question(
+        AssignedCheck(
             check,
             uses[check.id].points,
             uses[check.id].visibility,
@@ -47,32 +47,32 @@ def questions(assignment: Assignment) -> list[Question]:
     ]
 
 
-def ask_in_order(
+def evaluate_checks(
     evidence: Evidence,
     translate: Translator,
     *,
     only: Collection[str] | None = None,
     announce: Announce | None = None,
 ) -> Iterator[CheckResult]:
-    """Ask the assignment's checks (those in `only`) and yield each result once it is in the evidence.
+    """Evaluate the assignment's checks (those in `only`) and yield the results.
 
-    `announce` hears of each check before it is asked. The build and the run happen in the first
-    check that needs them. Raises GraderError; any other fault of ours is a result of the
-    status `error`.
+    Each result is added to `evidence` first. `announce` is called with each check before it is
+    evaluated. The first check that needs the build or the run makes it. Raises GraderError;
+    any other exception that is not an outcome becomes a result with the status `error`.
     """
-    for question in questions(evidence.assignment):
-        if only is not None and question.check.id not in only:
+    for assigned in assigned_checks(evidence.assignment):
+        if only is not None and assigned.check.id not in only:
             continue
         if announce is not None:
-            announce(question)
-        result = _ask(question, evidence, translate)
+            announce(assigned)
+        result = _evaluate(assigned, evidence, translate)
         evidence.results[result.id] = result
         yield result
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Found:
-    """What a check found, before its texts are in the reader's language."""
+class _Result:
+    """The result of a check before translation."""
 
     status: CheckStatus
     score: float = 0
@@ -87,21 +87,21 @@ class _Found:
     blocked_by: str = ""
 
 
-def _ask(question: Question, evidence: Evidence, translate: Translator) -> CheckResult:
+def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator) -> CheckResult:
     begin = time.monotonic()
     try:
-        found = _found(question, evidence)
+        found = _found(assigned, evidence)
     except GraderError:
         raise
-    except Exception:  # a fault of ours in one check must not lose the verdict on the others
-        found = _Found(status="error", actual=traceback.format_exc(limit=-4))
+    except Exception:  # a bug in one check must not lose the results of the others
+        found = _Result(status="error", actual=traceback.format_exc(limit=-4))
     return CheckResult(
-        id=question.check.id,
-        title=translate(question.check.title),
+        id=assigned.check.id,
+        title=translate(assigned.check.title),
         status=found.status,
         score=found.score,
-        max_score=question.points,
-        visibility=question.visibility,
+        max_score=assigned.points,
+        visibility=assigned.visibility,
         rationale=translate(found.rationale),
         expected=translate(found.expected),
         actual=translate(found.actual),
@@ -109,26 +109,26 @@ def _ask(question: Question, evidence: Evidence, translate: Translator) -> Check
         advice=[translate(text) for text in found.advice],
         mistakes=list(found.mistakes),
         where=found.where,
-        depends=list(question.depends),
+        depends=list(assigned.depends),
         consequence_of=found.consequence_of,
         blocked_by=found.blocked_by,
         seconds=0 if found.status == "skipped" else round(time.monotonic() - begin, 3),
     )
 
 
-def _found(question: Question, evidence: Evidence) -> _Found:
-    blocker = _blocker(question, evidence)
-    outcome = Blocked(by=blocker) if blocker else question.check.ask(evidence)
+def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
+    blocker = _blocker(assigned, evidence)
+    outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence)
     if isinstance(outcome, Passed):
-        return _Found(
-            status="passed", score=question.points, actual=outcome.actual, advice=outcome.advice
+        return _Result(
+            status="passed", score=assigned.points, actual=outcome.actual, advice=outcome.advice
         )
     if isinstance(outcome, Inconclusive):
-        return _Found(status="inconclusive", actual=outcome.reason)
+        return _Result(status="inconclusive", actual=outcome.reason)
     if isinstance(outcome, Blocked):
-        return _skipped(question, outcome.by, evidence)
+        return _skipped(assigned, outcome.by, evidence)
     diagnosis = diagnose(outcome, evidence)
-    return _Found(
+    return _Result(
         status="failed",
         rationale=diagnosis.rationale,
         expected=diagnosis.expected,
@@ -141,19 +141,19 @@ def _found(question: Question, evidence: Evidence) -> _Found:
     )
 
 
-def _blocker(question: Question, evidence: Evidence) -> str:
-    for dependency in question.check.depends:
+def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
+    for dependency in assigned.check.depends:
         result = evidence.results.get(dependency)
         if result is not None and result.status != "passed":
             return result.blocked_by or dependency
     return ""
 
 
-def _skipped(question: Question, by: str, evidence: Evidence) -> _Found:
+def _skipped(assigned: AssignedCheck, by: str, evidence: Evidence) -> _Result:
     cause = evidence.results.get(by)
     root = (cause.blocked_by if cause is not None else "") or by
     title = CHECKS[root].title if root in CHECKS else root
-    if evidence.is_hidden(root) and question.visibility == "visible":
+    if evidence.is_hidden(root) and assigned.visibility == "visible":
         title = say("a hidden check")
-    actual = say("not asked, because of: {title}", title=title)
-    return _Found(status="skipped", blocked_by=root, actual=actual)
+    actual = say("skipped because of: {title}", title=title)
+    return _Result(status="skipped", blocked_by=root, actual=actual)
