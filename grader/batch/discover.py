@@ -14,7 +14,7 @@ from grader.batch.model import ClassFolder, HandedIn, System
 from grader.batch.roster import Roster, read_roster
 from grader.batch.systems import plain
 from grader.batch.systems.exec_bits import nobody_has_one
-from grader.batch.systems.gathered import Gatherer
+from grader.batch.systems.gather import Gatherer
 from grader.batch.systems.known import (
     LAYOUTS,
     NAMED_BY_HAND,
@@ -25,9 +25,8 @@ from grader.batch.systems.known import (
     recognised,
 )
 from grader.batch.systems.layout import Layout, Reading, look_at, seen
-from grader.batch.systems.one import is_class, one_package
-from grader.batch.systems.words import Notes
-from grader.batch.systems.words import plain as plainly
+from grader.batch.systems.notes import Notes, printable
+from grader.batch.systems.single_package import is_class, one_package
 from grader.batch.unpack import Unpacked, unpack_class
 from grader.batch.unpack_members import NOT_UNPACKED
 from grader.package.intake.given import resolved
@@ -40,7 +39,7 @@ NO_BITS = (
 
 
 @dataclass(frozen=True)
-class Asked:
+class Request:
     """What was asked for: `path` as it was given, resolved; a system's name or "auto"."""
 
     path: Path
@@ -57,13 +56,13 @@ def discover(
     a path that is no class, a system that is not known, and a roster that cannot be used.
     """
     check_system(system)
-    asked = Asked(resolved(path), system, unpack.resolve())
+    request = Request(resolved(path), system, unpack.resolve())
     students = read_roster(roster) if isinstance(roster, Path) else roster
     notes = Notes()
-    unpacked = Unpacked(asked.path)
-    if not asked.path.is_dir():
-        unpacked = unpack_class(asked.path, asked.unpack)
-    layout, found_system, handed_in = _read(asked, unpacked, notes)
+    unpacked = Unpacked(request.path)
+    if not request.path.is_dir():
+        unpacked = unpack_class(request.path, request.unpack)
+    layout, found_system, handed_in = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
     handed_in = _with_modes(found_system, handed_in, unpacked, notes)
     joined = join(found_system, _numbered(handed_in), students)
@@ -71,7 +70,7 @@ def discover(
         notes.name(reason, names)
     return ClassFolder(
         system=found_system,
-        path=asked.path,
+        path=request.path,
         # (a member of a group may have handed in alone as well)
         handed_in=tuple(_numbered(joined.handed_in)),
         missing=joined.missing,
@@ -81,39 +80,41 @@ def discover(
     )
 
 
-def _look(path: Path, asked: Asked, unpacked: Unpacked) -> Layout:
+def _look(path: Path, request: Request, unpacked: Unpacked) -> Layout:
     """Look at a folder of the class; our own folder, and those around it, are no student's."""
     below = path.relative_to(unpacked.folder).as_posix()
-    ours = [asked.unpack, *asked.unpack.parents]
+    ours = [request.unpack, *request.unpack.parents]
     return look_at(path, lost=_lost(unpacked, below), without=ours)
 
 
-def _read(asked: Asked, unpacked: Unpacked, notes: Notes) -> tuple[Layout, System, list[HandedIn]]:
-    layout = _look(unpacked.folder, asked, unpacked)
+def _read(
+    request: Request, unpacked: Unpacked, notes: Notes
+) -> tuple[Layout, System, list[HandedIn]]:
+    layout = _look(unpacked.folder, request, unpacked)
     single = one_package(layout)
     if single:
         raise UsageError(
-            f"{shown(str(asked.path))} is {single}, and no class",
+            f"{shown(str(request.path))} is {single}, and no class",
             remedy="One submission is marked with: grader grade PATH.",
         )
-    layout = _down(layout, asked, unpacked, notes)
-    found = recognised(asked.system, layout)
+    layout = _down(layout, request, unpacked, notes)
+    found = recognised(request.system, layout)
     if found is None:
         raise UsageError(
-            f"{shown(str(asked.path))} holds no submissions of a class: {seen(layout)}",
+            f"{shown(str(request.path))} holds no submissions of a class: {seen(layout)}",
             remedy=LAYOUTS,
         )
-    reading = Reading(notes, Gatherer(asked.unpack))
+    reading = Reading(notes, Gatherer(request.unpack))
     read = READERS[found].read(layout, reading)
     handed_in = [*read.handed_in]
     if not handed_in:
         raise UsageError(
-            f"{shown(str(asked.path))} is not {WORDS[found]}: {seen(layout)}", remedy=LAYOUTS
+            f"{shown(str(request.path))} is not {WORDS[found]}: {seen(layout)}", remedy=LAYOUTS
         )
     taken = {one.student.key for one in handed_in}
     for one in plain.read_items(layout.path, read.rest, reading):
         handed_in.append(_beside(one, taken, WORDS[found]))
-    how = "as was asked for" if asked.system != "auto" else "by its names"
+    how = "as was asked for" if request.system != "auto" else "by its names"
     notes.say(f"read as {WORDS[found]} ({found}), {how}")
     return layout, found, handed_in
 
@@ -143,9 +144,9 @@ def _lost(unpacked: Unpacked, below: str) -> dict[str, str]:
     }
 
 
-def _down(layout: Layout, asked: Asked, unpacked: Unpacked, notes: Notes) -> Layout:
+def _down(layout: Layout, request: Request, unpacked: Unpacked, notes: Notes) -> Layout:
     """Go into folders that are the only thing there, if the class is in them and no one student."""
-    if asked.system in NAMED_BY_HAND or is_named_as_in(asked.system, layout):
+    if request.system in NAMED_BY_HAND or is_named_as_in(request.system, layout):
         return layout
     deeper, left_out = layout, dict(layout.left_out)
     for _ in range(DEEPEST):
@@ -153,14 +154,14 @@ def _down(layout: Layout, asked: Asked, unpacked: Unpacked, notes: Notes) -> Lay
         if len(inner) != 1 or inner[0].kind != "folder" or inner[0].problem:
             break
         try:
-            deeper = _look(deeper.path / inner[0].name, asked, unpacked)
+            deeper = _look(deeper.path / inner[0].name, request, unpacked)
         except UsageError:
             break
         left_out.update(deeper.left_out)
-        by_hand = asked.system == "auto" and is_class(deeper)
-        if by_hand or is_named_as_in(asked.system, deeper):
+        by_hand = request.system == "auto" and is_class(deeper)
+        if by_hand or is_named_as_in(request.system, deeper):
             place = os.path.relpath(deeper.path, layout.path)
-            notes.say(f"the class is in the folder {shown(plainly(place))}")
+            notes.say(f"the class is in the folder {shown(printable(place))}")
             return replace(deeper, left_out=left_out)
     return layout
 
@@ -178,7 +179,7 @@ def _with_remarks(handed_in: list[HandedIn], unpacked: Unpacked, notes: Notes) -
         if owner is None:
             notes.name(what, [where])
         elif handed_in[owner].problem != what:
-            found.setdefault(owner, []).append(f"{what}: {shown(plainly(where))}")
+            found.setdefault(owner, []).append(f"{what}: {shown(printable(where))}")
     return [
         replace(one, notes=(*one.notes, *_few(found.get(n, [])))) for n, one in enumerate(handed_in)
     ]

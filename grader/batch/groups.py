@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 from grader.batch.match import folded
 from grader.batch.model import Student
-from grader.batch.roster import Line
+from grader.batch.roster import RosterLine
 
 DROPPED = re.compile(r"[\x00-\x1f\x7f&<>\"`|':\\/]")
 SEVERAL = re.compile(r"\s*[,;|]\s*")  # between groups, if somebody is in more than one
@@ -34,7 +34,7 @@ class Groups:
     unsure: dict[int, str] = field(default_factory=dict)
 
 
-def find_groups(students: Sequence[Student], lines: Sequence[Line]) -> Groups:
+def find_groups(students: Sequence[Student], lines: Sequence[RosterLine]) -> Groups:
     """Return which of the submissions are a group's, by the name that the folder has."""
     found = Groups()
     cells = _rows_by_group(lines)
@@ -47,13 +47,13 @@ def find_groups(students: Sequence[Student], lines: Sequence[Line]) -> Groups:
     return found
 
 
-def group_column(students: Sequence[Student], lines: Sequence[Line]) -> str:
+def group_column(students: Sequence[Student], lines: Sequence[RosterLine]) -> str:
     """Return the column of unknown name in which most of the submissions' names stand; "" if none.
 
     It is one of groups only if a name stands in it for more than one student.
     """
     for column in lines[0].unknown if lines else ():
-        trial = [Line(line.student, group=line.unknown.get(column, "")) for line in lines]
+        trial = [RosterLine(line.student, group=line.unknown.get(column, "")) for line in lines]
         found = find_groups(students, trial)
         members = sum(len(rows) for rows in found.rows.values())
         if 2 * len(found.rows) > len(students) and members > len(found.rows):
@@ -61,7 +61,7 @@ def group_column(students: Sequence[Student], lines: Sequence[Line]) -> str:
     return ""
 
 
-def _rows_by_group(lines: Sequence[Line]) -> dict[str, list[int]]:
+def _rows_by_group(lines: Sequence[RosterLine]) -> dict[str, list[int]]:
     cells: dict[str, list[int]] = {}
     for row, line in enumerate(lines):
         for name in dict.fromkeys((line.group, *SEVERAL.split(line.group))):
@@ -109,7 +109,7 @@ def _doubt(
         found.unsure |= dict.fromkeys(cells[name], why)
 
 
-def _without_double_members(found: Groups, lines: Sequence[Line]) -> None:
+def _without_double_members(found: Groups, lines: Sequence[RosterLine]) -> None:
     """Take out who is in several of the groups: which verdict is theirs is not certain."""
     groups: dict[int, list[str]] = {}
     for key, rows in found.rows.items():

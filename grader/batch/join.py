@@ -8,7 +8,7 @@ from datetime import datetime
 
 from grader.base.plain_text import one_line
 from grader.batch.groups import Groups, find_groups, group_column
-from grader.batch.match import Match, folded, is_same_name, match_more, other_ways, sure_ways
+from grader.batch.match import Match, fallback_rules, folded, is_same_name, match_more, sure_rules
 from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student, System
 from grader.batch.roster import Roster
 
@@ -47,7 +47,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
     students = [group[0].student for group in by_key.values()]
     roster, told = _with_groups(system, students, roster)
     match = Match()
-    match_more(match, sure_ways(system, students, roster), students, roster)
+    match_more(match, sure_rules(system, students, roster), students, roster)
     # a group `Team Lee` may have the number of a participant Ann Lee
     named = find_groups(students, roster.lines).rows
     for student in students:
@@ -58,7 +58,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
             del match.rows[student.key]
     groups = find_groups([one for one in students if one.key not in match.rows], roster.lines)
     rest = [one for one in students if one.key not in groups.rows | dict.fromkeys(groups.doubtful)]
-    match_more(match, other_ways(system, roster), rest, roster)
+    match_more(match, fallback_rules(system, roster), rest, roster)
     return _joined(by_key, match, groups, roster, told)
 
 

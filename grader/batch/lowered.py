@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from grader.base.plain_text import one_line
 from grader.batch import cells
-from grader.batch.model import Entry
+from grader.batch.model import GradebookEntry
 from grader.batch.points import marks
 
 NONE = ("", "-")  # what the systems write for no grade
@@ -31,7 +31,7 @@ class Lowered:
         return f"{self.who}: {self.before} in {self.where}, {self.after or 'nothing'} now"
 
 
-def lowered(entry: Entry, before: str, where: str) -> Lowered | None:
+def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
     """Return what an entry would lower in a cell, None if nothing.
 
     A grade that is no number cannot be compared: to replace it counts as lowering it. What an
@@ -57,7 +57,7 @@ def lowered(entry: Entry, before: str, where: str) -> Lowered | None:
     )
 
 
-def is_without_verdict(entry: Entry) -> bool:
+def is_without_verdict(entry: GradebookEntry) -> bool:
     """Whether nothing was found of a student, and no correction says what he or she gets."""
     corrected = any(override.check == "" for override in entry.overrides)
     return entry.status in ("missing", "elsewhere") and not corrected

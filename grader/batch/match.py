@@ -24,8 +24,8 @@ class Match:
 
 
 @dataclass(frozen=True)
-class Way:
-    """One way to know somebody again: the marks of a submission, and those of a roster's line.
+class MatchRule:
+    """One rule to know somebody again: the marks of a submission, and those of a roster's line.
 
     `fits`, if there is one, says whether a student and a line with the same mark can be one person.
     """
@@ -37,18 +37,18 @@ class Way:
 
 
 def match_more(
-    match: Match, ways: Iterable[Way], students: Sequence[Student], roster: Roster
+    match: Match, rules: Iterable[MatchRule], students: Sequence[Student], roster: Roster
 ) -> None:
-    """Find the row of each student who has none; a row is one key's, and the first way wins."""
+    """Find the row of each student who has none; a row is one key's, and the first rule wins."""
     lines = roster.students
-    for way in ways:
-        rows = _rows_by_mark(way, lines, without=set(match.rows.values()))
+    for rule in rules:
+        rows = _rows_by_mark(rule, lines, without=set(match.rows.values()))
         claims: dict[int, list[str]] = {}
         for student in students:
             if student.key in match.rows:
                 continue
-            marked = {row for mark in way.of_own(student) for row in rows.get(mark, ())}
-            fit = {row for row in marked if way.fits is None or way.fits(student, lines[row])}
+            marked = {row for mark in rule.of_own(student) for row in rows.get(mark, ())}
+            fit = {row for row in marked if rule.fits is None or rule.fits(student, lines[row])}
             if len(fit) == 1:
                 claims.setdefault(fit.pop(), []).append(student.key)
             elif fit:
@@ -58,12 +58,12 @@ def match_more(
                 match.doubtful.update(keys)
                 continue
             match.rows[keys[0]] = row
-            if way.by_name:
+            if rule.by_name:
                 match.by_name.add(keys[0])
 
 
-def sure_ways(system: System, students: Sequence[Student], roster: Roster) -> Iterator[Way]:
-    """Yield how a submission is found by more than a name, the surest way first.
+def sure_rules(system: System, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
+    """Yield how a submission is found by more than a name, the surest rule first.
 
     Moodle's and Canvas' numbers mean something only where the roster has them too: a small number
     of another list would be somebody else's.
@@ -72,29 +72,31 @@ def sure_ways(system: System, students: Sequence[Student], roster: Roster) -> It
     if system == roster.kind and numbered:
         yield _by_number(students, roster)
     if system == "github_classroom":
-        yield Way(_username, _username)
-        yield Way(_tails, _username)
+        yield MatchRule(_username, _username)
+        yield MatchRule(_tails, _username)
     if not numbered:
         for marks in (_id_number, _username, _email):
-            yield Way(_own_marks, marks)
-        yield Way(_own_marks, _key)
-        yield Way(_own_marks, _mailbox)
+            yield MatchRule(_own_marks, marks)
+        yield MatchRule(_own_marks, _key)
+        yield MatchRule(_own_marks, _mailbox)
 
 
-def other_ways(system: System, roster: Roster) -> Iterator[Way]:
-    """Yield the ways that are taken for what is no group's either."""
+def fallback_rules(system: System, roster: Roster) -> Iterator[MatchRule]:
+    """Yield the rules that are taken for what is no group's either."""
     if system == roster.kind and system in ("moodle", "canvas"):
-        yield Way(_number, _number, fits=_is_nameless)
-    yield from NAME_WAYS
+        yield MatchRule(_number, _number, fits=_is_nameless)
+    yield from NAME_RULES
 
 
-def ways_of_people(system: System, students: Sequence[Student], roster: Roster) -> Iterator[Way]:
+def rules_for_people(
+    system: System, students: Sequence[Student], roster: Roster
+) -> Iterator[MatchRule]:
     """Yield how students of whom more is known than their folder's name are found in a sheet."""
     if system == roster.kind and system in ("moodle", "canvas"):
         yield _by_number(students, roster)
     for marks in (_id_number, _email, _username):
-        yield Way(marks, marks)
-    yield from other_ways(system, roster)
+        yield MatchRule(marks, marks)
+    yield from fallback_rules(system, roster)
 
 
 def names_agree(own: Student, line: Student) -> bool:
@@ -113,8 +115,8 @@ def folded(name: str) -> str:
     return "".join(c for c in plain if not unicodedata.category(c).startswith("M"))
 
 
-def _by_number(students: Sequence[Student], roster: Roster) -> Way:
-    """Return the way by the system's own number.
+def _by_number(students: Sequence[Student], roster: Roster) -> MatchRule:
+    """Return the rule by the system's own number.
 
     The number of a Moodle group is a participant's number as well. So the names must agree if the
     roster has groups, or if the names of most numbers do not agree (nobody's name has changed then).
@@ -124,7 +126,7 @@ def _by_number(students: Sequence[Student], roster: Roster) -> Way:
     agree = sum(names_agree(*pair) or _is_nameless(*pair) for pair in pairs)
     groups = any(line.group for line in roster.lines)
     moodle = roster.kind == "moodle" and (groups or 2 * agree < len(pairs))
-    return Way(_number, _number, fits=names_agree if moodle else None)
+    return MatchRule(_number, _number, fits=names_agree if moodle else None)
 
 
 def _is_nameless(own: Student, line: Student) -> bool:
@@ -132,11 +134,13 @@ def _is_nameless(own: Student, line: Student) -> bool:
     return line.name in ("", line.key) or own.name.endswith(f" {own.key}") or own.name == own.key
 
 
-def _rows_by_mark(way: Way, lines: Sequence[Student], *, without: set[int]) -> dict[str, list[int]]:
+def _rows_by_mark(
+    rule: MatchRule, lines: Sequence[Student], *, without: set[int]
+) -> dict[str, list[int]]:
     rows: dict[str, list[int]] = {}
     for row, student in enumerate(lines):
         if row not in without:
-            for mark in set(way.of_line(student)):
+            for mark in set(rule.of_line(student)):
                 rows.setdefault(mark, []).append(row)
     return rows
 
@@ -205,7 +209,7 @@ def _words_in_any_order(student: Student) -> Iterator[str]:
             yield "".join(order)
 
 
-NAME_WAYS = (
-    Way(_sorted_words, _sorted_words, by_name=True),
-    Way(_one_word, _words_in_any_order, by_name=True),
+NAME_RULES = (
+    MatchRule(_sorted_words, _sorted_words, by_name=True),
+    MatchRule(_one_word, _words_in_any_order, by_name=True),
 )

@@ -1,6 +1,6 @@
 """What each check is worth in the end: the report's points with the instructor's corrections.
 
-A system that adds up its tests must come to the same total as the gradebook. `steps` are what lies
+A system that adds up its tests must come to the same total as the gradebook. `adjustments` are what lies
 between the sum of the checks and the final points: a corrected total, points taken for lateness.
 """
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.plain_text import one_line, points
-from grader.batch.model import Entry, Override, Student
+from grader.batch.model import GradebookEntry, Override, Student
 from grader.batch.words import duration
 from grader.report.model import CheckResult, Report
 
@@ -58,7 +58,7 @@ class Mark:
 
 
 @dataclass(frozen=True)
-class Step:
+class Adjustment:
     """Points that are added (or taken, below 0) after the checks, and why."""
 
     why: str
@@ -80,7 +80,7 @@ def rounded(value: float) -> float:
     return round(value, DIGITS) + 0.0
 
 
-def marks(entry: Entry) -> tuple[Mark, ...]:
+def marks(entry: GradebookEntry) -> tuple[Mark, ...]:
     """Return the marks of an entry's report; () without one. Of two corrections the last counts."""
     if entry.report is None:
         return ()
@@ -88,21 +88,23 @@ def marks(entry: Entry) -> tuple[Mark, ...]:
     return tuple(_mark(check, corrected.get(check.id)) for check in entry.report.checks)
 
 
-def steps(entry: Entry) -> tuple[Step, ...]:
+def adjustments(entry: GradebookEntry) -> tuple[Adjustment, ...]:
     """Return what leads from the sum of the marks to the final points; () if nothing is final."""
     if entry.final is None:
         return ()
     total = sum(mark.points or 0 for mark in marks(entry))
     score = total if entry.score is None else entry.score
-    found = [Step(_total_words(entry), rounded(score - total))]
-    found.append(Step(_late_words(entry), rounded(entry.final - score)))
-    return tuple(step for step in found if step.points)
+    found = [Adjustment(_total_words(entry), rounded(score - total))]
+    found.append(Adjustment(_late_words(entry), rounded(entry.final - score)))
+    return tuple(one for one in found if one.points)
 
 
-def single(report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()) -> Entry:
+def single(
+    report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
+) -> GradebookEntry:
     """Return the entry of a report that stands alone, outside of a class."""
     who = report.submission
-    entry = Entry(
+    entry = GradebookEntry(
         student=Student(key=who.student_id or who.name, name=who.name),
         status="graded" if report.status == "graded" else "pending",
         report=report,
@@ -124,7 +126,7 @@ def _mark(check: CheckResult, override: Override | None) -> Mark:
     return Mark(check, None if check.status in OPEN else rounded(check.score))
 
 
-def _total_words(entry: Entry) -> str:
+def _total_words(entry: GradebookEntry) -> str:
     whole = {override.check: override for override in entry.overrides}.get("")
     if whole is None:
         return say("The total was corrected")
@@ -134,7 +136,7 @@ def _total_words(entry: Entry) -> str:
     return say("The total was corrected by {name}, because: {why}", name=by, why=why)
 
 
-def _late_words(entry: Entry) -> str:
+def _late_words(entry: GradebookEntry) -> str:
     if entry.late_seconds > 0:
         return say("Handed in {duration} late", duration=duration(entry.late_seconds))
     if entry.penalty:

@@ -14,7 +14,7 @@ from grader.base.plain_text import one_line
 from grader.base.shown import shown
 from grader.batch.decoded import AS_CSV, decoded
 from grader.batch.model import Student
-from grader.batch.roster_columns import KNOWN, Columns, Kind, columns_of, participant
+from grader.batch.roster_columns import KNOWN, RosterColumns, RosterKind, columns_of, participant
 from grader.batch.roster_guess import EMAIL
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
@@ -28,7 +28,7 @@ NO_STUDENT = ("points possible", "manual posting", "student, test", "test studen
 
 
 @dataclass(frozen=True)
-class Line:
+class RosterLine:
     """A student's line: `row` is its number in the sheet, `group` the group in which he or she is.
 
     `evidence` is why the course's system knows a submission or a grade of this student, in words;
@@ -49,8 +49,8 @@ class Line:
 class Roster:
     """A class' students in the order of their file; `kind` tells whose numbers the keys are."""
 
-    lines: tuple[Line, ...]
-    kind: Kind
+    lines: tuple[RosterLine, ...]
+    kind: RosterKind
     name: str = "the roster"
     notes: tuple[str, ...] = ()
 
@@ -91,11 +91,11 @@ def read_roster(path: Path) -> Roster:
     return Roster(roster.lines, roster.kind, roster.name, tuple(note for note in notes if note))
 
 
-def roster_of(sheet: Sheet, name: str, columns: Columns | None = None) -> Roster:
+def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> Roster:
     """Return the students of a sheet that was read already (a worksheet, say)."""
     columns = columns_of(sheet) if columns is None else columns
     lines = tuple(
-        Line(
+        RosterLine(
             student=student,
             row=row,
             group=_cell(sheet, row, columns, "group"),
@@ -111,7 +111,7 @@ def roster_of(sheet: Sheet, name: str, columns: Columns | None = None) -> Roster
     return Roster(lines, columns.kind, name, notes if told else ())
 
 
-def _evidence(sheet: Sheet, row: int, columns: Columns) -> str:
+def _evidence(sheet: Sheet, row: int, columns: RosterColumns) -> str:
     """Return why Moodle knows a submission or a grade of this student; "" if it does not."""
     if columns.kind != "moodle":
         return ""
@@ -142,13 +142,13 @@ def _line(text: str, position: int) -> int:
     return before.count("\n") + before.count("\r") + 1
 
 
-def _cell(sheet: Sheet, row: int, columns: Columns, name: str) -> str:
+def _cell(sheet: Sheet, row: int, columns: RosterColumns, name: str) -> str:
     texts = (sheet.value(row, index) for index in columns.of(name))
     found = next((text for text in texts if text), "")
     return unicodedata.normalize("NFC", one_line(found, most=LONGEST))
 
 
-def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
+def _student(sheet: Sheet, row: int, columns: RosterColumns) -> Student | None:
     """Return a row's student, None if there is nobody in it."""
 
     def cell(name: str) -> str:
@@ -178,7 +178,7 @@ def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
     )
 
 
-def _submitted(sheet: Sheet, row: int, columns: Columns) -> datetime | None:
+def _submitted(sheet: Sheet, row: int, columns: RosterColumns) -> datetime | None:
     """Return the time of submission in a row; None for an empty cell and for what is no time."""
     stamps = (instant(sheet.value(row, index)) for index in columns.of("submitted"))
     return next((stamp for stamp in stamps if stamp is not None), None)
@@ -214,7 +214,7 @@ def _remedy() -> str:
     )
 
 
-def _no_duplicates(lines: tuple[Line, ...], place: Callable[[int], str]) -> None:
+def _no_duplicates(lines: tuple[RosterLine, ...], place: Callable[[int], str]) -> None:
     seen: dict[tuple[str, str], int] = {}
     for line in lines:
         for what, value in _marks(line.student):

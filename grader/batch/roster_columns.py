@@ -18,7 +18,7 @@ from grader.batch.systems.moodle.words import (
     TEAM,
 )
 
-Kind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
+RosterKind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
 
 NAMES: Mapping[str, tuple[str, ...]] = {
     "name": (
@@ -66,14 +66,14 @@ KNOWN = tuple(name for names in NAMES.values() for name in names)
 
 
 @dataclass(frozen=True)
-class Columns:
+class RosterColumns:
     """The columns of each field, the best one first, and whose export it is.
 
     `guesses` says which columns were recognised by what is in them, `unknown` which were not
     recognised at all.
     """
 
-    kind: Kind
+    kind: RosterKind
     fields: Mapping[str, tuple[int, ...]]
     guesses: tuple[str, ...] = ()
     unknown: tuple[int, ...] = ()
@@ -89,7 +89,7 @@ class Columns:
         return any(self.of(field) for field in known)
 
 
-def columns_of(sheet: Sheet, *, participants: int | None = None) -> Columns:
+def columns_of(sheet: Sheet, *, participants: int | None = None) -> RosterColumns:
     """Return what the columns of a sheet are: by their names, else by what is in them.
 
     `participants` is the column of Moodle's identifiers, if that is known.
@@ -116,7 +116,7 @@ def columns_of(sheet: Sheet, *, participants: int | None = None) -> Columns:
         fields |= _of_moodle(header, fields)
     told = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
     rest = tuple(index for index in unknown if index not in guesses.values())
-    return Columns(kind, fields, tuple(told), rest)
+    return RosterColumns(kind, fields, tuple(told), rest)
 
 
 def _of_moodle(
@@ -149,7 +149,7 @@ def _is_known(name: str) -> bool:
     return name in _FOLDED or MAXIMUM.search(name) is not None
 
 
-def _kind(sheet: Sheet, header: list[str]) -> tuple[Kind, int | None]:
+def _kind(sheet: Sheet, header: list[str]) -> tuple[RosterKind, int | None]:
     """Return whose export it is, and the column of that system's own number."""
     identifiers = {_folded(name) for name in IDENTIFIER}
     for index, name in enumerate(header):

@@ -20,7 +20,7 @@ DECIMAL_POINT = re.compile(r"\s*-?\d+\.\d+\s*")
 
 
 @dataclass(frozen=True)
-class Cell:
+class CsvCell:
     """A cell's value, and where it stands in the text: `start` to `end`, quotes included."""
 
     value: str
@@ -97,7 +97,7 @@ class Sheet:
         return value
 
 
-def _rows(text: str, delimiter: str) -> Iterator[list[Cell]]:
+def _rows(text: str, delimiter: str) -> Iterator[list[CsvCell]]:
     """Yield the rows of a text that are not blank, with the cells' places."""
     position, cells = 0, []
     while position < len(text):
@@ -107,7 +107,7 @@ def _rows(text: str, delimiter: str) -> Iterator[list[Cell]]:
         if position < len(text) and text[position] == delimiter:
             position += 1
             if position == len(text):  # the file ends with an empty cell
-                cells.append(Cell("", position, position, quoted=False))
+                cells.append(CsvCell("", position, position, quoted=False))
             continue
         if len(cells) > 1 or cells[0].end > cells[0].start:
             yield cells
@@ -117,13 +117,13 @@ def _rows(text: str, delimiter: str) -> Iterator[list[Cell]]:
         yield cells
 
 
-def _cell(text: str, start: int, delimiter: str) -> Cell:
+def _cell(text: str, start: int, delimiter: str) -> CsvCell:
     quoted = text.startswith('"', start)
     value, position = _in_quotes(text, start + 1) if quoted else ("", start)
     end = position
     while end < len(text) and text[end] not in (delimiter, "\r", "\n"):
         end += 1
-    return Cell(value + text[position:end], start, end, quoted)
+    return CsvCell(value + text[position:end], start, end, quoted)
 
 
 def _in_quotes(text: str, position: int) -> tuple[str, int]:

@@ -22,7 +22,7 @@ MOST_INPUT = 50_000_000  # bytes of a file of the teacher's
 
 
 @dataclass(frozen=True)
-class Sheets:
+class SheetOptions:
     """The teacher's own files that are filled in, and the names of their columns."""
 
     worksheet: Path | None = None
@@ -75,7 +75,7 @@ class OpenSheets:
         return [sheet for sheet in (self.worksheet, self.canvas) if sheet is not None]
 
 
-def open_sheets(sheets: Sheets, assignment: Assignment) -> OpenSheets:
+def open_sheets(sheets: SheetOptions, assignment: Assignment) -> OpenSheets:
     """Read the files and find their columns; UsageError for one that cannot be filled in."""
     # each brings a library or templates that a class without these files does not need
     from grader.batch.systems.canvas.write import read_gradebook  # noqa: PLC0415

@@ -20,7 +20,7 @@ from typing import IO
 
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.shown import shown
-from grader.batch.unpack_members import CLASS_LIMITS, Writing
+from grader.batch.unpack_members import CLASS_LIMITS, ClassWriter
 from grader.package.intake.archive import members_of, parsing
 from grader.package.intake.archive_kind import HEAD, kind_of
 from grader.package.intake.archive_limits import Spent
@@ -101,21 +101,21 @@ def _made(file: IO[bytes], path: Path, target: Path) -> Unpacked:
     building.mkdir(mode=0o700)  # nobody else's to read, whatever lies in it
     (building / "class").mkdir()
     try:
-        writing = Writing(building / "class")
-        _read_into(writing, file, path)
+        writer = ClassWriter(building / "class")
+        _read_into(writer, file, path)
         told = {
             "form": FORM,
-            "remarks": writing.remarks,
-            "modes_recorded": writing.modes_recorded,
+            "remarks": writer.remarks,
+            "modes_recorded": writer.modes_recorded,
         }
         (building / "unpacked.json").write_text(json.dumps(told))
         building.rename(target)
     finally:
         shutil.rmtree(building, ignore_errors=True)
-    return Unpacked(target / "class", tuple(writing.remarks), writing.modes_recorded)
+    return Unpacked(target / "class", tuple(writer.remarks), writer.modes_recorded)
 
 
-def _read_into(writing: Writing, file: IO[bytes], path: Path) -> None:
+def _read_into(writer: ClassWriter, file: IO[bytes], path: Path) -> None:
     kind = kind_of(file.read(HEAD))
     file.seek(0)
     name = shown(path.name)
@@ -127,9 +127,9 @@ def _read_into(writing: Writing, file: IO[bytes], path: Path) -> None:
     try:
         with parsing(path.name):
             for member in members_of(file, kind, path.name, Spent(CLASS_LIMITS)):
-                writing.add(member)
-        if writing.locked is not None:
-            raise writing.locked
+                writer.add(member)
+        if writer.locked is not None:
+            raise writer.locked
     except ArchiveError as error:
         raise UsageError(
             f"the class' archive cannot be unpacked. {error.problem.text}",

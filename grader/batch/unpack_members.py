@@ -45,7 +45,7 @@ LOCKED = f"{NOT_UNPACKED}, as it is locked with a password"
 DAMAGED = f"{NOT_UNPACKED} to its end, as it is damaged"
 
 
-class Writing:
+class ClassWriter:
     """The class' folder while it is filled."""
 
     def __init__(self, root: Path) -> None:

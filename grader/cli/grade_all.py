@@ -100,7 +100,7 @@ def grade_all(
     # a `--help` must not pay for these
     from grader.batch.accept import accepted  # noqa: PLC0415
     from grader.batch.override import LEDGER  # noqa: PLC0415
-    from grader.batch.sheets import Sheets  # noqa: PLC0415
+    from grader.batch.sheets import SheetOptions  # noqa: PLC0415
     from grader.publish import class_run as run  # noqa: PLC0415
     from grader.verdict.order import make_orders  # noqa: PLC0415
 
@@ -109,7 +109,7 @@ def grade_all(
     if len(orders) > 1:
         raise UsageError("a class is marked on one distro", remedy="Give --out one for each.")
     out = out or Path("reports") / (path.resolve().stem or "class")
-    sheets = Sheets(
+    sheets = SheetOptions(
         worksheet=worksheet,
         canvas=canvas,
         canvas_column=canvas_column,

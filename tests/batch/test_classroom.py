@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder, Entry, HandedIn
+from grader.batch.model import ClassFolder, GradebookEntry, HandedIn
 from grader.batch.policy import Attempt, standing
 from grader.course.policy import Late, Policy
 from tests.report.samples import report
@@ -35,7 +35,7 @@ def grades(path: Path, **times: str) -> Path:
     return path
 
 
-def judged(given: HandedIn) -> Entry:
+def judged(given: HandedIn) -> GradebookEntry:
     """Return what a right package gets under the policy."""
     attempt = Attempt(1, given.submitted, given.late, report(), notes=given.notes)
     return standing(given.student, [attempt], [], POLICY, 100)

@@ -12,11 +12,11 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.batch.model import HandedIn
-from grader.batch.systems.words import Notes, plain
+from grader.batch.systems.notes import Notes, printable
 from grader.package.intake.archive_kind import HEAD, is_named_archive, kind_of
 from grader.package.intake.reading import Unread, open_file
 
-Kind = Literal["folder", "archive", "file"]
+ItemKind = Literal["folder", "archive", "file"]
 
 MOST_NAMES = 100_000
 HIDDEN = "left out, as hidden"
@@ -54,11 +54,11 @@ OF_NOBODY = frozenset(
 
 
 @dataclass(frozen=True)
-class Item:
+class FolderItem:
     """One name in the class' folder; `problem` says why nothing can be done with it."""
 
     name: str
-    kind: Kind
+    kind: ItemKind
     problem: str = ""
 
     @property
@@ -72,14 +72,14 @@ class Layout:
     """A class' folder; `left_out` are the names that are nobody's, by the reason."""
 
     path: Path
-    items: tuple[Item, ...]
+    items: tuple[FolderItem, ...]
     left_out: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
-    def has(self, name: str, kind: Kind) -> bool:
+    def has(self, name: str, kind: ItemKind) -> bool:
         """Return whether there is a thing of that name and kind."""
         return any(item.name == name and item.kind == kind for item in self.items)
 
-    def submissions(self) -> list[Item]:
+    def submissions(self) -> list[FolderItem]:
         """Return what would be somebody's by its kind alone: folders and archives."""
         return [item for item in self.items if item.may_be_submission]
 
@@ -100,7 +100,7 @@ class Read:
     """What a system's reader made of a layout; `rest` is what it did not know."""
 
     handed_in: list[HandedIn]
-    rest: list[Item] = field(default_factory=list)
+    rest: list[FolderItem] = field(default_factory=list)
 
 
 def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()) -> Layout:
@@ -111,7 +111,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
     """
     ours = {place.name for place in without if place.parent == path}
     items = [
-        Item(name, _kind_by_name(name), why)
+        FolderItem(name, _kind_by_name(name), why)
         for name, why in lost.items()
         if _why_nobodys(name) is None
     ]
@@ -122,7 +122,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
                 if entry.name in ours:
                     continue
                 found = _item(entry)
-                if isinstance(found, Item):
+                if isinstance(found, FolderItem):
                     items.append(found)
                 else:
                     left_out.setdefault(found, []).append(entry.name)
@@ -134,7 +134,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
     return Layout(path, tuple(items), {why: tuple(sorted(n)) for why, n in left_out.items()})
 
 
-def _item(entry: os.DirEntry[str]) -> Item | str:
+def _item(entry: os.DirEntry[str]) -> FolderItem | str:
     """Return an item, or the reason for which there is none."""
     name = entry.name
     nobodys = _why_nobodys(name)
@@ -142,11 +142,11 @@ def _item(entry: os.DirEntry[str]) -> Item | str:
         return nobodys
     if entry.is_symlink():
         # (what it leads to is not looked at: its name must do)
-        return Item(name, _kind_by_name(name), IS_LINK)
+        return FolderItem(name, _kind_by_name(name), IS_LINK)
     if entry.is_dir(follow_symlinks=False):
-        return Item(name, "folder")
+        return FolderItem(name, "folder")
     if entry.is_file(follow_symlinks=False):
-        return Item(name, "archive" if _is_archive(entry) else "file")
+        return FolderItem(name, "archive" if _is_archive(entry) else "file")
     return NO_SUBMISSION
 
 
@@ -156,7 +156,7 @@ def _why_nobodys(name: str) -> str | None:
     return HIDDEN if name.startswith(".") else None
 
 
-def _kind_by_name(name: str) -> Kind:
+def _kind_by_name(name: str) -> ItemKind:
     if is_named_archive(name):
         return "archive"
     return "file" if Path(name).suffix.lower() in FILES else "folder"
@@ -181,6 +181,6 @@ def seen(layout: Layout) -> str:
         "other file": sum(item.kind == "file" for item in layout.items),
     }
     parts = [f"{n} {what}{'s' if n != 1 else ''}" for what, n in counts.items() if n]
-    names = ", ".join(shown(plain(item.name)) for item in layout.items[:3])
+    names = ", ".join(shown(printable(item.name)) for item in layout.items[:3])
     more = f" and {len(layout.items) - 3} more" if len(layout.items) > 3 else ""
     return f"{' and '.join(parts)} ({names}{more})" if parts else "nothing"

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 
 NAMED = re.compile(
     r"(?P<late1>LATE_)?(?:anon_(?P<anon>[A-Za-z0-9]+)|(?P<name>\w+?)(?P<late2>_LATE)?_(?P<user>\d+))"
@@ -35,10 +35,10 @@ RENAMED = "named as before Canvas added a number"
 
 
 @dataclass(frozen=True)
-class Part:
+class Attachment:
     """One attachment (`number` its id, 0 for what was typed in) and the student's name for it."""
 
-    item: Item
+    item: FolderItem
     number: int
     file: str
     late: bool
@@ -59,7 +59,7 @@ def recognise(layout: Layout) -> bool:
 
 def read(layout: Layout, reading: Reading) -> Read:
     """Return each student's attachments; several of one attempt together."""
-    parts: dict[str, list[Part]] = {}
+    parts: dict[str, list[Attachment]] = {}
     names: dict[str, str] = {}
     rest = []
     for item in layout.items:
@@ -71,16 +71,16 @@ def read(layout: Layout, reading: Reading) -> Read:
         names.setdefault(key, match["name"] or key)
         late = bool(match["late1"] or match["late2"])
         number = int(match["attachment"] or 0)
-        parts.setdefault(key, []).append(Part(item, number, match["file"] or "", late))
+        parts.setdefault(key, []).append(Attachment(item, number, match["file"] or "", late))
     reading.notes.say(NO_TIMES)
     found: list[HandedIn] = []
     for key, group in parts.items():
-        found += _student(Student(key=key, name=plain(names[key])), layout, reading, group)
+        found += _student(Student(key=key, name=printable(names[key])), layout, reading, group)
     return Read(found, rest)
 
 
 def _student(
-    student: Student, layout: Layout, reading: Reading, parts: list[Part]
+    student: Student, layout: Layout, reading: Reading, parts: list[Attachment]
 ) -> list[HandedIn]:
     late = any(part.late for part in parts)
     files = sorted((part for part in parts if part.file), key=lambda part: part.number)
@@ -88,7 +88,7 @@ def _student(
     if not files:
         problem = typed[0].problem or ONLY_TYPED
         return [HandedIn(student, layout.path / typed[0].name, late=late, problem=problem)]
-    notes = tuple(f"{TYPED}: {plain(item.name)}" for item in typed)
+    notes = tuple(f"{TYPED}: {printable(item.name)}" for item in typed)
     if any(TWO_WAYS.match(part.item.name) for part in files):
         notes += (AMBIGUOUS,)
     attempts = _attempts(files)
@@ -100,7 +100,7 @@ def _student(
     ]
 
 
-def _attempts(files: list[Part]) -> list[list[Part]]:
+def _attempts(files: list[Attachment]) -> list[list[Attachment]]:
     """Return the attempts: the newest of each name together are the last one."""
     newest = {part.original: part for part in files}
     last = [part for part in files if newest[part.original] is part]
@@ -111,7 +111,7 @@ def _attempt(
     student: Student,
     layout: Layout,
     reading: Reading,
-    parts: list[Part],
+    parts: list[Attachment],
     *,
     number: int,
     late: bool,
@@ -119,14 +119,14 @@ def _attempt(
 ) -> HandedIn:
     good = [part for part in parts if not part.item.problem]
     bad = [part for part in parts if part.item.problem]
-    notes = (*notes, *(f"{plain(part.item.name)}: {part.item.problem}" for part in bad))
+    notes = (*notes, *(f"{printable(part.item.name)}: {part.item.problem}" for part in bad))
     problem = "" if good else bad[0].item.problem
     path = layout.path / parts[0].item.name
     if good and (len(good) > 1 or good[0].item.kind != "archive"):
         files = [(layout.path / part.item.name, part.original) for part in good]
         path = reading.gather(files)
         renamed = [part.file for part in good if part.original != part.file]
-        notes += tuple(f"{RENAMED}: {plain(name)}" for name in renamed)
+        notes += tuple(f"{RENAMED}: {printable(name)}" for name in renamed)
     elif good:
         path = layout.path / good[0].item.name
     return HandedIn(

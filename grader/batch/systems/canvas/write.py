@@ -18,8 +18,8 @@ from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.lowered import NONE, Lowered, as_number, is_without_verdict, lowered
-from grader.batch.match import Match, Way, match_more, ways_of_people
-from grader.batch.model import ClassResult, Elsewhere, Entry, Student, System
+from grader.batch.match import Match, MatchRule, match_more, rules_for_people
+from grader.batch.model import ClassResult, Elsewhere, GradebookEntry, Student, System
 from grader.batch.roster import Roster, roster_of
 from grader.batch.sheet import Filled, Sheet
 
@@ -46,10 +46,10 @@ class CanvasGradebook:
     def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the line of each student, by key."""
         found = Match()
-        ways = list(ways_of_people(system, students, self.roster))
-        sure = [way for way in ways if not way.by_name]
-        ways = [*sure, Way(_email, _login), *(way for way in ways if way.by_name)]
-        match_more(found, ways, students, self.roster)
+        rules = list(rules_for_people(system, students, self.roster))
+        sure = [rule for rule in rules if not rule.by_name]
+        rules = [*sure, MatchRule(_email, _login), *(rule for rule in rules if rule.by_name)]
+        match_more(found, rules, students, self.roster)
         return found
 
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
@@ -93,7 +93,7 @@ class CanvasGradebook:
     def _cell(self, row: int) -> str:
         return self.sheet.value(row, self.column)
 
-    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, GradebookEntry]]:
         """Yield the rows whose cells get a grade, and whose they are."""
         for entry in result.entries:
             index = match.rows.get(entry.student.key)
@@ -213,5 +213,5 @@ def _login(line: Student) -> tuple[str, ...]:
     return (line.username.strip().casefold(),) if line.username.strip() else ()
 
 
-def _who(entry: Entry) -> str:
+def _who(entry: GradebookEntry) -> str:
     return one_line(entry.student.name or entry.student.key, most=100)

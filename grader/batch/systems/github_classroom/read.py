@@ -6,8 +6,8 @@ from itertools import takewhile
 from pathlib import Path
 
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 
 SUBMISSIONS = "-submissions"  # what `gh classroom clone` puts behind the assignment's name
 NO_TIMES = (
@@ -33,14 +33,14 @@ def read(layout: Layout, reading: Reading) -> Read:
         if item not in repositories:
             rest.append(item)
             continue
-        username = plain(item.name).removeprefix(prefix)
-        student = Student(key=plain(item.name), name=username, username=username)
+        username = printable(item.name).removeprefix(prefix)
+        student = Student(key=printable(item.name), name=username, username=username)
         found.append(HandedIn(student, layout.path / item.name))
     reading.notes.say(NO_TIMES)
     return Read(found, rest)
 
 
-def _repositories(layout: Layout) -> list[Item]:
+def _repositories(layout: Layout) -> list[FolderItem]:
     folders = [item for item in layout.items if item.kind == "folder" and not item.problem]
     return [item for item in folders if _is_folder(layout.path / item.name / ".git")]
 
@@ -49,14 +49,14 @@ def _is_folder(path: Path) -> bool:
     return path.is_dir() and not path.is_symlink()
 
 
-def _prefix(layout: Layout, repositories: list[Item]) -> str:
+def _prefix(layout: Layout, repositories: list[FolderItem]) -> str:
     """Return what all names begin with, up to a `-`; "" if there is no such thing.
 
     The folder that `gh classroom clone` makes tells the assignment's name; else the names do,
     unless there is only one.
     """
-    names = [plain(item.name) for item in repositories]
-    told = f"{plain(layout.path.name).removesuffix(SUBMISSIONS)}-"
+    names = [printable(item.name) for item in repositories]
+    told = f"{printable(layout.path.name).removesuffix(SUBMISSIONS)}-"
     if layout.path.name.endswith(SUBMISSIONS) and any(name.startswith(told) for name in names):
         return told
     if len(names) < 2:

@@ -17,8 +17,8 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import one_line, points
 from grader.batch.check_text import check_text, headline
-from grader.batch.model import Entry
-from grader.batch.points import Mark, marks, rounded, steps
+from grader.batch.model import GradebookEntry
+from grader.batch.points import Mark, adjustments, marks, rounded
 from grader.report.model import Report
 
 UNSEEN = say("Hidden checks")
@@ -28,7 +28,7 @@ SUBMISSION = say("The submission")
 COMMAND = re.compile(r"^(\s*:)(?=:)|(##)(?=\[)", re.MULTILINE)
 
 
-def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
+def results(entry: GradebookEntry, *, show_hidden: bool = False) -> dict[str, Any]:
     """Return the runner's result; hidden checks are one test (the log is the student's to read)."""
     report, translate = entry.report, Translator(entry.lang)
     if report is None or entry.final is None:
@@ -44,8 +44,14 @@ def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
     ]
     if hidden:
         tests.append(_hidden(hidden, translate))
-    for step in steps(entry):
-        tests.append(_line(translate(step.why), step.points, "pass" if step.points > 0 else "fail"))
+    for adjustment in adjustments(entry):
+        tests.append(
+            _line(
+                translate(adjustment.why),
+                adjustment.points,
+                "pass" if adjustment.points > 0 else "fail",
+            )
+        )
     if not tests:
         tests = [_line(translate(SUBMISSION), entry.final, "pass")]
     states = {test["status"] for test in tests}
@@ -68,7 +74,7 @@ def variable(step: str) -> str:
     return f"{step.strip().upper()}_RESULTS"
 
 
-def _result(status: str, entry: Entry, tests: list[dict[str, Any]]) -> dict[str, Any]:
+def _result(status: str, entry: GradebookEntry, tests: list[dict[str, Any]]) -> dict[str, Any]:
     return {"version": 1, "status": status, "max_score": rounded(entry.max_score), "tests": tests}
 
 

@@ -15,8 +15,8 @@ from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.batch.model import HandedIn, Student
 from grader.batch.systems.gradescope.metadata import Record, instant, read_metadata
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 METADATA = "submission_metadata.yml"
@@ -51,7 +51,7 @@ def read(layout: Layout, reading: Reading) -> Read:
         found += _submission(layout.path, item, metadata.get(item.name), bool(metadata))
     for name, record in metadata.items():
         if name not in there:
-            gone = Item(name, "folder", NO_FOLDER)
+            gone = FolderItem(name, "folder", NO_FOLDER)
             found += _submission(layout.path, gone, record, known=True)
     return Read(_keys_apart(found), rest)
 
@@ -72,7 +72,9 @@ def _metadata(layout: Layout, reading: Reading) -> Mapping[str, Record]:
         return {}
 
 
-def _submission(path: Path, item: Item, record: Record | None, known: bool) -> Iterator[HandedIn]:
+def _submission(
+    path: Path, item: FolderItem, record: Record | None, known: bool
+) -> Iterator[HandedIn]:
     place = path / item.name
     students = _submitters(item.name, record or {})
     notes: tuple[str, ...] = () if record is not None or not known else (UNKNOWN,)
@@ -92,14 +94,18 @@ def _submitters(folder: str, record: Record) -> list[Student]:
     found = []
     for person in people:
         name, sid, email = (_text(person.get(key)) for key in (":name", ":sid", ":email"))
-        key = sid or email or (f"{plain(folder)} {name}" if len(people) > 1 else plain(folder))
+        key = (
+            sid
+            or email
+            or (f"{printable(folder)} {name}" if len(people) > 1 else printable(folder))
+        )
         found.append(Student(key=key, name=name or key, email=email, id_number=sid))
-    return found or [Student(key=plain(folder), name=plain(folder))]
+    return found or [Student(key=printable(folder), name=printable(folder))]
 
 
 def _text(value: object) -> str:
     """Return a scalar as text: a student's number may have been read as a number."""
-    return plain(str(value).strip()) if isinstance(value, str | int) else ""
+    return printable(str(value).strip()) if isinstance(value, str | int) else ""
 
 
 def _earlier(folder: str, record: Record) -> int:

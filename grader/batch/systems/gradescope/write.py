@@ -14,8 +14,8 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines, one_line, points
 from grader.batch.check_text import check_text
-from grader.batch.model import Entry, Override
-from grader.batch.points import Mark, in_points, marks, rounded, single, steps
+from grader.batch.model import GradebookEntry, Override
+from grader.batch.points import Mark, adjustments, in_points, marks, rounded, single
 from grader.report.model import Report
 
 MOST = 200  # characters of a name
@@ -73,7 +73,7 @@ def _test(mark: Mark, report: Report) -> dict[str, Any]:
     return test
 
 
-def _output(entry: Entry, report: Report) -> str:
+def _output(entry: GradebookEntry, report: Report) -> str:
     final, most = points(entry.final or 0), points(report.max_score)
     lines: list[str] = [say("{points} of {most} points", points=final, most=most)]
     if report.status == "error":
@@ -81,7 +81,7 @@ def _output(entry: Entry, report: Report) -> str:
     open_ = sum(mark.check.max_score for mark in marks(entry) if mark.points is None)
     if open_:
         lines.append(say("{points} could be neither given nor taken.", points=in_points(open_)))
-    lines += [step.told for step in steps(entry)]
+    lines += [adjustment.text for adjustment in adjustments(entry)]
     lines += [line for note in report.submission.notes for line in first_lines(note, lines=3)]
     if report.observed.command:
         command = one_line(report.observed.command, most=1_000)

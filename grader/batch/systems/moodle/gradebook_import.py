@@ -13,7 +13,7 @@ from collections import Counter
 from typing import Literal
 
 from grader.batch import cells
-from grader.batch.model import ClassResult, Comment, Entry, Student
+from grader.batch.model import ClassResult, Comment, GradebookEntry, Student
 from grader.batch.sheet import Filled
 
 By = Literal["id_number", "email", "username"]
@@ -56,7 +56,7 @@ def _identity(student: Student, by: By) -> str:
     return str(getattr(student, by)).strip()
 
 
-def _left_out(entry: Entry, by: By, value: str) -> str:
+def _left_out(entry: GradebookEntry, by: By, value: str) -> str:
     who = cells.text(entry.student.name or entry.student.key, most=100)
     why = f"has no {HEADS[by]}" if not value else f"has an unusable {HEADS[by]}"
     return f"{who} {why}: left out of the gradebook import"

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import say
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 
 NAMED = re.compile(
     r"(?P<name>.*?)(?:_(?P<id>\d+))?_assignsubmission_(?P<plugin>[a-z]+)(?:_(?P<file>.*))?",
@@ -36,7 +36,7 @@ TWICE = "more than one folder of this student, taken as attempts in the order of
 class Part:
     """One folder or file of a student's; `file` is the student's own name for it, "" for folders."""
 
-    item: Item
+    item: FolderItem
     plugin: str
     file: str
 
@@ -57,7 +57,7 @@ def read(layout: Layout, reading: Reading) -> Read:
         if match is None:
             rest.append(item)
             continue
-        name, number = plain(match["name"]), match["id"] or ""
+        name, number = printable(match["name"]), match["id"] or ""
         file = (match["file"] or "") if item.kind != "folder" else ""
         parts.setdefault((number or name, name), []).append(Part(item, match["plugin"], file))
     reading.notes.say(NO_TIMES)
@@ -82,7 +82,7 @@ def _student(
     if not files:
         path = layout.path / texts[0].item.name
         return [HandedIn(student, path, problem=texts[0].item.problem or ONLY_TEXT)]
-    notes = tuple(f"{ONLINE_TEXT}: {plain(part.item.name)}" for part in texts)
+    notes = tuple(f"{ONLINE_TEXT}: {printable(part.item.name)}" for part in texts)
     if not student.key.isdecimal():
         notes += (NO_ID,)
     folders = [part for part in files if part.item.kind == "folder"]
@@ -110,7 +110,7 @@ def _flat(
     student: Student, layout: Layout, reading: Reading, parts: list[Part], notes: tuple[str, ...]
 ) -> HandedIn:
     good = [part for part in parts if not part.item.problem]
-    problems = tuple(f"{plain(p.item.name)}: {p.item.problem}" for p in parts if p.item.problem)
+    problems = tuple(f"{printable(p.item.name)}: {p.item.problem}" for p in parts if p.item.problem)
     if not good:
         path = layout.path / parts[0].item.name
         return HandedIn(student, path, notes=notes, problem=parts[0].item.problem)

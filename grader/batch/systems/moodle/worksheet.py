@@ -15,8 +15,8 @@ from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.lowered import Lowered, is_without_verdict, lowered
-from grader.batch.match import Match, match_more, ways_of_people
-from grader.batch.model import ClassResult, Comment, Elsewhere, Entry, Student, System
+from grader.batch.match import Match, match_more, rules_for_people
+from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student, System
 from grader.batch.roster import Roster, roster_of
 from grader.batch.roster_columns import columns_of
 from grader.batch.sheet import Filled, Sheet
@@ -33,7 +33,7 @@ NO_FEEDBACK = "the worksheet has no column of feedback comments: only grades go 
 
 
 @dataclass(frozen=True)
-class Columns:
+class WorksheetColumns:
     """Where things stand; None for a column that is not there."""
 
     identifier: int
@@ -47,15 +47,15 @@ class Worksheet:
     """A worksheet that was understood: what is filled in, and whose line each row is."""
 
     sheet: Sheet
-    columns: Columns
+    columns: WorksheetColumns
     roster: Roster
     notes: tuple[str, ...] = ()
 
     def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the line of each student, by key."""
         found = Match()
-        ways = ways_of_people(system, students, self.roster)
-        match_more(found, ways, students, self.roster)
+        rules = rules_for_people(system, students, self.roster)
+        match_more(found, rules, students, self.roster)
         return found
 
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
@@ -96,7 +96,7 @@ class Worksheet:
     def _match(self, result: ClassResult) -> Match:
         return self.match([entry.student for entry in result.entries], result.system)
 
-    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, GradebookEntry]]:
         """Yield the rows whose cells get a grade, and whose they are."""
         for entry in result.entries:
             index = match.rows.get(entry.student.key)
@@ -133,7 +133,7 @@ def read_worksheet(
     return Worksheet(sheet, columns, roster, tuple(note for note in notes if note))
 
 
-def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> Columns:
+def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> WorksheetColumns:
     header = sheet.header
     identifier = _identifier(sheet)
     grade = _named(header, grade_column) if grade_column else _one_of(header, GRADE)
@@ -143,7 +143,7 @@ def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> Columns:
             remedy="Name the column: --grade-column 'its name' (make: GRADE_COLUMN='its name').",
         )
     feedback = _named(header, feedback_column) if feedback_column else _feedback(header)
-    return Columns(identifier, grade, _maximum(sheet, grade), feedback)
+    return WorksheetColumns(identifier, grade, _maximum(sheet, grade), feedback)
 
 
 def _identifier(sheet: Sheet) -> int:
@@ -208,7 +208,7 @@ def _warnings(result: ClassResult, match: Match) -> Iterator[str]:
             yield f"{_who(entry)} was found in the worksheet by the name alone"
 
 
-def _need_cells(sheet: Sheet, columns: Columns, roster: Roster) -> None:
+def _need_cells(sheet: Sheet, columns: WorksheetColumns, roster: Roster) -> None:
     for line in roster.lines:
         for column in (columns.grade, *_only(columns.feedback)):
             if not sheet.has_cell(line.row, column):
@@ -219,7 +219,7 @@ def _need_cells(sheet: Sheet, columns: Columns, roster: Roster) -> None:
                 )
 
 
-def _above(sheet: Sheet, row: int, columns: Columns, points: float | None) -> bool:
+def _above(sheet: Sheet, row: int, columns: WorksheetColumns, points: float | None) -> bool:
     """Whether a row allows fewer points than these."""
     if columns.maximum is None or points is None:
         return False
@@ -239,7 +239,7 @@ def _only(column: int | None) -> tuple[int, ...]:
     return () if column is None else (column,)
 
 
-def _who(entry: Entry) -> str:
+def _who(entry: GradebookEntry) -> str:
     return one_line(entry.student.name or entry.student.key, most=100)
 
 

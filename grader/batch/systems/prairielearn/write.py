@@ -14,8 +14,8 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, last_lines, one_line, points, shorten
 from grader.batch.check_text import check_text
-from grader.batch.model import Entry
-from grader.batch.points import Mark, marks, rounded, steps
+from grader.batch.model import GradebookEntry
+from grader.batch.points import Mark, adjustments, marks, rounded
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 
@@ -34,7 +34,7 @@ class Room:
     check_characters: int
 
 
-def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
+def results(entry: GradebookEntry, *, show_hidden: bool = False) -> dict[str, Any]:
     """Return the results of an entry; all tests have points. Hidden checks have no name or text."""
     for room in ROOM:
         found = _results(entry, Room(*room), show_hidden=show_hidden)
@@ -48,7 +48,7 @@ def results_json(found: dict[str, Any]) -> str:
     return json.dumps(found, allow_nan=False) + "\n"
 
 
-def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
+def _results(entry: GradebookEntry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
     report = entry.report
     if report is None or entry.status in ("ungradable", "error") or entry.final is None:
         return _ungradable(entry)
@@ -67,17 +67,17 @@ def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
     }
 
 
-def _ungradable(entry: Entry) -> dict[str, Any]:
+def _ungradable(entry: GradebookEntry) -> dict[str, Any]:
     message = entry.report.message if entry.report is not None else ""
     why = entry.problem or message or say("The submission could not be graded.")
     told = "\n".join(first_lines(Translator(entry.lang)(why), lines=10))
     return {"gradable": False, "format_errors": [told], "message": told, "tests": []}
 
 
-def _message(entry: Entry) -> str:
+def _message(entry: GradebookEntry) -> str:
     final, most = points(entry.final or 0), points(entry.max_score)
     lines = [say("{points} of {most} points", points=final, most=most)]
-    lines += [step.told for step in steps(entry)]
+    lines += [adjustment.text for adjustment in adjustments(entry)]
     return "\n".join(Translator(entry.lang)(line) for line in lines)
 
 

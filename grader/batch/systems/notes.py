@@ -11,7 +11,7 @@ MOST_SHOWN = 50
 TURNING = "\u202a\u202b\u202d\u202e\u2066\u2067\u2068\u2069"
 
 
-def plain(name: str) -> str:
+def printable(name: str) -> str:
     """Return a file's name as text that every program takes; no two names become the same.
 
     Controls, direction overrides and bytes that are not UTF-8 (PEP 383) are spelled out, and so is
@@ -47,7 +47,7 @@ class Notes:
         """Note names of files (as they are on the disk) under a reason."""
         known = self._lines.setdefault(reason, [])
         if known is not None:
-            known.extend(shown(plain(name)) for name in names)
+            known.extend(shown(printable(name)) for name in names)
 
     def lines(self) -> tuple[str, ...]:
         """Return all notes, one line each."""

@@ -24,7 +24,7 @@ NO_VERDICT = ("missing", "pending")  # a final grade beside these is no verdict'
 
 
 @dataclass(frozen=True)
-class Before:
+class EarlierGradebook:
     """The rows with a final grade, by the student's key."""
 
     rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
@@ -64,17 +64,17 @@ class Before:
         return [*(one for one in found if one is not None), *gone]
 
 
-def read_before(path: Path) -> Before:
+def read_earlier_gradebook(path: Path) -> EarlierGradebook:
     """Read the gradebook of an earlier run; nothing if there is none, or none that can be read."""
     content = read_bytes(path, LARGEST)
     if isinstance(content, Unread):
-        return Before()
+        return EarlierGradebook()
     try:
         text = decoded(content, str(path)).text
         rows = list(csv.DictReader(io.StringIO(text, newline="")))
     except (UsageError, csv.Error):
-        return Before()
-    return Before(
+        return EarlierGradebook()
+    return EarlierGradebook(
         {
             row["key"]: {name: value for name, value in row.items() if isinstance(value, str)}
             for row in rows

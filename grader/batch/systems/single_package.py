@@ -6,7 +6,7 @@ import os
 import re
 from pathlib import Path
 
-from grader.batch.systems.layout import Item, Layout
+from grader.batch.systems.layout import FolderItem, Layout
 from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.artefacts import COLCON
 from grader.package.intake.reading import Unread, read_bytes
@@ -44,7 +44,7 @@ def is_class(layout: Layout) -> bool:
     return 2 * len(submissions) >= len(items) and len(packages) < len(submissions)
 
 
-def _is_submission(path: Path, item: Item) -> bool:
+def _is_submission(path: Path, item: FolderItem) -> bool:
     return item.kind == "archive" or (not item.problem and _holds_package(path / item.name))
 
 
@@ -66,7 +66,7 @@ def _holds_package(folder: Path) -> bool:
     return False
 
 
-def _is_named_like_its_package(path: Path, item: Item) -> bool:
+def _is_named_like_its_package(path: Path, item: FolderItem) -> bool:
     if item.kind != "folder" or item.problem:
         return False
     manifest = read_bytes(path / item.name / "package.xml", LARGEST_MANIFEST)
