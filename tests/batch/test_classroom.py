@@ -71,7 +71,7 @@ def test_the_time_of_a_commit_costs_nothing_and_spares_nothing(tmp_path: Path, d
     assert "sets the time of a commit" in "\n".join(found.notes)
     entry = judged(found.handed_in[0])
     assert (entry.penalty, entry.final) == (0, 100)
-    assert "not known when it was handed in" in entry.notes[-1]
+    assert "time of submission is not known" in entry.notes[-1]
 
 
 def test_the_grades_file_of_classroom_tells_who_was_late(tmp_path: Path) -> None:

@@ -183,7 +183,7 @@ def test_a_system_can_be_forced(tmp_path: Path) -> None:
     assert found_in(tmp_path / "c", tmp_path).system == "moodle"
     found = found_in(tmp_path / "c", tmp_path, "folders")
     assert (found.system, keys(found)) == ("folders", ["Jane Roe_12_assignsubmission_file"])
-    assert "as was asked for" in said(found)
+    assert "as requested" in said(found)
 
 
 # exec bits

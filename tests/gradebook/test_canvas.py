@@ -119,7 +119,7 @@ def test_other_points_possible_are_said() -> None:
 @pytest.mark.parametrize(
     ("content", "column", "said"),
     [
-        (b"Identifier,Grade\nParticipant 1,\n", "", "no Canvas gradebook"),
+        (b"Identifier,Grade\nParticipant 1,\n", "", "not a Canvas gradebook"),
         (export(POSSIBLE, student(0)), "Hello tim", "Hello tim"),
         (export(POSSIBLE, student(0)), "Current Score", "Current Score"),
         (export(POSSIBLE.replace("100.00", "(read only)"), student(0)), "", "read only"),

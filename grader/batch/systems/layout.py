@@ -1,4 +1,4 @@
-"""The top of a class' folder: one name for each thing in it, looked at from outside, and no deeper."""
+"""The top level of a class folder: the name and kind of each item, without looking inside."""
 
 from __future__ import annotations
 
@@ -19,12 +19,10 @@ from grader.package.intake.reading import Unread, open_file
 ItemKind = Literal["folder", "archive", "file"]
 
 MOST_NAMES = 100_000
-HIDDEN = "left out, as hidden"
-OF_SYSTEM = "left out, as no student's: the operating system's, a tool's or this grader's"
-NO_SUBMISSION = "left out, as neither a folder nor an archive"
-IS_LINK = say(
-    "it is a link to elsewhere, and links are not followed: put what it leads to in its place"
-)
+HIDDEN = "left out: hidden"
+OF_SYSTEM = "left out: files of the operating system, of a tool or of this grader"
+NO_SUBMISSION = "left out: neither a folder nor an archive"
+IS_LINK = say("it is a link, and links are not followed: replace it with what it points to")
 FILES = frozenset(
     [
         ".csv",
@@ -45,7 +43,7 @@ FILES = frozenset(
         ".png",
     ]
 )
-OF_NOBODY = frozenset(
+TOOL_NAMES = frozenset(
     {
         *("__MACOSX", "__pycache__", "System Volume Information", "lost+found", "$RECYCLE.BIN"),
         *("reports", "node_modules", "Thumbs.db", "desktop.ini"),
@@ -55,7 +53,7 @@ OF_NOBODY = frozenset(
 
 @dataclass(frozen=True)
 class FolderItem:
-    """One name in the class' folder; `problem` says why nothing can be done with it."""
+    """An item in the class folder; `problem` says why it cannot be marked."""
 
     name: str
     kind: ItemKind
@@ -63,32 +61,32 @@ class FolderItem:
 
     @property
     def may_be_submission(self) -> bool:
-        """Whether it would be somebody's by its kind alone."""
+        """Whether its kind is that of a submission."""
         return self.kind != "file"
 
 
 @dataclass(frozen=True)
 class Layout:
-    """A class' folder; `left_out` are the names that are nobody's, by the reason."""
+    """A class folder; `left_out` are the names of no submission, by the reason."""
 
     path: Path
     items: tuple[FolderItem, ...]
     left_out: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def has(self, name: str, kind: ItemKind) -> bool:
-        """Return whether there is a thing of that name and kind."""
+        """Return whether there is an item of that name and kind."""
         return any(item.name == name and item.kind == kind for item in self.items)
 
     def submissions(self) -> list[FolderItem]:
-        """Return what would be somebody's by its kind alone: folders and archives."""
+        """Return the items that may be submissions: folders and archives."""
         return [item for item in self.items if item.may_be_submission]
 
 
 @dataclass(frozen=True)
 class Reading:
-    """What the reader of a system is given beside the layout.
+    """What a system's reader gets besides the layout.
 
-    `gather` puts files of one student, each with the name that it shall have, into one folder.
+    `gather` copies files of one student, each under a given name, into one folder.
     """
 
     notes: Notes
@@ -97,23 +95,23 @@ class Reading:
 
 @dataclass(frozen=True)
 class Read:
-    """What a system's reader made of a layout; `rest` is what it did not know."""
+    """What a system's reader found in a layout; `rest` are the items that it did not recognise."""
 
     handed_in: list[HandedIn]
     rest: list[FolderItem] = field(default_factory=list)
 
 
 def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()) -> Layout:
-    """Return what is in a class' folder.
+    """Return the layout of a class folder; raise UsageError if it cannot be read.
 
-    `lost` are names that should be in it and could not be unpacked, with the reason; `without` are
-    folders of ours. UsageError if it cannot be read.
+    `lost` are names that could not be unpacked, with the reason; `without` are folders of the
+    grader.
     """
     ours = {place.name for place in without if place.parent == path}
     items = [
         FolderItem(name, _kind_by_name(name), why)
         for name, why in lost.items()
-        if _why_nobodys(name) is None
+        if _why_left_out(name) is None
     ]
     left_out: dict[str, list[str]] = {}
     try:
@@ -135,13 +133,13 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
 
 
 def _item(entry: os.DirEntry[str]) -> FolderItem | str:
-    """Return an item, or the reason for which there is none."""
+    """Return an item, or the reason why the name is left out."""
     name = entry.name
-    nobodys = _why_nobodys(name)
-    if nobodys is not None:
-        return nobodys
+    left_out = _why_left_out(name)
+    if left_out is not None:
+        return left_out
     if entry.is_symlink():
-        # (what it leads to is not looked at: its name must do)
+        # (its target is not examined, so its name decides)
         return FolderItem(name, _kind_by_name(name), IS_LINK)
     if entry.is_dir(follow_symlinks=False):
         return FolderItem(name, "folder")
@@ -150,8 +148,8 @@ def _item(entry: os.DirEntry[str]) -> FolderItem | str:
     return NO_SUBMISSION
 
 
-def _why_nobodys(name: str) -> str | None:
-    if name in OF_NOBODY or name.endswith("~"):
+def _why_left_out(name: str) -> str | None:
+    if name in TOOL_NAMES or name.endswith("~"):
         return OF_SYSTEM
     return HIDDEN if name.startswith(".") else None
 
@@ -163,7 +161,7 @@ def _kind_by_name(name: str) -> ItemKind:
 
 
 def _is_archive(entry: os.DirEntry[str]) -> bool:
-    """Whether a file is called an archive, or has no ending and is one."""
+    """Whether a file is named like an archive, or has no extension and is one."""
     if is_named_archive(entry.name) or "." in entry.name:
         return is_named_archive(entry.name)
     opened = open_file(Path(entry.path))
@@ -174,7 +172,7 @@ def _is_archive(entry: os.DirEntry[str]) -> bool:
 
 
 def seen(layout: Layout) -> str:
-    """Return in words what there is, for who expected something else."""
+    """Return in words what is in a layout, for error messages."""
     counts = {
         "folder": sum(item.kind == "folder" for item in layout.items),
         "archive": sum(item.kind == "archive" for item in layout.items),

@@ -1,4 +1,4 @@
-"""One submission where a whole class was expected, and a class where one submission was."""
+"""Tells a class folder from one student's package or workspace."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.artefacts import COLCON
 from grader.package.intake.reading import Unread, read_bytes
 
-DEEPEST = 3  # how far below a student's folder a package is looked for
+DEEPEST = 3  # levels below a student's folder in which a package is searched
 MOST_NAMES = 500
 NAME = re.compile(rb"<name>\s*([^<\s]{1,200})\s*</name>")
 LARGEST_MANIFEST = 1_000_000
 
 
 def one_package(layout: Layout) -> str:
-    """Return what a folder is in words if it is one package or one workspace, else ""."""
+    """Return "one package" or "one workspace" if a folder is that, else ""."""
     if layout.has("package.xml", "file"):
         return "one package"
     items = layout.submissions()
@@ -32,9 +32,9 @@ def one_package(layout: Layout) -> str:
 
 
 def is_class(layout: Layout) -> bool:
-    """Whether a folder is a class' and not one student's: most of what is in it is a submission.
+    """Whether a folder is a class, not one student's: most of its items are submissions.
 
-    Packages that lie side by side in folders of their own names are one student's.
+    Packages side by side, each in a folder of its own name, are one student's.
     """
     items = layout.submissions()
     if one_package(layout) or len(items) < 2 or layout.has("setup.py", "file"):

@@ -1,7 +1,7 @@
-"""Gradescope's `results.json` (autograder_samples/docs/specs.md) of one report.
+"""Gradescope's `results.json` (autograder_samples/docs/specs.md) for one report.
 
-A test with the visibility `hidden` or `after_due_date` is shown by Gradescope to whom it may be
-shown; what is said above the tests and in the others names none of them.
+Gradescope decides who sees a test with the visibility `hidden` or `after_due_date`; the text above
+the tests and the other tests never name it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ MOST = 200  # characters of a name
 def results(
     report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
 ) -> dict[str, Any]:
-    """Return the results of a report; `penalty` are the points taken for lateness."""
+    """Return the results for a report; `penalty` are the points taken for lateness."""
     entry = single(report, penalty=penalty, overrides=overrides)
     return {
         "score": entry.final or 0.0,
@@ -41,12 +41,12 @@ def results(
 
 
 def results_json(found: dict[str, Any]) -> str:
-    r"""Return results as text: ASCII, `\n` at each line's end."""
+    r"""Return results as ASCII text with `\n` line ends."""
     return json.dumps(found, indent=1, allow_nan=False) + "\n"
 
 
 def problem(text: str, *, total: float = 0, lang: str = SOURCE) -> dict[str, Any]:
-    """Return results that say why there are none; the student's text is `text`."""
+    """Return results without points that show `text` to the student."""
     translate = Translator(lang)
     output = "\n".join(first_lines(translate(text), lines=20))
     found: dict[str, Any] = {"score": 0.0, "output": output, "output_format": "text"}
@@ -68,7 +68,7 @@ def _test(mark: Mark, report: Report) -> dict[str, Any]:
         "visibility": check.visibility,
         "extra_data": {"check": check.id, "status": check.status},
     }
-    if mark.points is not None:  # what nobody knows is neither passed nor failed
+    if mark.points is not None:  # without it the check is neither passed nor failed
         test["status"] = "passed" if mark.passed else "failed"
     return test
 
@@ -91,7 +91,7 @@ def _output(entry: GradebookEntry, report: Report) -> str:
 
 
 def _extra(report: Report) -> dict[str, Any]:
-    """Return by what the report can be found again; Gradescope keeps it with the submission."""
+    """Return what identifies the report; Gradescope stores it with the submission."""
     return {
         "report": {
             "schema": report.schema_,
