@@ -30,7 +30,7 @@ MOST_NAMED = 5
 
 
 def accepted(words: Sequence[str]) -> frozenset[str]:
-    """Return what the instructor accepts, from comma-separated words; raise UsageError for others."""
+    """Return what the instructor accepts, from comma-separated words; UsageError for others."""
     found = [word.strip() for text in words for word in text.split(",") if word.strip()]
     for word in found:
         if word not in KNOWN:

@@ -264,7 +264,7 @@ def _connect(scheduler: str) -> Client:
     except (OSError, ValueError) as error:
         raise SurroundingsError(
             f"the scheduler {scheduler} does not answer: {error}",
-            remedy="Start one with `dask scheduler`, and give the address it prints: tcp://host:8786.",
+            remedy="Start one with `dask scheduler`; it prints the address to give: tcp://host:8786.",
         ) from None
 
 

@@ -24,8 +24,8 @@ FIRST_HANGUL, LAST_HANGUL = "\uac00", "\ud7a3"
 class Decoded:
     """A file's text, and in `note` what was assumed about its encoding.
 
-    `marked` says whether a UTF-8 copy needs a byte order mark: the file had one, or it was not UTF-8
-    and its spreadsheet recognises UTF-8 only by the mark.
+    `marked` says whether a UTF-8 copy needs a byte order mark: the file had one, or it was not
+    UTF-8 and its spreadsheet recognises UTF-8 only by the mark.
     """
 
     text: str

@@ -83,8 +83,8 @@ def discover(
 def _look(path: Path, request: Request, unpacked: Unpacked) -> Layout:
     """List a folder of the class, without the grader's own folder and those around it."""
     below = path.relative_to(unpacked.folder).as_posix()
-    ours = [request.unpack, *request.unpack.parents]
-    return look_at(path, lost=_lost(unpacked, below), without=ours)
+    own = [request.unpack, *request.unpack.parents]
+    return look_at(path, lost=_lost(unpacked, below), without=own)
 
 
 def _read(
@@ -145,7 +145,7 @@ def _lost(unpacked: Unpacked, below: str) -> dict[str, str]:
 
 
 def _class_layout(layout: Layout, request: Request, unpacked: Unpacked, notes: Notes) -> Layout:
-    """Go down folders with a single folder in them, as long as that is a class and not a student."""
+    """Return the class in a folder that contains nothing else, or the layout itself."""
     if request.system in NAMED_BY_HAND or is_named_as_in(request.system, layout):
         return layout
     deeper, left_out = layout, dict(layout.left_out)

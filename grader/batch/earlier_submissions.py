@@ -22,7 +22,7 @@ class EarlierSubmissions:
         present: Collection[str],
         earlier: Collection[str],
     ) -> None:
-        """`present` are the keys with a submission now, `earlier` the keys with one in the ledger."""
+        """`present`: keys with a submission now; `earlier`: keys with one in the ledger."""
         self._earlier = earlier
         self._keys: dict[tuple[str, str], set[str]] = {}
         for student in ledger.students(assignment):

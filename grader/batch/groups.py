@@ -2,8 +2,8 @@
 
 Moodle's download names a group's folder after the group, as `clean_filename` returns it
 (mod/assign/classes/downloader.php): `_` becomes a space, `&` first becomes `&amp;`, and characters
-that a file name cannot have (PARAM_FILE) are dropped. The worksheet has the original name. Names are
-compared as Moodle writes them first, then without case and accents.
+that a file name cannot have (PARAM_FILE) are dropped. The worksheet has the original name. Names
+are compared as Moodle writes them first, then without case and accents.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ class Idleness:
         self._at = time.monotonic()
 
     def cores(self) -> float:
-        """Return how many cores were idle on average since the last measurement; 0 if too recent."""
+        """Return how many cores were idle on average; 0 until the interval is long enough."""
         passed = time.monotonic() - self._at
         if passed < self._seconds:
             return 0

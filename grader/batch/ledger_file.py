@@ -28,7 +28,7 @@ class LedgerFile:
         """Open the ledger at `path`; create it if it does not exist and `makes` is True.
 
         Raises UsageError if another process has it open, if a newer grader wrote it, or if it does
-        not exist and `makes` is False; SurroundingsError if it cannot be opened or is no ledger.
+        not exist and `makes` is False; SurroundingsError if it cannot be opened or is not a ledger.
         Nothing is changed in these cases.
         """
         self.path = path

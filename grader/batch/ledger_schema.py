@@ -97,7 +97,7 @@ STEPS = (
 def bring_up_to_date(connection: sqlite3.Connection) -> bool:
     """Take the missing steps, each in one transaction; return False for a newer grader's ledger.
 
-    Raises sqlite3.DatabaseError if the file is no ledger.
+    Raises sqlite3.DatabaseError if the file is not a ledger.
     """
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     (application,) = connection.execute("PRAGMA application_id").fetchone()

@@ -151,7 +151,7 @@ class LocalPool:
         waiting: Iterator[Task],
         started: Callable[[Task], None],
     ) -> Iterator[Done]:
-        """Wait for the next answer, crash or deadline, and yield the tasks that are done with it."""
+        """Wait for the next answer, crash or deadline, and yield the finished tasks."""
         until = min(worker.deadline for worker in busy) - time.monotonic()
         until = min(until, IDLE_SECONDS) if self._most > self._count else until
         ready = [key.data for key, _ in selector.select(max(0.0, until))]

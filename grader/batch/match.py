@@ -39,7 +39,7 @@ class MatchRule:
 def match_more(
     match: Match, rules: Iterable[MatchRule], students: Sequence[Student], roster: Roster
 ) -> None:
-    """Find a row for each student without one; a row belongs to one key, and the first rule wins."""
+    """Find a row for each student without one; a row has one key, and the first rule wins."""
     lines = roster.students
     for rule in rules:
         rows = _rows_by_identifier(rule, lines, without=set(match.rows.values()))
@@ -91,7 +91,7 @@ def fallback_rules(system: System, roster: Roster) -> Iterator[MatchRule]:
 def rules_for_people(
     system: System, students: Sequence[Student], roster: Roster
 ) -> Iterator[MatchRule]:
-    """Yield the rules to find the students of a class, with all that is known of them, in a sheet."""
+    """Yield the rules to find the students of a class in a sheet."""
     if system == roster.kind and system in ("moodle", "canvas"):
         yield _by_number(students, roster)
     for identifiers in (_id_number, _email, _username):

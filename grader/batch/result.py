@@ -190,7 +190,7 @@ def _paths(items: Iterable[IntakeItem]) -> dict[tuple[str, str], str]:
 def _identical(
     ledger: Ledger, submissions: Mapping[str, str], paths: Mapping[tuple[str, str], str]
 ) -> tuple[tuple[str, ...], ...]:
-    """Return the groups of equal content; members who share one submission are no group."""
+    """Return the groups of equal content; members of one group are not listed."""
     known = ledger.fingerprints()
     found = groups({key: known.get(submission, "") for key, submission in submissions.items()})
 

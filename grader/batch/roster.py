@@ -46,7 +46,7 @@ class RosterLine:
 
 @dataclass(frozen=True)
 class Roster:
-    """A class' students in the order of their file; `kind` says which system's numbers the keys are."""
+    """A class' students in the order of the file; `kind`: which system's numbers the keys are."""
 
     lines: tuple[RosterLine, ...]
     kind: RosterKind

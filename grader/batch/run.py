@@ -49,7 +49,7 @@ class MarkingSetting:
 
 
 def prepare(order: Order, *, say: Callable[[str], None]) -> MarkingSetting:
-    """Open the order's sandbox once and return the setting; raise SurroundingsError if none opens."""
+    """Open the order's sandbox once and return the setting; SurroundingsError if none opens."""
     sandbox = open_sandbox(order.sandbox, order.distro, order.limits, say=say)
     sandbox.close()
     return MarkingSetting(

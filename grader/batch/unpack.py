@@ -122,7 +122,7 @@ def _read_into(writer: ClassWriter, file: IO[bytes], path: Path) -> None:
     if kind is None:
         raise UsageError(
             f"{shown(str(path))} is neither a folder nor an archive",
-            remedy="Give the folder of all submissions, or the zip from the learning management system.",
+            remedy="Give the folder of all submissions, or the archive that was downloaded.",
         )
     try:
         with parsing(path.name):

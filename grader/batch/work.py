@@ -101,7 +101,7 @@ class Answer:
         try:
             report, fault, seconds = found["report"], str(found["fault"]), float(found["seconds"])
         except (KeyError, TypeError) as error:
-            raise ValueError("this is no answer") from error
+            raise ValueError("not an answer") from error
         return cls(Report.model_validate_json(report) if report else None, fault, seconds)
 
     @property
@@ -198,6 +198,6 @@ def mark_task(job: Job, task: Task) -> Answer:
         report = mark(submission, order, unheard)
     except GraderError as error:
         fault = Translator(job.lang)(joined(error.message, error.remedy, by="\n"))
-    except Exception:  # our own fault must not stop the other submissions
+    except Exception:  # a failure of the grader must not stop the other submissions
         fault = traceback.format_exc(limit=-6)
     return Answer(report, fault, time.monotonic() - begin)

@@ -1,7 +1,7 @@
 """A process that marks one submission after the other: `python -m grader.batch.worker PARENT`.
 
-It reads lines of JSON (the job, then the tasks) and writes each answer as one line. It ends when its
-input ends, on SIGTERM, and with the process that started it, even if that is killed.
+It reads lines of JSON (the job, then the tasks) and writes each answer as one line. It ends when
+its input ends, on SIGTERM, and with the process that started it, even if that is killed.
 """
 
 from __future__ import annotations

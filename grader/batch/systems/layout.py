@@ -107,7 +107,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
     `lost` are names that could not be unpacked, with the reason; `without` are folders of the
     grader.
     """
-    ours = {place.name for place in without if place.parent == path}
+    own = {place.name for place in without if place.parent == path}
     items = [
         FolderItem(name, _kind_by_name(name), why)
         for name, why in lost.items()
@@ -117,7 +117,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
     try:
         with os.scandir(path) as entries:
             for entry in entries:
-                if entry.name in ours:
+                if entry.name in own:
                     continue
                 found = _item(entry)
                 if isinstance(found, FolderItem):

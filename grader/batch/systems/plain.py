@@ -25,8 +25,8 @@ def read(layout: Layout, reading: Reading) -> Read:
 def read_items(path: Path, items: Iterable[FolderItem], reading: Reading) -> list[HandedIn]:
     """Return folders and archives as students' submissions; add a note about other files.
 
-    `jane.zip` and `jane/` are attempts of one student, in this order, because an archive is unpacked
-    after it was written. Several archives are in the order in which they were written.
+    `jane.zip` and `jane/` are attempts of one student, in this order, because an archive is
+    unpacked after it was written. Several archives are in the order in which they were written.
     """
     by_key: dict[str, list[FolderItem]] = {}
     others = []

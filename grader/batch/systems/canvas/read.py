@@ -55,8 +55,8 @@ class Attachment:
 def recognise(layout: Layout) -> bool:
     """Whether at least half of the files, and as many as there are folders, have Canvas' names."""
     files = [item for item in layout.items if item.kind != "folder"]
-    ours = sum(NAMED.fullmatch(item.name) is not None for item in files)
-    return ours > 0 and 2 * ours >= len(files) and ours >= len(layout.items) - len(files)
+    named = sum(NAMED.fullmatch(item.name) is not None for item in files)
+    return named > 0 and 2 * named >= len(files) and named >= len(layout.items) - len(files)
 
 
 def read(layout: Layout, reading: Reading) -> Read:

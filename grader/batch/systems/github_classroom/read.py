@@ -11,8 +11,8 @@ from grader.batch.systems.notes import printable
 
 SUBMISSIONS = "-submissions"  # appended to the assignment's name by `gh classroom clone`
 NO_TIMES = (
-    "a clone does not contain the time of submission (the student's own computer sets the time of a "
-    "commit): only the CSV of Classroom's 'Download grades' has it, given as --roster"
+    "a clone does not contain the time of submission (the student's own computer sets the time of "
+    "a commit): only the CSV of Classroom's 'Download grades' has it, given as --roster"
 )
 
 

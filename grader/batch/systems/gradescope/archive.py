@@ -109,8 +109,8 @@ def gradescope_zip(
 
 def _problem(lang: str) -> str:
     """Return the results file for the case that the grader cannot start."""
-    ours = say("The grader failed, not your package. Please tell your instructor.")
-    return json.dumps({"score": 0, "output": Translator(lang)(ours)})
+    text = say("The grader failed, not your package. Please tell your instructor.")
+    return json.dumps({"score": 0, "output": Translator(lang)(text)})
 
 
 def _packed(files: dict[str, tuple[bytes, int]]) -> bytes:

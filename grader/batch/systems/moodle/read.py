@@ -43,9 +43,9 @@ class Part:
 
 def recognise(layout: Layout) -> bool:
     """Whether at least half of the possible submissions have Moodle's names."""
-    ours = sum(NAMED.fullmatch(item.name) is not None for item in layout.items)
-    others = sum(NAMED.fullmatch(item.name) is None for item in layout.submissions())
-    return ours > 0 and ours >= others
+    named = sum(NAMED.fullmatch(item.name) is not None for item in layout.items)
+    unnamed = sum(NAMED.fullmatch(item.name) is None for item in layout.submissions())
+    return named > 0 and named >= unnamed
 
 
 def read(layout: Layout, reading: Reading) -> Read:

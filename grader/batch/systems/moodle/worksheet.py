@@ -191,7 +191,7 @@ def _feedback(header: list[str]) -> int | None:
 
 
 def _maximum(sheet: Sheet, grade: int) -> int | None:
-    """Return the column of the maximum: by name, or the one after the grade with a single number."""
+    """Return the column of the maximum: by name, or after the grade if all numbers are equal."""
     fit = [i for i, name in enumerate(sheet.header) if MAXIMUM.search(name.casefold())]
     fit = [index for index in fit if index != grade] or [grade + 1]
     values = set(sheet.column(fit[0]))
