@@ -97,8 +97,8 @@ def _joined(
     taken = set(by_key) - groups.rows.keys()
     for key, row in match.rows.items():
         student = _fuller(by_key[key][0].student, roster.students[row])
-        note = (BY_NAME,) if key in match.by_name else ()
-        own = [replace(o, student=student, notes=(*o.notes, *note)) for o in by_key[key]]
+        by_name = (BY_NAME,) if key in match.by_name else ()
+        own = [replace(o, student=student, notes=(*o.notes, *by_name)) for o in by_key[key]]
         found[row] = _timed(own, roster.lines[row].submitted)
     for key, rows in groups.rows.items():
         for row in rows:

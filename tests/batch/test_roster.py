@@ -135,7 +135,7 @@ def test_every_common_encoding_is_read(
 def test_excels_own_first_line_is_passed_over(tmp_path: Path) -> None:
     found = roster(tmp_path, "sep=;\nname;email\nAnn Lee;a@b.c\n")
     assert found.students == (Student("a@b.c", "Ann Lee", "a@b.c"),)
-    with pytest.raises(UsageError, match=r"roster.csv:4: the email address 'A@b.c' is in line 3"):
+    with pytest.raises(UsageError, match=r"roster.csv:4: the email address 'A@b.c' is also in line 3"):
         roster(tmp_path, "sep=;\nname;email\nAnn Lee;a@b.c\nJoe;A@b.c\n")
 
 

@@ -113,7 +113,7 @@ def test_a_class_from_elsewhere_is_joined_by_the_login() -> None:
 
 def test_other_points_possible_are_said() -> None:
     before = export(POSSIBLE.replace("100.00", "20"), student(0))
-    assert "out of 100" in fill_gradebook(before, hello(0)).warnings[0]
+    assert "100 here" in fill_gradebook(before, hello(0)).warnings[0]
 
 
 @pytest.mark.parametrize(
