@@ -10,8 +10,7 @@ from typing import cast
 
 import pytest
 
-from grader.batch.trial import Trial
-from grader.batch.work import TRIES, Answer, Task
+from grader.batch.work import TRIES, Answer, Task, Trial
 from grader.report.model import CheckResult, Mistake
 from grader.run import session
 from grader.run.observer import Event, Watch
@@ -193,25 +192,25 @@ MET = check("run.starts", "failed", mistakes=[Mistake(id="run.resource")])
 
 
 def test_what_could_not_be_known_is_tried_again(trial: Trial) -> None:
-    assert trial.hear(answer(10, UNKNOWN)) is None
+    assert trial.add(answer(10, UNKNOWN)) is None
     trial.tries = TRIES
-    done = trial.hear(answer(10, UNKNOWN))
+    done = trial.add(answer(10, UNKNOWN))
     assert done is not None
     assert done.answer.report is not None
     assert done.answer.report.attempts == TRIES
 
 
 def test_a_submission_that_met_a_limit_of_its_own_is_never_tried_again(trial: Trial) -> None:
-    assert trial.hear(answer(10, UNKNOWN, MET)) is not None
+    assert trial.add(answer(10, UNKNOWN, MET)) is not None
 
 
 def test_no_submission_is_tried_for_longer_than_two_ceilings(trial: Trial) -> None:
-    assert trial.hear(answer(90, UNKNOWN)) is None
+    assert trial.add(answer(90, UNKNOWN)) is None
     trial.tries = 2
-    assert trial.hear(answer(90, UNKNOWN)) is not None
+    assert trial.add(answer(90, UNKNOWN)) is not None
 
 
 def test_a_fault_without_an_answer_counts_as_well(trial: Trial) -> None:
-    assert trial.hear(Answer(fault="hung", seconds=100)) is None
+    assert trial.add(Answer(fault="hung", seconds=100)) is None
     trial.tries = 2
-    assert trial.hear(Answer(fault="hung", seconds=100)) is not None
+    assert trial.add(Answer(fault="hung", seconds=100)) is not None

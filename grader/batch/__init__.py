@@ -1,1 +1,1 @@
-"""A whole class: who handed in what, the verdicts that were reached, and what each is worth."""
+"""Marks a whole class: submissions, roster, verdicts, policy and corrections."""

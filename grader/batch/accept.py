@@ -1,12 +1,11 @@
-"""What is not done without the instructor's word: a class that hardly fits its roster, lower grades.
+"""Refuses what needs the instructor's consent: a roster that hardly fits, and lower grades.
 
-Two shares are looked at, and each catches what the other cannot:
-- of the submissions, how many are on a line of the roster (of the worksheet, of the gradebook). A
-  roster of another class, or one whose columns were misunderstood, joins few of them. A section's
-  submissions against the whole course's list are all on it, so that is fine.
-- of the roster's lines, how many would get 0 points, if the policy says `missing: zero`. That
-  catches a section against the whole list where the list does not say who handed in.
-Beyond that nobody's grade goes down (`lower`).
+Two shares are checked, each of which catches what the other cannot:
+- how many submissions are on the roster (worksheet, gradebook). The roster of another class, or one
+  whose columns were misread, has few of them. The list of the whole course has all submissions of
+  one section, so that passes.
+- how many lines of the roster would get 0 points if the policy says `missing: zero`. This catches
+  one section against the whole list, if the list does not say who handed in.
 """
 
 from __future__ import annotations
@@ -31,14 +30,14 @@ MOST_NAMED = 5
 
 
 def accepted(words: Sequence[str]) -> frozenset[str]:
-    """Return what the instructor accepts, of words with commas in them; UsageError for others."""
+    """Return what the instructor accepts, from comma-separated words; UsageError for others."""
     found = [word.strip() for text in words for word in text.split(",") if word.strip()]
     for word in found:
         if word not in KNOWN:
             close = difflib.get_close_matches(word, KNOWN, n=1)
             hint = f"Did you mean '{close[0]}'? " if close else ""
             raise UsageError(
-                f"nothing is called '{one_line(word, most=40)}' that could be accepted",
+                f"--accept does not know '{one_line(word, most=40)}'",
                 remedy=f"{hint}Known: {', '.join(KNOWN)}.",
             )
     return frozenset(found)
@@ -47,7 +46,7 @@ def accepted(words: Sequence[str]) -> frozenset[str]:
 def refuse_poor_join(
     folder: ClassFolder, sheets: Sequence[OnRoster], policy: Policy, accepts: Collection[str]
 ) -> None:
-    """Raise UsageError if the class hardly fits its roster, or one of the teacher's files."""
+    """Raise UsageError if the class hardly fits its roster or one of the instructor's files."""
     if JOIN in accepts:
         return
     for found in (folder.on_roster, *sheets):
@@ -59,22 +58,22 @@ def refuse_poor_join(
                 f"only {joined} of {found.submissions} submissions are on {found.roster} "
                 f"({counted(found.lines)}); at least {LEAST_JOINED:.0%} should be. "
                 f"Nothing was marked or written. Not on it: {_named(found.strangers)}",
-                remedy="Is it this class' list, and are its columns named so that they are "
-                f"understood? {_go_on(JOIN)}",
+                remedy="Check that it is the list of this class, and that its columns have known "
+                f"names. {_go_on(JOIN)}",
             )
     _refuse_zeros(folder, policy)
 
 
 def refuse_lower(lowered: Sequence[Lowered], accepts: Collection[str], *, marked: bool) -> None:
-    """Raise UsageError if grades would go down; `marked` says whether there are new verdicts."""
+    """Raise UsageError if a grade would go down; `marked`: there are new verdicts."""
     if not lowered or LOWER in accepts:
         return
     people = len({one.key for one in lowered})
     kept = "The verdicts are kept, and nothing" if marked else "Nothing"
     raise UsageError(
-        f"{counted(people)} would get a lower grade than there is already. {kept} was written. "
+        f"{counted(people)} would get a lower grade than they have. {kept} was written. "
         f"{_named([str(one) for one in lowered], by='; ')}",
-        remedy=f"Look at them (grader grade PATH shows one report). {_go_on(LOWER)}",
+        remedy=f"Check them (grader grade PATH shows one report). {_go_on(LOWER)}",
     )
 
 
@@ -85,8 +84,8 @@ def _refuse_zeros(folder: ClassFolder, policy: Policy) -> None:
     lines = folder.on_roster.lines
     if len(zeros) > MOST_ZEROS * lines:
         raise UsageError(
-            f"{len(zeros)} of {lines} students on {folder.on_roster.roster} would get 0 points, as "
-            f"nothing of theirs is here and the assignment's policy says missing: zero. "
+            f"{len(zeros)} of {lines} students on {folder.on_roster.roster} would get 0 points: "
+            "they have no submission here, and the assignment's policy says missing: zero. "
             f"Nothing was marked or written. Without a submission: {_named(zeros)}",
             remedy=f"Are these the submissions of the whole class? {_go_on(JOIN)}",
         )
@@ -98,7 +97,7 @@ def counted(students: int) -> str:
 
 
 def _go_on(what: str) -> str:
-    return f"To go on all the same: --accept {what} (make: ACCEPT={what})."
+    return f"To continue anyway: --accept {what} (make: ACCEPT={what})."
 
 
 def _named(names: Sequence[str], *, by: str = ", ") -> str:

@@ -1,4 +1,4 @@
-"""A check in plain text, as systems show it below a test's name, in the report's language."""
+"""A check as plain text, which systems show below a test's name, in the report's language."""
 
 from __future__ import annotations
 
@@ -15,29 +15,29 @@ LINES = 12  # of one text
 
 
 def check_text(mark: Mark, report: Report, *, lines: int = LINES) -> str:
-    """Return all that is known of a check, without control characters, ended by a newline."""
+    """Return everything about a check, without control characters, ending with a newline."""
     check, translate = mark.check, Translator(report.lang)
     if check.status == "passed":
-        told = [line for advice in check.advice for line in first_lines(advice, lines=lines)]
+        text = [line for advice in check.advice for line in first_lines(advice, lines=lines)]
     elif check.status == "skipped":
-        told = [translate(_skipped(mark, report))]
+        text = [translate(_skipped(mark, report))]
     else:
         page = Page(width=WIDTH, styled=False, translate=translate)
         block(page, check, lines=lines)
-        told = str(page).rstrip("\n").split("\n")
-    told += [translate(mark.correction)] if mark.correction else []
-    return "".join(f"{line}\n" for line in told or [translate(say("Passed."))])
+        text = str(page).rstrip("\n").split("\n")
+    text += [translate(mark.correction)] if mark.correction else []
+    return "".join(f"{line}\n" for line in text or [translate(say("Passed."))])
 
 
 def headline(mark: Mark, report: Report) -> str:
-    """Return what was found in one line: a failed check's `actual`, else its state."""
+    """Return the outcome in one line: a failed check's `actual`, or the state."""
     check = mark.check
     found = one_line(check.actual) if check.status == "failed" else ""
     return found or Translator(report.lang)(WORDS[check.status])
 
 
 def _skipped(mark: Mark, report: Report) -> str:
-    """Say why it was not asked; a check that is not shown is not named to who may see this one."""
+    """Return why a check was skipped; a visible check does not name a hidden one."""
     names = [
         one_line(other.id, most=60)
         if other.visibility == "visible" or mark.check.visibility != "visible"
@@ -46,4 +46,4 @@ def _skipped(mark: Mark, report: Report) -> str:
     ]
     if not names:
         return one_line(mark.check.actual)
-    return say("Not asked because {checks} did not pass.", checks=all_of(names))
+    return say("Not run because {checks} did not pass.", checks=all_of(names))

@@ -1,7 +1,7 @@
 """Workers on other machines: a Dask cluster, each worker checked before it is used.
 
-Submissions travel by content and verdicts come back, both as text: nothing is read from a worker's
-disk, and what it runs is this grader, the same source on both sides.
+Submissions are sent with their contents and verdicts come back, both as text: nothing is read from
+a worker's disk. A worker must have this grader, with the same source.
 """
 
 from __future__ import annotations
@@ -20,27 +20,26 @@ from typing import TYPE_CHECKING, Any
 from grader.base.errors import GraderError, SurroundingsError
 from grader.base.project import PACKAGE
 from grader.batch.cluster_worker import Checked, check_here, mark_here
-from grader.batch.keys import NOT_MARKING, source_digest
-from grader.batch.trial import Trial
-from grader.batch.work import Answer, Done, Job, Task
+from grader.batch.verdict_key import NOT_MARKING, source_digest
+from grader.batch.work import Answer, Done, Job, Task, Trial
 
 if TYPE_CHECKING:
     from distributed import Client, Future
 
 CONNECT_SECONDS = 20.0
 CHECK_SECONDS = 600.0  # a worker may have to make its ROS prefix first
-LOOK_SECONDS = 5.0  # between two looks at which workers there are
+LOOK_SECONDS = 5.0  # between two checks for new workers
 LOST = (asyncio.CancelledError, concurrent.futures.CancelledError, OSError)
-ALONE_SECONDS = 60.0  # without any worker, after which the run ends
+ALONE_SECONDS = 60.0  # without any worker, before the run ends
 
 
 class Cluster:
-    """A Dask cluster of which the workers that agree are used; use it as a context manager."""
+    """A Dask cluster, used as a context manager; only workers of equal surroundings are used."""
 
     def __init__(self, scheduler: str, job: Job, *, notify: Callable[[str], None]) -> None:
         """Connect and check every worker.
 
-        Raises SurroundingsError where the scheduler does not answer, or no worker can be used.
+        Raises SurroundingsError if the scheduler does not answer or no worker can be used.
         """
         self._scheduler = scheduler
         self._job = job
@@ -49,7 +48,7 @@ class Cluster:
         self._sent: dict[object, set[str]] = {}
         self._client = _connect(scheduler)
         self.surroundings = ""
-        """The key of what the workers mark in (see `keys`)."""
+        """The workers' surroundings key (see `verdict_key`)."""
         self.sandbox = ""
 
     def __enter__(self) -> Cluster:
@@ -66,14 +65,14 @@ class Cluster:
             raise SurroundingsError(
                 f"no worker of {self._scheduler} can mark: "
                 + ("\n".join(problems) or "there is none"),
-                remedy="Start workers where this grader is installed (docs/cluster.md).",
+                remedy="Start workers in an environment with this grader (docs/cluster.md).",
             )
         self.surroundings = usable.most_common(1)[0][0]
         self.sandbox = next(
             c.sandbox for c in self._checked.values() if c.surroundings == self.surroundings
         )
         for address in self._checked:
-            self._tell(address)
+            self._report(address)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -82,9 +81,9 @@ class Cluster:
     def run(
         self, tasks: Iterable[Task], *, started: Callable[[Task], None]
     ) -> Generator[Done, None, None]:
-        """Mark them and yield each when it is done; closing the generator cancels the others.
+        """Mark the tasks and yield each when it is done; closing the generator cancels the rest.
 
-        Raises SurroundingsError where the scheduler, or every worker for a while, is gone.
+        Raises SurroundingsError if the scheduler is gone, or every worker for a while.
         """
         waiting = iter(tasks)
         again: deque[Trial] = deque()
@@ -92,18 +91,18 @@ class Cluster:
         try:
             while True:
                 with self._scheduler_there():
-                    again.extend(self._stranded(running))
-                    room = self._room() - len(running)
-                for trial in _next(waiting, again, room, self._job.seconds, started):
+                    again.extend(self._without_workers(running))
+                    free = self._capacity() - len(running)
+                for trial in _next(waiting, again, free, self._job.seconds, started):
                     with self._scheduler_there():
                         running[self._submit(trial)] = trial
                 if not running:
                     return
                 with self._scheduler_there():
-                    answers = [(future, _heard(future)) for future in self._wait(list(running))]
+                    answers = [(future, _answer(future)) for future in self._wait(list(running))]
                 for future, answer in answers:
                     trial = running.pop(future)
-                    finished = trial.hear(answer)
+                    finished = trial.add(answer)
                     if finished is None:
                         again.append(trial)
                     else:
@@ -114,19 +113,19 @@ class Cluster:
                     self._client.cancel(list(running))
 
     def _wait(self, futures: list[Future[str]]) -> list[Future[str]]:
-        """Return those that are done; none where it takes long, so that workers are looked at."""
+        """Return the futures that are done; [] after a while, so that new workers are noticed."""
         from distributed import wait  # noqa: PLC0415
 
         try:
             with self._client.as_current():
                 done = wait(futures, timeout=LOOK_SECONDS, return_when="FIRST_COMPLETED").done
-        except asyncio.TimeoutError:  # another one than Python's own before 3.11
+        except asyncio.TimeoutError:  # not the built-in TimeoutError before Python 3.11
             done = set()
-        self._need_scheduler()  # where it is gone, everything counts as done
+        self._need_scheduler()  # without it, every future counts as done
         return list(done)
 
-    def _stranded(self, running: dict[Future[str], Trial]) -> list[Trial]:
-        """Take back what waits for workers that are all gone."""
+    def _without_workers(self, running: dict[Future[str], Trial]) -> list[Trial]:
+        """Cancel and return the tasks whose workers are all gone."""
         here = set(self._workers())
         gone = [future for future in running if not self._sent[future.key] & here]
         if gone:
@@ -135,9 +134,9 @@ class Cluster:
 
     @contextmanager
     def _scheduler_there(self) -> Iterator[None]:
-        """Turn what Dask raises where the scheduler is gone into SurroundingsError.
+        """Raise SurroundingsError instead of Dask's own errors if the scheduler is gone.
 
-        (Its client cancels every future, and looks for the scheduler for a while on its own.)
+        (Dask's client cancels every future, and tries to reconnect for a while.)
         """
         try:
             yield
@@ -161,7 +160,7 @@ class Cluster:
         )
 
     def prove(self) -> None:
-        """Have every worker checked anew; SurroundingsError where none can be used any more."""
+        """Check every worker again; raise SurroundingsError if none can be used any more."""
         self._checked.clear()
         with self._scheduler_there():
             self._look()
@@ -183,10 +182,10 @@ class Cluster:
         self._sent[future.key] = workers
         return future
 
-    def _room(self) -> int:
-        """Return for how many there is room, one more for each worker to go on with.
+    def _capacity(self) -> int:
+        """Return how many tasks to have at the workers: one per thread, and one queued per worker.
 
-        Waits a while where no worker is left.
+        Waits up to `ALONE_SECONDS` if no worker is left.
         """
         deadline = time.monotonic() + ALONE_SECONDS
         while True:
@@ -203,7 +202,7 @@ class Cluster:
             self._client.sync(_sleep, LOOK_SECONDS)
 
     def _usable(self) -> Mapping[str, int]:
-        """Return the threads of every worker that is there and agrees."""
+        """Return the number of threads of each usable worker, by its address."""
         return {
             address: int(info["nthreads"])
             for address, info in self._workers().items()
@@ -219,21 +218,23 @@ class Cluster:
         return found
 
     def _look(self) -> None:
-        """Check the workers that have come since the last look."""
+        """Check the workers that have joined since the last call."""
         fresh = [address for address in self._workers() if address not in self._checked]
         if not fresh:
             return
-        said = self._client.run(check_here, self._job.to_text(), workers=fresh, on_error="return")
+        results = self._client.run(
+            check_here, self._job.to_text(), workers=fresh, on_error="return"
+        )
         for address in fresh:
-            text = said.get(address)
+            text = results.get(address)
             if isinstance(text, str):
                 self._checked[address] = Checked(**json.loads(text))
             else:
                 self._checked[address] = Checked(problem=f"it cannot run this grader: {text!r}")
             if self.surroundings:
-                self._tell(address)
+                self._report(address)
 
-    def _tell(self, address: str) -> None:
+    def _report(self, address: str) -> None:
         found = self._checked[address]
         if found.problem:
             self._notify(f"{address} is not used: {found.problem}")
@@ -247,32 +248,35 @@ class Cluster:
 
 def _connect(scheduler: str) -> Client:
     try:
-        from distributed import Client  # noqa: PLC0415 - it takes half a second
+        from distributed import Client  # noqa: PLC0415 - takes half a second
     except ImportError:
         raise SurroundingsError(
             "Dask is not installed, and --scheduler needs it",
             remedy="pip install 'distributed' into the grader's environment (docs/cluster.md).",
         ) from None
-    for name in ("distributed", "distributed.client"):  # what they say, we say in words
+    for name in (
+        "distributed",
+        "distributed.client",
+    ):  # their errors are raised as SurroundingsError
         logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         return Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, ValueError) as error:
         raise SurroundingsError(
             f"the scheduler {scheduler} does not answer: {error}",
-            remedy="Start one with `dask scheduler`, and name it as it says: tcp://host:8786.",
+            remedy="Start one with `dask scheduler`; it prints the address to give: tcp://host:8786.",
         ) from None
 
 
 def _next(
     waiting: Iterable[Task],
     again: deque[Trial],
-    room: int,
+    free: int,
     seconds: float,
     started: Callable[[Task], None],
 ) -> Iterator[Trial]:
-    """Yield as many as there is room for, those that are tried again first."""
-    for _ in range(room):
+    """Yield up to `free` tasks, those that are tried again first."""
+    for _ in range(free):
         if again:
             yield again.popleft()
         else:
@@ -283,13 +287,13 @@ def _next(
             yield Trial(task, seconds)
 
 
-def _heard(future: Future[str]) -> Answer:
+def _answer(future: Future[str]) -> Answer:
     if future.status != "finished":
-        return Answer(fault=f"the worker that marked it was lost: {future.exception()!r}")
+        return Answer(fault=f"the worker was lost: {future.exception()!r}")
     try:
         return Answer.from_text(future.result())
     except ValueError as error:
-        return Answer(fault=f"the worker said something else: {error}")
+        return Answer(fault=f"the worker sent an invalid answer: {error}")
 
 
 async def _sleep(seconds: float) -> None:

@@ -1,4 +1,4 @@
-"""What runs on the workers of a cluster: text in, text out."""
+"""The functions that run on a cluster's workers: text in, text out."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from grader.base.errors import GraderError
 from grader.base.project import PACKAGE
 from grader.base.unheard import unheard
-from grader.batch.keys import NOT_MARKING, source_digest, surroundings_key
-from grader.batch.proof import try_out
-from grader.batch.work import Job, Task, answer
+from grader.batch.sandbox_proof import try_out
+from grader.batch.verdict_key import NOT_MARKING, source_digest, surroundings_key
+from grader.batch.work import Job, Task, mark_task
 from grader.ros.distro import find_distro
 from grader.sandbox.choose import open_sandbox
 
 
 @dataclass(frozen=True)
 class Checked:
-    """What a worker says of itself; `problem` why it cannot be used."""
+    """What a worker reports about itself; `problem` says why it cannot be used."""
 
     surroundings: str = ""
     sandbox: str = ""
@@ -31,7 +31,7 @@ class Checked:
 
 
 def check_here(job: str) -> str:
-    """Say what this machine would mark with: runs on a worker, and tries its sandbox once."""
+    """Return what this worker marks with, as the text of a `Checked`; tries its sandbox once."""
     wanted = Job.from_text(job)
     own = source_digest(PACKAGE, NOT_MARKING)
     try:
@@ -49,5 +49,5 @@ def check_here(job: str) -> str:
 
 
 def mark_here(job: str, task: str) -> str:
-    """Mark one submission: runs on a worker."""
-    return answer(Job.from_text(job), Task.from_text(task)).to_text()
+    """Mark one submission on this worker."""
+    return mark_task(Job.from_text(job), Task.from_text(task)).to_text()

@@ -1,7 +1,7 @@
-"""The text of a CSV file that a course's system or a spreadsheet wrote, whatever its encoding.
+"""Decodes a CSV file of a learning management system or a spreadsheet, whatever its encoding.
 
-UTF-8 first: it is recognised without a doubt. What is not UTF-8 was saved by a spreadsheet in the
-encoding of its country: Korean Windows writes CP949, the western ones CP1252.
+UTF-8 comes first, because it is recognised reliably. Other files were saved by a spreadsheet in a
+regional encoding: CP949 on Korean Windows, CP1252 on Western Windows.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ from grader.base.errors import UsageError
 BOM = b"\xef\xbb\xbf"
 MARKS = ((BOM, "utf-8"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 AS_CSV = "Save it in the spreadsheet as 'CSV UTF-8'."
-HEAD = 4_000  # bytes in which a file that is not text shows a zero byte
-# Latin-1 text can be valid CP949, but then its characters are rarely the common Hangul syllables
-# (KS X 1001): `Å` before a small letter is one of the other 8,822
+HEAD = 4_000  # bytes that are searched for a zero byte: the sign of a binary file
+# Latin-1 text can be valid CP949, but is then rarely read as the common Hangul syllables
+# (KS X 1001): `Å` before a lower-case letter is one of the other 8,822
 KOREAN_SHARE = 0.8
 FIRST_HANGUL, LAST_HANGUL = "\uac00", "\ud7a3"
 
 
 @dataclass(frozen=True)
 class Decoded:
-    """A file's text, and in `note` what was assumed about it.
+    """A file's text, and in `note` what was assumed about its encoding.
 
-    `marked` says whether a UTF-8 copy of it begins with the byte order mark: it did, or it was not
-    UTF-8, and the spreadsheet that wrote it recognises UTF-8 only by the mark.
+    `marked` says whether a UTF-8 copy needs a byte order mark: the file had one, or it was not
+    UTF-8 and its spreadsheet recognises UTF-8 only by the mark.
     """
 
     text: str
@@ -34,12 +34,12 @@ class Decoded:
 
 
 def decoded(content: bytes, name: str) -> Decoded:
-    """Return the text of a file that is called `name`; UsageError if it is no text."""
+    """Return the text of a file, called `name` in errors; raise UsageError if it is not text."""
     for mark, encoding in MARKS:
         if content.startswith(mark):
             return Decoded(_after_mark(content, encoding, name), marked=True)
     if b"\0" in content[:HEAD]:
-        raise UsageError(f"{name} is no CSV file: it has zero bytes in it", remedy=AS_CSV)
+        raise UsageError(f"{name} is not a CSV file: it contains zero bytes", remedy=AS_CSV)
     try:
         return Decoded(content.decode("utf-8"))
     except UnicodeDecodeError:
@@ -58,14 +58,14 @@ def _after_mark(content: bytes, encoding: str, name: str) -> str:
         return content.decode(encoding).removeprefix("\ufeff")
     except UnicodeDecodeError as error:
         raise UsageError(
-            f"{name} begins with the mark of {encoding.upper()}, and is not {encoding.upper()} "
-            f"(byte {error.start})",
+            f"{name} has the byte order mark of {encoding.upper()} but is not valid "
+            f"{encoding.upper()} (byte {error.start})",
             remedy=AS_CSV,
         ) from None
 
 
 def _korean(content: bytes) -> str | None:
-    """Return the text if it is Korean: valid CP949, of common Hangul syllables for the most part."""
+    """Return the text if it is Korean: valid CP949, and mostly common Hangul syllables."""
     try:
         text = content.decode("cp949")
     except UnicodeDecodeError:
@@ -79,11 +79,11 @@ def _is_common_hangul(character: str) -> bool:
     if not FIRST_HANGUL <= character <= LAST_HANGUL:
         return False
     try:
-        return len(character.encode("euc_kr")) == 2  # the other syllables are spelled out, in 8
+        return len(character.encode("euc_kr")) == 2  # the other syllables take 8 bytes
     except UnicodeEncodeError:
         return False
 
 
 def _assumed(text: str, name: str, encoding: str) -> Decoded:
-    note = f"{name} is not UTF-8: it was read as {encoding}, see the names"
+    note = f"{name} is not UTF-8 and was read as {encoding}: check the names"
     return Decoded(text, marked=True, note=note)

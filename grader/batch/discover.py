@@ -1,4 +1,4 @@
-"""What an instructor downloaded: whose submissions are in it, and where each of them is."""
+"""Finds the submissions of a class in what the instructor downloaded."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from grader.batch.join import join
 from grader.batch.model import ClassFolder, HandedIn, System
 from grader.batch.roster import Roster, read_roster
 from grader.batch.systems import plain
-from grader.batch.systems.exec_bits import nobody_has_one
-from grader.batch.systems.gathered import Gatherer
+from grader.batch.systems.exec_bits import no_exec_bits
+from grader.batch.systems.gather import Gatherer
 from grader.batch.systems.known import (
     LAYOUTS,
     NAMED_BY_HAND,
@@ -25,23 +25,22 @@ from grader.batch.systems.known import (
     recognised,
 )
 from grader.batch.systems.layout import Layout, Reading, look_at, seen
-from grader.batch.systems.one import is_class, one_package
-from grader.batch.systems.words import Notes
-from grader.batch.systems.words import plain as plainly
+from grader.batch.systems.notes import Notes, printable
+from grader.batch.systems.single_package import is_class, one_package
 from grader.batch.unpack import Unpacked, unpack_class
 from grader.batch.unpack_members import NOT_UNPACKED
 from grader.package.intake.given import resolved
 
-DEEPEST = 2  # folders around the class' folder that hold nothing else
+DEEPEST = 2  # nested folders around the class folder that contain nothing else
 NO_BITS = (
-    "nobody's node is executable: it counts as unknown who made it so (the files came here by a "
-    "way that loses it)"
+    "no submission has an executable node: the exec bits count as unknown (they were lost on the "
+    "way here)"
 )
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What was asked for: `path` as it was given, resolved; a system's name or "auto"."""
+class Request:
+    """What to discover: the resolved `path`; a system's name or "auto"."""
 
     path: Path
     system: str
@@ -51,28 +50,28 @@ class Asked:
 def discover(
     path: Path, *, system: str = "auto", roster: Path | Roster | None = None, unpack: Path
 ) -> ClassFolder:
-    """Return everything that a class handed in: `path` is a folder, or an archive of one.
+    """Return all submissions of a class; `path` is a folder, or an archive of one.
 
-    `unpack` is a folder of ours, for what has to be unpacked or put together. Raises UsageError for
-    a path that is no class, a system that is not known, and a roster that cannot be used.
+    `unpack` is the grader's folder for unpacked and gathered files. Raises UsageError if the path
+    is not a class, the system is unknown or the roster cannot be used.
     """
     check_system(system)
-    asked = Asked(resolved(path), system, unpack.resolve())
+    request = Request(resolved(path), system, unpack.resolve())
     students = read_roster(roster) if isinstance(roster, Path) else roster
     notes = Notes()
-    unpacked = Unpacked(asked.path)
-    if not asked.path.is_dir():
-        unpacked = unpack_class(asked.path, asked.unpack)
-    layout, found_system, handed_in = _read(asked, unpacked, notes)
+    unpacked = Unpacked(request.path)
+    if not request.path.is_dir():
+        unpacked = unpack_class(request.path, request.unpack)
+    layout, found_system, handed_in = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
     handed_in = _with_modes(found_system, handed_in, unpacked, notes)
     joined = join(found_system, _numbered(handed_in), students)
     for reason, names in layout.left_out.items():
-        notes.name(reason, names)
+        notes.add_names(reason, names)
     return ClassFolder(
         system=found_system,
-        path=asked.path,
-        # (a member of a group may have handed in alone as well)
+        path=request.path,
+        # numbered again: a member of a group may also have handed in alone
         handed_in=tuple(_numbered(joined.handed_in)),
         missing=joined.missing,
         elsewhere=joined.elsewhere,
@@ -81,46 +80,48 @@ def discover(
     )
 
 
-def _look(path: Path, asked: Asked, unpacked: Unpacked) -> Layout:
-    """Look at a folder of the class; our own folder, and those around it, are no student's."""
+def _look(path: Path, request: Request, unpacked: Unpacked) -> Layout:
+    """List a folder of the class, without the grader's own folder and those around it."""
     below = path.relative_to(unpacked.folder).as_posix()
-    ours = [asked.unpack, *asked.unpack.parents]
-    return look_at(path, lost=_lost(unpacked, below), without=ours)
+    own = [request.unpack, *request.unpack.parents]
+    return look_at(path, lost=_lost(unpacked, below), without=own)
 
 
-def _read(asked: Asked, unpacked: Unpacked, notes: Notes) -> tuple[Layout, System, list[HandedIn]]:
-    layout = _look(unpacked.folder, asked, unpacked)
+def _read(
+    request: Request, unpacked: Unpacked, notes: Notes
+) -> tuple[Layout, System, list[HandedIn]]:
+    layout = _look(unpacked.folder, request, unpacked)
     single = one_package(layout)
     if single:
         raise UsageError(
-            f"{shown(str(asked.path))} is {single}, and no class",
-            remedy="One submission is marked with: grader grade PATH.",
+            f"{shown(str(request.path))} is {single}, not a class",
+            remedy="To mark one submission: grader grade PATH.",
         )
-    layout = _down(layout, asked, unpacked, notes)
-    found = recognised(asked.system, layout)
+    layout = _class_layout(layout, request, unpacked, notes)
+    found = recognised(request.system, layout)
     if found is None:
         raise UsageError(
-            f"{shown(str(asked.path))} holds no submissions of a class: {seen(layout)}",
+            f"{shown(str(request.path))} has no submissions of a class: {seen(layout)}",
             remedy=LAYOUTS,
         )
-    reading = Reading(notes, Gatherer(asked.unpack))
+    reading = Reading(notes, Gatherer(request.unpack))
     read = READERS[found].read(layout, reading)
     handed_in = [*read.handed_in]
     if not handed_in:
         raise UsageError(
-            f"{shown(str(asked.path))} is not {WORDS[found]}: {seen(layout)}", remedy=LAYOUTS
+            f"{shown(str(request.path))} is not {WORDS[found]}: {seen(layout)}", remedy=LAYOUTS
         )
     taken = {one.student.key for one in handed_in}
     for one in plain.read_items(layout.path, read.rest, reading):
         handed_in.append(_beside(one, taken, WORDS[found]))
-    how = "as was asked for" if asked.system != "auto" else "by its names"
-    notes.say(f"read as {WORDS[found]} ({found}), {how}")
+    how = "as requested" if request.system != "auto" else "by its names"
+    notes.add(f"read as {WORDS[found]} ({found}), {how}")
     return layout, found, handed_in
 
 
 def _beside(one: HandedIn, taken: set[str], words: str) -> HandedIn:
-    """Return what was put beside a system's own files; its name is no number of that system's."""
-    note = f"not named as in {words}: taken by the name that it has"
+    """Return a submission that was added to a system's own files, under a key of its own."""
+    note = f"not named as in {words}: its own name was used"
     key = one.student.key
     while key in taken:
         key = f"{key} (by hand)"
@@ -128,7 +129,7 @@ def _beside(one: HandedIn, taken: set[str], words: str) -> HandedIn:
 
 
 def _lost(unpacked: Unpacked, below: str) -> dict[str, str]:
-    """Return what should be in a folder of the class, and is not there because of a rule."""
+    """Return the names that are missing in a folder because they were not unpacked, and why."""
     start = "" if below == "." else f"{below}/"
     beside = (
         (where[len(start) :], what) for where, what in unpacked.remarks if where.startswith(start)
@@ -143,9 +144,9 @@ def _lost(unpacked: Unpacked, below: str) -> dict[str, str]:
     }
 
 
-def _down(layout: Layout, asked: Asked, unpacked: Unpacked, notes: Notes) -> Layout:
-    """Go into folders that are the only thing there, if the class is in them and no one student."""
-    if asked.system in NAMED_BY_HAND or is_named_as_in(asked.system, layout):
+def _class_layout(layout: Layout, request: Request, unpacked: Unpacked, notes: Notes) -> Layout:
+    """Return the class in a folder that contains nothing else, or the layout itself."""
+    if request.system in NAMED_BY_HAND or is_named_as_in(request.system, layout):
         return layout
     deeper, left_out = layout, dict(layout.left_out)
     for _ in range(DEEPEST):
@@ -153,20 +154,20 @@ def _down(layout: Layout, asked: Asked, unpacked: Unpacked, notes: Notes) -> Lay
         if len(inner) != 1 or inner[0].kind != "folder" or inner[0].problem:
             break
         try:
-            deeper = _look(deeper.path / inner[0].name, asked, unpacked)
+            deeper = _look(deeper.path / inner[0].name, request, unpacked)
         except UsageError:
             break
         left_out.update(deeper.left_out)
-        by_hand = asked.system == "auto" and is_class(deeper)
-        if by_hand or is_named_as_in(asked.system, deeper):
+        by_hand = request.system == "auto" and is_class(deeper)
+        if by_hand or is_named_as_in(request.system, deeper):
             place = os.path.relpath(deeper.path, layout.path)
-            notes.say(f"the class is in the folder {shown(plainly(place))}")
+            notes.add(f"the class is in the folder {shown(printable(place))}")
             return replace(deeper, left_out=left_out)
     return layout
 
 
 def _with_remarks(handed_in: list[HandedIn], unpacked: Unpacked, notes: Notes) -> list[HandedIn]:
-    """Tell each student what was not unpacked of his or hers, and the class the rest."""
+    """Return the submissions with notes on what was not unpacked; other remarks go to `notes`."""
     if not unpacked.remarks:
         return handed_in
     places = {os.fsencode(one.path): n for n, one in enumerate(handed_in)}
@@ -176,32 +177,32 @@ def _with_remarks(handed_in: list[HandedIn], unpacked: Unpacked, notes: Notes) -
         owners = [places.get(os.fsencode(place)) for place in (path, *path.parents)]
         owner = next((n for n in owners if n is not None), None)
         if owner is None:
-            notes.name(what, [where])
+            notes.add_names(what, [where])
         elif handed_in[owner].problem != what:
-            found.setdefault(owner, []).append(f"{what}: {shown(plainly(where))}")
+            found.setdefault(owner, []).append(f"{what}: {shown(printable(where))}")
     return [
         replace(one, notes=(*one.notes, *_few(found.get(n, [])))) for n, one in enumerate(handed_in)
     ]
 
 
 def _few(lines: Sequence[str]) -> tuple[str, ...]:
-    return tuple(lines[:5]) + ((f"and {len(lines) - 5} more of this kind",) if lines[5:] else ())
+    return tuple(lines[:5]) + ((f"and {len(lines) - 5} more like these",) if lines[5:] else ())
 
 
 def _with_modes(
     system: System, handed_in: list[HandedIn], unpacked: Unpacked, notes: Notes
 ) -> list[HandedIn]:
-    """Say of every folder whether its exec bits are the student's own."""
+    """Return the submissions with `modes_kept` False if the class lost its exec bits."""
     kept = unpacked.modes_recorded
     folders = [one.path for one in handed_in if one.modes_kept and not one.problem]
-    if kept and system != "github_classroom" and nobody_has_one(folders):
+    if kept and system != "github_classroom" and no_exec_bits(folders):
         kept = False
-        notes.say(NO_BITS)
+        notes.add(NO_BITS)
     return handed_in if kept else [replace(one, modes_kept=False) for one in handed_in]
 
 
 def _numbered(handed_in: Iterable[HandedIn]) -> list[HandedIn]:
-    """Number each student's attempts, in order of time where all of them have one."""
+    """Number each student's attempts, by time if all of them have one."""
     by_key: dict[str, list[HandedIn]] = {}
     for one in handed_in:
         by_key.setdefault(one.student.key, []).append(one)

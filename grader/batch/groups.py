@@ -1,9 +1,9 @@
-"""Submissions of groups: whose members the roster tells, by its column of groups.
+"""Finds submissions of groups and their members, by the roster's group column.
 
-Moodle's download calls a group's folder after the group as `clean_filename` leaves it
-(mod/assign/classes/downloader.php): `_` has become a blank, `&` first `&amp;`, and what no file
-name can have (PARAM_FILE) is dropped. The worksheet has the name as it is. Names are compared as Moodle writes
-them, and only then without capitals and accents.
+Moodle's download names a group's folder after the group, as `clean_filename` returns it
+(mod/assign/classes/downloader.php): `_` becomes a space, `&` first becomes `&amp;`, and characters
+that a file name cannot have (PARAM_FILE) are dropped. The worksheet has the original name. Names
+are compared as Moodle writes them first, then without case and accents.
 """
 
 from __future__ import annotations
@@ -15,31 +15,32 @@ from dataclasses import dataclass, field
 
 from grader.batch.match import folded
 from grader.batch.model import Student
-from grader.batch.roster import Line
+from grader.batch.roster import RosterLine
 
 DROPPED = re.compile(r"[\x00-\x1f\x7f&<>\"`|':\\/]")
-SEVERAL = re.compile(r"\s*[,;|]\s*")  # between groups, if somebody is in more than one
+SEVERAL = re.compile(r"\s*[,;|]\s*")  # separates the groups of a student who is in more than one
 
 
 @dataclass
 class Groups:
-    """The rows of each group's members by the submission's key, and the group's name.
+    """The rows of each group's members, and the group's name, by the submission's key.
 
-    `doubtful` are submissions whose group is not certain, `unsure` the rows that may be in one.
+    `ambiguous` are submissions that may be of several groups, `unsure` the rows that may be in such
+    a group, with the reason.
     """
 
     rows: dict[str, list[int]] = field(default_factory=dict)
     names: dict[str, str] = field(default_factory=dict)
-    doubtful: set[str] = field(default_factory=set)
+    ambiguous: set[str] = field(default_factory=set)
     unsure: dict[int, str] = field(default_factory=dict)
 
 
-def find_groups(students: Sequence[Student], lines: Sequence[Line]) -> Groups:
-    """Return which of the submissions are a group's, by the name that the folder has."""
+def find_groups(students: Sequence[Student], lines: Sequence[RosterLine]) -> Groups:
+    """Return the submissions that are a group's, by the name of the folder."""
     found = Groups()
     cells = _rows_by_group(lines)
     for form in (_as_moodle_writes, _loosely):
-        known = found.rows.keys() | found.doubtful
+        known = found.rows.keys() | found.ambiguous
         left = [student for student in students if student.key not in known]
         free = {cell: rows for cell, rows in cells.items() if cell not in found.names.values()}
         _match(found, left, free, form)
@@ -47,13 +48,13 @@ def find_groups(students: Sequence[Student], lines: Sequence[Line]) -> Groups:
     return found
 
 
-def group_column(students: Sequence[Student], lines: Sequence[Line]) -> str:
-    """Return the column of unknown name in which most of the submissions' names stand; "" if none.
+def group_column(students: Sequence[Student], lines: Sequence[RosterLine]) -> str:
+    """Return the unknown column that contains the names of most submissions, "" if there is none.
 
-    It is one of groups only if a name stands in it for more than one student.
+    It counts as a group column only if several students share a name in it.
     """
     for column in lines[0].unknown if lines else ():
-        trial = [Line(line.student, group=line.unknown.get(column, "")) for line in lines]
+        trial = [RosterLine(line.student, group=line.unknown.get(column, "")) for line in lines]
         found = find_groups(students, trial)
         members = sum(len(rows) for rows in found.rows.values())
         if 2 * len(found.rows) > len(students) and members > len(found.rows):
@@ -61,7 +62,7 @@ def group_column(students: Sequence[Student], lines: Sequence[Line]) -> str:
     return ""
 
 
-def _rows_by_group(lines: Sequence[Line]) -> dict[str, list[int]]:
+def _rows_by_group(lines: Sequence[RosterLine]) -> dict[str, list[int]]:
     cells: dict[str, list[int]] = {}
     for row, line in enumerate(lines):
         for name in dict.fromkeys((line.group, *SEVERAL.split(line.group))):
@@ -86,48 +87,48 @@ def _match(
         for cell in fit:
             claims.setdefault(cell, []).append(student)
         if len(fit) > 1:
-            _doubt(found, [student], fit, cells)
+            _mark_ambiguous(found, [student], fit, cells)
     for cell, claimants in claims.items():
         if len(claimants) > 1:
-            _doubt(found, claimants, [cell], cells)
-        elif claimants[0].key not in found.doubtful:
+            _mark_ambiguous(found, claimants, [cell], cells)
+        elif claimants[0].key not in found.ambiguous:
             found.rows[claimants[0].key] = list(cells[cell])
             found.names[claimants[0].key] = cell
-    for key in found.doubtful & found.rows.keys():
+    for key in found.ambiguous & found.rows.keys():
         del found.rows[key], found.names[key]
 
 
-def _doubt(
+def _mark_ambiguous(
     found: Groups,
     students: Iterable[Student],
     names: Iterable[str],
     cells: Mapping[str, list[int]],
 ) -> None:
-    found.doubtful.update(student.key for student in students)
+    found.ambiguous.update(student.key for student in students)
     for name in names:
-        why = f"a group handed in that may be '{name}': more than one has this name"
+        why = f"the group '{name}' may have handed in: more than one group or submission fits"
         found.unsure |= dict.fromkeys(cells[name], why)
 
 
-def _without_double_members(found: Groups, lines: Sequence[Line]) -> None:
-    """Take out who is in several of the groups: which verdict is theirs is not certain."""
+def _without_double_members(found: Groups, lines: Sequence[RosterLine]) -> None:
+    """Remove members of several groups: it is not certain which verdict they get."""
     groups: dict[int, list[str]] = {}
     for key, rows in found.rows.items():
         for row in rows:
             groups.setdefault(row, []).append(key)
     for row, keys in groups.items():
-        # a group may be called `Kim, Lee`
+        # `Kim, Lee` may be the name of one group
         own = [key for key in keys if found.names[key] == lines[row].group]
         if len(keys) > 1 and not own:
             named = ", ".join(f"'{found.names[key]}'" for key in keys)
-            found.unsure[row] = f"is in more than one group that handed in: {named}"
+            found.unsure[row] = f"is a member of more than one group that handed in: {named}"
         if len(keys) > 1:
             for key in set(keys) - set(own):
                 found.rows[key].remove(row)
 
 
 def _names(student: Student) -> Iterator[str]:
-    """Yield the names that a folder may stand for; a number of Moodle's may be behind it."""
+    """Yield the possible names of a folder, with and without Moodle's number at the end."""
     yield student.name
     yield student.name.removesuffix(f" {student.key}")
 

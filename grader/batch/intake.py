@@ -1,4 +1,4 @@
-"""What a class handed in, taken in: each attempt's hash, and the key of its verdict."""
+"""Intake of a class: each attempt's hash, and the key of its verdict."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from dataclasses import dataclass
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import joined
-from grader.batch.keys import verdict_key
 from grader.batch.model import HandedIn
+from grader.batch.verdict_key import verdict_key
 from grader.batch.work import Task
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission, take_in
 
 
 @dataclass(frozen=True)
-class Item:
-    """One attempt: `submission` is its hash and `key` its verdict's, "" if it cannot be taken in.
+class IntakeItem:
+    """One attempt: `submission` is its hash, `key` its verdict's; "" if intake failed.
 
-    `problem` says why it cannot, `fault` how our own side failed to.
+    `problem` says why the attempt cannot be read, `fault` how the grader itself failed.
     """
 
     handed_in: HandedIn
@@ -40,30 +40,30 @@ def take_in_class(
     surroundings: str,
     *,
     seen: Callable[[Submission], None],
-) -> Iterator[Item]:
-    """Take in every attempt, one in memory at a time; `seen` is shown each."""
+) -> Iterator[IntakeItem]:
+    """Take in every attempt, one in memory at a time; `seen` is called with each."""
     for attempt in handed_in:
         if attempt.problem:
-            yield Item(attempt, problem=attempt.problem)
+            yield IntakeItem(attempt, problem=attempt.problem)
             continue
         try:
             submission = _take_in(attempt, assignment)
             seen(submission)
-        except UsageError as error:  # one that cannot be read stops nobody else
+        except UsageError as error:  # an unreadable attempt must not stop the others
             problem = joined(error.message, error.remedy, by="\n")
-            yield Item(attempt, problem=problem)
+            yield IntakeItem(attempt, problem=problem)
             continue
-        except Exception:  # nor does one on which we fail ourselves
-            yield Item(attempt, fault=traceback.format_exc(limit=-6))
+        except Exception:  # nor must a failure of the grader
+            yield IntakeItem(attempt, fault=traceback.format_exc(limit=-6))
             continue
-        yield Item(attempt, submission.sha256, verdict_key(submission.sha256, surroundings))
+        yield IntakeItem(attempt, submission.sha256, verdict_key(submission.sha256, surroundings))
 
 
-def tasks(items: Iterable[Item], assignment: Assignment, surroundings: str) -> Iterator[Task]:
-    """Yield what is to be marked, taken in at the moment at which somebody is free for it.
+def tasks(items: Iterable[IntakeItem], assignment: Assignment, surroundings: str) -> Iterator[Task]:
+    """Yield the tasks, each read from the disk when a worker is free for it.
 
-    What has changed meanwhile is marked as it is now, under the key that it has now; what has gone
-    meanwhile is left out.
+    A submission that has changed since is marked as it is now, under its new key; one that is gone
+    is left out.
     """
     for item in items:
         student = item.handed_in.student

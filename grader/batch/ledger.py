@@ -1,23 +1,22 @@
-"""The ledger of a class: every verdict, durable once it is recorded, and never changed afterwards.
+"""The ledger of a class: every verdict, durable once recorded and never changed afterwards.
 
-A key names all that decides a verdict (see `keys`); a student has one verdict a key, and one more
-for each regrade that was asked for.
+A student has one verdict for each key (see `verdict_key`), and one more for each regrade.
 """
 
 from __future__ import annotations
 
 import contextlib
+import os
 import sqlite3
 import zlib
 from collections.abc import Iterable, Mapping
-from dataclasses import astuple
+from dataclasses import astuple, dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 from types import TracebackType
 
 from grader.base.errors import SurroundingsError
 from grader.batch.ledger_file import LedgerFile
-from grader.batch.ledger_rows import AlreadyMarkedError, HandedInRow, Regrade, VerdictRow
 from grader.batch.model import Override, Student
 from grader.report.model import Report
 
@@ -25,11 +24,48 @@ MOST_KEPT = 250  # reports in memory: up to 0.1 MB each
 VERDICT = "SELECT id, student, key, submission, score, max_score FROM verdict"
 
 
+class AlreadyMarkedError(Exception):
+    """The student already has a verdict for this key, and no regrade was requested."""
+
+
+@dataclass(frozen=True)
+class VerdictRow:
+    """A verdict without its report."""
+
+    id: int
+    student: str
+    key: str
+    submission: str
+    score: float
+    max_score: float
+
+
+@dataclass(frozen=True)
+class HandedInRow:
+    """A submission of a student; `submitted` is the system's time stamp."""
+
+    student: str
+    submission: str
+    submitted: datetime | None
+    late: bool | None
+    path: str
+    first_seen: datetime
+
+
+@dataclass(frozen=True)
+class Regrade:
+    """A verdict that is to be reached again, and the id of the earlier one."""
+
+    student: str
+    key: str
+    before: int
+
+
 class Ledger:
     """An open ledger; use it as a context manager. `assignment` is an assignment's id."""
 
     def __init__(self, path: Path, *, makes: bool = True) -> None:
-        """Open the ledger at `path`; all else as `LedgerFile`."""
+        """Open the ledger at `path`; `makes` and errors as in `LedgerFile`."""
         self._file = LedgerFile(path, makes=makes)
         self._kept: dict[int, Report] = {}
         self.path = path
@@ -46,18 +82,18 @@ class Ledger:
         self._file.close()
 
     def record(self, student: str, key: str, report: Report) -> int:
-        """Record a verdict and return its id: it is on the disk when this returns.
+        """Record a verdict and return its id; it is on the disk when this returns.
 
-        A regrade that was asked for is done with it. Raises AlreadyMarkedError where there is a
-        verdict and no regrade was asked for.
+        Completes a requested regrade. Raises AlreadyMarkedError if there is a verdict and no
+        regrade was requested.
         """
         with self._file.write() as connection:
             return _insert(connection, student, key, report)
 
     def record_for_all(self, key: str, reports: Mapping[str, Report]) -> None:
-        """Record one verdict for several students, by the students' keys: for all or for none.
+        """Record the verdicts of a group's members, by their keys: all of them or none.
 
-        Who has a verdict already, without a regrade, keeps it.
+        A member who already has a verdict, and no requested regrade, keeps it.
         """
         with self._file.write() as connection:
             for student, report in reports.items():
@@ -65,7 +101,7 @@ class Ledger:
                     _insert(connection, student, key, report)
 
     def record_fault(self, student: str, key: str, message: str) -> None:
-        """Note that our own side failed; whatever verdict there is stays the one that counts."""
+        """Record that the grader failed; an earlier verdict still counts."""
         with self._file.write() as connection:
             connection.execute("DELETE FROM fault WHERE student = ? AND key = ?", (student, key))
             connection.execute(
@@ -74,19 +110,19 @@ class Ledger:
             )
 
     def fault(self, student: str, key: str) -> str:
-        """Return why the last attempt at a verdict failed, "" if it did not."""
+        """Return why the last try failed, "" if it did not."""
         found = self._file.rows(
             "SELECT message FROM fault WHERE student = ? AND key = ?", (student, key)
         )
         return str(found[-1][0]) if found else ""
 
     def verdicts(self) -> dict[tuple[str, str], VerdictRow]:
-        """Return the verdict that counts for each student and key: the last one."""
+        """Return the last verdict of each student and key: the one that counts."""
         rows = self._file.rows(f"{VERDICT} ORDER BY id")
         return {(row[1], row[2]): VerdictRow(*row) for row in rows}
 
     def verdict_of(self, assignment: str, student: str, submission: str) -> VerdictRow | None:
-        """Return the last verdict on a content, whatever grader and distro reached it."""
+        """Return the last verdict on a submission's hash, from any grader and distro."""
         rows = self._file.rows(
             f"{VERDICT} WHERE assignment = ? AND student = ? AND submission = ? "
             "ORDER BY id DESC LIMIT 1",
@@ -95,9 +131,9 @@ class Ledger:
         return VerdictRow(*rows[0]) if rows else None
 
     def report(self, verdict: int) -> Report:
-        """Return the report of a verdict. KeyError if there is none of this id.
+        """Return the report of a verdict; raise KeyError if there is none of this id.
 
-        The last few are kept, since every output goes through a class from its first to its last.
+        The latest reports are cached, because every output goes through the whole class.
         """
         if verdict in self._kept:
             return self._kept[verdict]
@@ -120,24 +156,24 @@ class Ledger:
             ) from error
 
     def count(self) -> int:
-        """Return how many verdicts were ever recorded."""
+        """Return the number of verdicts recorded so far."""
         return int(self._file.rows("SELECT count(*) FROM verdict")[0][0])
 
-    def ask_again(self, verdicts: Iterable[VerdictRow]) -> None:
-        """Have these verdicts reached again; it stays asked until it is done."""
+    def request_regrades(self, verdicts: Iterable[VerdictRow]) -> None:
+        """Request that these verdicts be reached again; a request is kept until it is done."""
         with self._file.write() as connection:
             connection.executemany(
                 "INSERT OR IGNORE INTO regrade (student, key, before, asked) VALUES (?, ?, ?, ?)",
                 [(row.student, row.key, row.id, _now()) for row in verdicts],
             )
 
-    def asked_again(self) -> dict[tuple[str, str], Regrade]:
+    def pending_regrades(self) -> dict[tuple[str, str], Regrade]:
         """Return the regrades that are not done yet."""
         rows = self._file.rows("SELECT student, key, before FROM regrade")
         return {(row[0], row[1]): Regrade(*row) for row in rows}
 
-    def see(self, assignment: str, rows: Iterable[HandedInRow]) -> None:
-        """Remember what was handed in; what is known already keeps when it was first seen."""
+    def record_handed_in(self, assignment: str, rows: Iterable[HandedInRow]) -> None:
+        """Record submissions; a known one keeps the time when it was first seen."""
         with self._file.write() as connection:
             connection.executemany(
                 "INSERT INTO handed_in (student, assignment, submission, submitted, late, path, "
@@ -152,8 +188,8 @@ class Ledger:
                 ],
             )
 
-    def seen(self, assignment: str) -> list[HandedInRow]:
-        """Return all that was ever handed in, in the order in which it was first seen."""
+    def handed_in(self, assignment: str) -> list[HandedInRow]:
+        """Return all submissions so far, in the order in which they were first seen."""
         rows = self._file.rows(
             "SELECT student, submission, submitted, late, path, first_seen FROM handed_in "
             "WHERE assignment = ? ORDER BY id",
@@ -168,7 +204,7 @@ class Ledger:
         ]
 
     def enrol(self, assignment: str, students: Iterable[Student]) -> None:
-        """Remember who is in the class."""
+        """Record the students of the class."""
         rows = [(assignment, *astuple(student)) for student in students]
         with self._file.write() as connection:
             connection.executemany(
@@ -178,7 +214,7 @@ class Ledger:
             )
 
     def students(self, assignment: str) -> list[Student]:
-        """Return who was ever in the class."""
+        """Return all students recorded so far."""
         rows = self._file.rows(
             "SELECT key, name, email, username, id_number, section FROM student "
             "WHERE assignment = ? ORDER BY rowid",
@@ -187,11 +223,11 @@ class Ledger:
         return [Student(*row) for row in rows]
 
     def override(self, assignment: str, override: Override) -> None:
-        """Record an instructor's correction; it takes the place of an older one of its check."""
+        """Record an instructor's correction; it replaces an earlier one of the same check."""
         self._put_override(assignment, override, override.points)
 
     def drop_override(self, assignment: str, override: Override) -> None:
-        """Take a correction back; who did so, when and why stays in the ledger."""
+        """Remove a correction; who did so, when and why stays in the ledger."""
         self._put_override(assignment, override, None)
 
     def _put_override(self, assignment: str, override: Override, points: float | None) -> None:
@@ -207,7 +243,7 @@ class Ledger:
             )
 
     def overrides(self, assignment: str) -> list[Override]:
-        """Return the corrections that hold: one a student and check."""
+        """Return the corrections in force: the last one of each student and check."""
         rows = self._file.rows(
             "SELECT student, check_id, points, because, by, at FROM override WHERE id IN "
             "(SELECT max(id) FROM override WHERE assignment = ? GROUP BY student, check_id) "
@@ -220,16 +256,16 @@ class Ledger:
         ]
 
     def corrected_since(self, at: datetime) -> set[str]:
-        """Return the students who were corrected, or a correction of whom was taken back, since."""
+        """Return the students with a correction that was made or removed since then."""
         rows = self._file.rows("SELECT student, at FROM override")
         return {student for student, when in rows if datetime.fromisoformat(when) > at}
 
     def fingerprints(self) -> dict[str, str]:
-        """Return the fingerprints that were worked out before, by the submission's hash."""
+        """Return the recorded fingerprints, by the submission's hash."""
         return dict(self._file.rows("SELECT submission, value FROM fingerprint"))
 
     def keep_fingerprints(self, values: dict[str, str]) -> None:
-        """Remember fingerprints by the submission's hash."""
+        """Record fingerprints, by the submission's hash."""
         with self._file.write() as connection:
             connection.executemany(
                 "INSERT OR REPLACE INTO fingerprint (submission, value) VALUES (?, ?)",
@@ -237,26 +273,31 @@ class Ledger:
             )
 
     def setting(self, name: str) -> str:
-        """Return what was noted under a name, "" if nothing was."""
+        """Return the value stored under a name, "" if there is none."""
         rows = self._file.rows("SELECT value FROM setting WHERE name = ?", (name,))
         return str(rows[0][0]) if rows else ""
 
     def note(self, name: str, value: str) -> None:
-        """Note a value under a name."""
+        """Store a value under a name."""
         with self._file.write() as connection:
             connection.execute(
                 "INSERT OR REPLACE INTO setting (name, value) VALUES (?, ?)", (name, value)
             )
 
 
+def path_text(path: Path) -> str:
+    """Return a path as the text that the ledger stores; bytes that are not UTF-8 are escaped."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
+
+
 def _insert(connection: sqlite3.Connection, student: str, key: str, report: Report) -> int:
     (rounds,) = connection.execute(
         "SELECT count(*) FROM verdict WHERE student = ? AND key = ?", (student, key)
     ).fetchone()
-    asked = connection.execute(
+    regrades = connection.execute(
         "DELETE FROM regrade WHERE student = ? AND key = ?", (student, key)
     ).rowcount
-    if rounds and not asked:
+    if rounds and not regrades:
         raise AlreadyMarkedError(f"{student}: {key}")
     content = zlib.compress(report.model_dump_json(by_alias=True).encode(), 6)
     cursor = connection.execute(

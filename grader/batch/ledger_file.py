@@ -1,6 +1,6 @@
-"""The file of a ledger: opened by one writer at a time, changed by whole transactions only.
+"""The file of a ledger: one process at a time, changed in transactions only.
 
-SQLite in WAL mode with a synchronisation at each commit (https://sqlite.org/pragma.html).
+SQLite in WAL mode, synchronised to the disk at each commit (https://sqlite.org/pragma.html).
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ class LedgerFile:
     """An open ledger file; use it as a context manager."""
 
     def __init__(self, path: Path, *, makes: bool = True) -> None:
-        """Open the ledger at `path`, which is made if it is not there and `makes`.
+        """Open the ledger at `path`; create it if it does not exist and `makes` is True.
 
-        Raises UsageError for one that another process has open, for one of a newer grader, and
-        for one that is not there and is not to be made; SurroundingsError for what cannot be
-        opened or is no ledger. Nothing is changed in these cases.
+        Raises UsageError if another process has it open, if a newer grader wrote it, or if it does
+        not exist and `makes` is False; SurroundingsError if it cannot be opened or is not a ledger.
+        Nothing is changed in these cases.
         """
         self.path = path
         self._lock = -1
@@ -61,19 +61,19 @@ class LedgerFile:
         self.close()
 
     def close(self) -> None:
-        """Close it, and let others write."""
+        """Close the ledger and release its lock."""
         self._connection.close()
         self._release()
 
     def _take_lock(self) -> None:
-        """Hold the lock beside the file: the kernel takes it back from a process that is killed."""
+        """Lock a file beside the ledger; the kernel releases the lock if this process is killed."""
         lock = f"{self.path}.lock"
         self._lock = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, OWNER_ONLY)
         try:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise UsageError(
-                f"another grader has opened the ledger {self.path}",
+                f"another grader has the ledger {self.path} open",
                 remedy="Wait until it is done, or name another ledger with --ledger.",
             ) from None
 
@@ -86,7 +86,7 @@ class LedgerFile:
         os.close(os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, OWNER_ONLY))
         connection = sqlite3.connect(self.path, timeout=BUSY_SECONDS, isolation_level=None)
         try:
-            with self._told():
+            with self._readable_errors():
                 connection.execute("PRAGMA journal_mode = WAL").fetchone()
                 connection.execute("PRAGMA synchronous = FULL")
                 connection.execute("PRAGMA foreign_keys = ON")
@@ -102,8 +102,8 @@ class LedgerFile:
         return connection
 
     @contextlib.contextmanager
-    def _told(self) -> Iterator[None]:
-        """Say what is wrong with the file instead of showing SQLite's own error."""
+    def _readable_errors(self) -> Iterator[None]:
+        """Raise SurroundingsError, with a remedy, instead of SQLite's own errors."""
         try:
             yield
         except sqlite3.IntegrityError:
@@ -111,14 +111,14 @@ class LedgerFile:
         except sqlite3.DatabaseError as error:
             raise SurroundingsError(
                 f"the ledger {self.path} cannot be used: {error}",
-                remedy="Nothing in it was changed. Where it is damaged, `sqlite3 FILE .recover` "
+                remedy="Nothing in it was changed. If it is damaged, `sqlite3 FILE .recover` "
                 "saves what is left; or move it away and mark again.",
             ) from error
 
     @contextlib.contextmanager
     def write(self) -> Iterator[sqlite3.Connection]:
-        """One transaction: all of it is on the disk when this is left, or nothing."""
-        with self._told():
+        """Open a transaction: at its end all of it is on the disk, or nothing."""
+        with self._readable_errors():
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
@@ -128,6 +128,6 @@ class LedgerFile:
             self._connection.execute("COMMIT")
 
     def rows(self, sql: str, values: Iterable[object] = ()) -> list[Any]:
-        """Return what a query finds."""
-        with self._told():
+        """Return the rows of a query."""
+        with self._readable_errors():
             return self._connection.execute(sql, tuple(values)).fetchall()

@@ -1,13 +1,13 @@
-"""The tables of the ledger, and how an older ledger becomes one of today.
+"""The tables of the ledger, and the migration of an older ledger.
 
-`PRAGMA user_version` counts the steps that were taken; a ledger of a newer grader is refused.
+`PRAGMA user_version` counts the migration steps taken; the ledger of a newer grader is refused.
 """
 
 from __future__ import annotations
 
 import sqlite3
 
-APPLICATION = 0x524F5332  # "ROS2", so that another program's database is told from a ledger
+APPLICATION = 0x524F5332  # "ROS2": tells a ledger from another program's database
 
 STEPS = (
     """
@@ -40,7 +40,7 @@ STEPS = (
     );
     CREATE INDEX verdict_by_submission ON verdict (assignment, student, submission);
 
-    -- what is to be marked again, and the verdict that it had
+    -- what is to be marked again, and its earlier verdict
     CREATE TABLE regrade (
         student TEXT NOT NULL,
         key TEXT NOT NULL,
@@ -69,7 +69,7 @@ STEPS = (
         at TEXT NOT NULL
     );
 
-    -- who is in the class: the words by which an instructor may name a student
+    -- the students of the class, and the words that identify them
     CREATE TABLE student (
         assignment TEXT NOT NULL,
         key TEXT NOT NULL,
@@ -95,9 +95,9 @@ STEPS = (
 
 
 def bring_up_to_date(connection: sqlite3.Connection) -> bool:
-    """Take the steps that are missing, each as a whole; return False for a newer grader's ledger.
+    """Take the missing steps, each in one transaction; return False for a newer grader's ledger.
 
-    Raises sqlite3.DatabaseError for what is no ledger.
+    Raises sqlite3.DatabaseError if the file is not a ledger.
     """
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     (application,) = connection.execute("PRAGMA application_id").fetchone()

@@ -1,7 +1,7 @@
-"""Workers on this machine: processes that are kept, fed, watched and replaced.
+"""Worker processes on this machine, kept busy, watched and replaced.
 
-One thread, no locks: whoever has an answer is heard, and gets its next task before the answer is
-looked at, so that nobody waits for the ledger.
+One thread, no locks: a worker that has answered gets its next task before its answer is processed,
+so that no worker waits for the ledger.
 """
 
 from __future__ import annotations
@@ -20,20 +20,19 @@ from typing import IO
 
 from grader.base.project import CHECKOUT
 from grader.batch.idleness import Idleness
-from grader.batch.proof import prove
-from grader.batch.trial import Trial
-from grader.batch.work import Answer, Done, Job, Task
+from grader.batch.sandbox_proof import prove
+from grader.batch.work import Answer, Done, Job, Task, Trial
 
-END_SECONDS = 10.0  # in which a worker that is asked to ends, with its sandbox
+END_SECONDS = 10.0  # for a worker to end, with its sandbox, before it is killed
 CHUNK = 1 << 20
-LOOK_SECONDS = 0.5  # over which a core must be idle
+IDLE_SECONDS = 0.5  # over which idle cores are measured
 IDLE_CORES = 0.5
-MOST_SAID = 2_000  # characters of a dead worker's last words
+MOST_STDERR = 2_000  # bytes of what a crashed worker wrote
 
 
 @dataclass
 class Worker:
-    """A worker process, and what it is busy with."""
+    """A worker process and the task that it is busy with."""
 
     process: subprocess.Popen[bytes]
     errors: IO[bytes]
@@ -42,15 +41,15 @@ class Worker:
     buffer: bytearray = field(default_factory=bytearray)
 
     @property
-    def last_words(self) -> str:
-        """What it said on stderr at the end."""
+    def stderr_tail(self) -> str:
+        """The end of what it wrote to stderr."""
         self.errors.seek(0, os.SEEK_END)
-        self.errors.seek(max(0, self.errors.tell() - MOST_SAID))
+        self.errors.seek(max(0, self.errors.tell() - MOST_STDERR))
         return self.errors.read().decode(errors="replace").strip()
 
 
 class LocalPool:
-    """So many workers on this machine."""
+    """Marks submissions with worker processes on this machine."""
 
     def __init__(
         self,
@@ -61,13 +60,14 @@ class LocalPool:
         command: tuple[str, ...] = (),
         seconds: float | None = None,
     ) -> None:
-        """`most` is up to how many workers there may be while cores have nothing to do, `command`
-        another program that speaks as a worker does, `seconds` another time limit.
+        """Keep `workers` processes, and up to `most` while cores are idle.
+
+        `command` replaces the worker program, `seconds` the time limit of a task.
         """
         self._job = job
         self._count = workers
         self._most = max(workers, most)
-        self._idleness = Idleness(LOOK_SECONDS)
+        self._idleness = Idleness(IDLE_SECONDS)
         self._command = command or (sys.executable, "-m", "grader.batch.worker")
         self._seconds = job.seconds if seconds is None else seconds
         self._workers: list[Worker] = []
@@ -76,7 +76,7 @@ class LocalPool:
     def run(
         self, tasks: Iterable[Task], *, started: Callable[[Task], None]
     ) -> Generator[Done, None, None]:
-        """Mark them and yield each when it is done; leaving it early ends the workers."""
+        """Mark the tasks and yield each when it is done; closing the generator ends the workers."""
         waiting = iter(tasks)
         selector = selectors.DefaultSelector()
         try:
@@ -85,13 +85,13 @@ class LocalPool:
                 busy = [worker for worker in self._workers if worker.trial is not None]
                 if not busy:
                     return
-                yield from self._hear(busy, selector, waiting, started)
+                yield from self._next_done(busy, selector, waiting, started)
         finally:
             self._end()
             selector.close()
 
     def prove(self) -> None:
-        """Open the sandbox once more and try it; SurroundingsError if it does not work."""
+        """Open the sandbox once more and try it; raise SurroundingsError if it does not work."""
         prove(self._job)
 
     def _feed(
@@ -100,10 +100,10 @@ class LocalPool:
         selector: selectors.BaseSelector,
         started: Callable[[Task], None],
     ) -> None:
-        """Give every idle worker something to do, and start workers while there is more to do."""
+        """Give every idle worker a task, and start more workers while tasks are left."""
         while True:
             busy = sum(worker.trial is not None for worker in self._workers)
-            if busy >= self._count and not self._may_one_more(busy):
+            if busy >= self._count and not self._may_add_worker(busy):
                 return
             idle = next((worker for worker in self._workers if worker.trial is None), None)
             trial = self._again.popleft() if self._again else None
@@ -117,12 +117,12 @@ class LocalPool:
                 started(trial.task)
             self._give(worker, trial)
 
-    def _may_one_more(self, busy: int) -> bool:
-        """Whether a core has nothing to do: a node on the wall clock, or one that hangs, waits."""
+    def _may_add_worker(self, busy: int) -> bool:
+        """Whether a core is idle: a node on the wall clock, or one that hangs, only waits."""
         return busy < self._most and self._idleness.cores() > IDLE_CORES
 
     def _start(self, selector: selectors.BaseSelector) -> Worker:
-        errors = tempfile.TemporaryFile()  # noqa: SIM115 - it is closed with its worker
+        errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed with its worker
         process = subprocess.Popen(
             [*self._command, str(os.getpid())],
             stdin=subprocess.PIPE,
@@ -144,61 +144,61 @@ class LocalPool:
         trial.tries += 1
         _send(worker, trial.task.to_text())
 
-    def _hear(
+    def _next_done(
         self,
         busy: list[Worker],
         selector: selectors.BaseSelector,
         waiting: Iterator[Task],
         started: Callable[[Task], None],
     ) -> Iterator[Done]:
-        """Wait for the next answer, death or deadline, and yield what is done with it."""
+        """Wait for the next answer, crash or deadline, and yield the finished tasks."""
         until = min(worker.deadline for worker in busy) - time.monotonic()
-        until = min(until, LOOK_SECONDS) if self._most > self._count else until
+        until = min(until, IDLE_SECONDS) if self._most > self._count else until
         ready = [key.data for key, _ in selector.select(max(0.0, until))]
         for worker in ready:
-            heard = self._read(worker, selector)
-            if heard is None:
+            answer = self._read(worker, selector)
+            if answer is None:
                 continue
             trial, worker.trial = worker.trial, None
             self._feed(waiting, selector, started)
             if trial is not None:
-                yield from self._judge(trial, heard)
+                yield from self._done(trial, answer)
         for worker in busy:
             if worker.trial is not None and time.monotonic() > worker.deadline:
                 trial = worker.trial
-                self._lose(worker, selector)
-                why = f"it was not done within {self._seconds:.0f} s, and its worker was ended"
-                yield from self._judge(trial, Answer(fault=why, seconds=self._seconds))
+                self._remove(worker, selector)
+                why = f"it was not done within {self._seconds:.0f} s, so its worker was killed"
+                yield from self._done(trial, Answer(fault=why, seconds=self._seconds))
 
     def _read(self, worker: Worker, selector: selectors.BaseSelector) -> Answer | None:
-        """Return a whole answer, or that the worker has died; None while more is to come."""
+        """Return a complete answer, or the worker's crash as one; None while more is to come."""
         assert worker.process.stdout is not None
         data = os.read(worker.process.stdout.fileno(), CHUNK)
         worker.buffer += data
         if data and not worker.buffer.endswith(b"\n"):
             return None
         if not data:
-            said = worker.last_words
-            self._lose(worker, selector)
-            return Answer(fault=f"the process that marked it has died{f': {said}' if said else ''}")
+            stderr = worker.stderr_tail
+            self._remove(worker, selector)
+            return Answer(fault=f"the worker process crashed{f': {stderr}' if stderr else ''}")
         try:
             found = Answer.from_text(worker.buffer.decode())
         except ValueError as error:
-            self._lose(worker, selector)
-            return Answer(fault=f"the process that marked it said something else: {error}")
+            self._remove(worker, selector)
+            return Answer(fault=f"the worker process sent an invalid answer: {error}")
         worker.buffer.clear()
         return found
 
-    def _judge(self, trial: Trial, heard: Answer) -> Iterator[Done]:
-        """Yield what is done; what another try may tell more of is put back."""
-        done = trial.hear(heard)
+    def _done(self, trial: Trial, answer: Answer) -> Iterator[Done]:
+        """Yield the task if it is done; queue it again if another try may yield more."""
+        done = trial.add(answer)
         if done is None:
             self._again.append(trial)
         else:
             yield done
 
-    def _lose(self, worker: Worker, selector: selectors.BaseSelector) -> None:
-        """End a worker for good: the sandbox in it ends with it."""
+    def _remove(self, worker: Worker, selector: selectors.BaseSelector) -> None:
+        """Kill a worker; its sandbox ends with it."""
         assert worker.process.stdout is not None
         selector.unregister(worker.process.stdout)
         self._workers.remove(worker)
@@ -206,7 +206,7 @@ class LocalPool:
         _close(worker)
 
     def _end(self) -> None:
-        """End all workers: who is idle ends with its input, who is busy is asked to stop."""
+        """End all workers: an idle one ends with its input, a busy one gets SIGTERM."""
         for worker in self._workers:
             if worker.trial is not None:
                 worker.process.terminate()
@@ -224,7 +224,7 @@ class LocalPool:
 
 
 def _send(worker: Worker, text: str) -> None:
-    """Write one line; that its reader has died is heard when it is read from."""
+    """Write one line; a crashed worker is noticed when its output is read."""
     assert worker.process.stdin is not None
     with contextlib.suppress(OSError):
         worker.process.stdin.write(text.encode() + b"\n")
@@ -240,5 +240,5 @@ def _close(worker: Worker) -> None:
 
 
 def _python_path() -> list[str]:
-    """Return where a worker finds this grader: a checkout need not be the current folder."""
+    """Return where a worker finds this grader: the current folder may be another one."""
     return [str(CHECKOUT), *filter(None, [os.environ.get("PYTHONPATH", "")])]

@@ -1,7 +1,7 @@
-"""Grades that a file would lower: of a cell that holds one, and is to get less.
+"""Grades that would go down if a cell that has one were filled in.
 
-Nobody's grade goes down without the instructor's word: a class of whom half was not found looks, to
-a program, exactly like one of whom half handed in nothing.
+No grade goes down without the instructor's consent: a program cannot tell a class whose submissions
+were half found from one of which half handed in nothing.
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ from dataclasses import dataclass
 
 from grader.base.plain_text import one_line
 from grader.batch import cells
-from grader.batch.model import Entry
+from grader.batch.model import GradebookEntry
 from grader.batch.points import marks
 
 NONE = ("", "-")  # what the systems write for no grade
-ROUNDED = 0.005 + 1e-9  # they show two decimals
+ROUNDED = 0.005 + 1e-9  # the systems show two decimals
 
 
 @dataclass(frozen=True)
 class Lowered:
-    """One grade that would go down: `after` is "" if it would go away."""
+    """A grade that would go down; `after` is "" if it would be removed."""
 
     key: str
     who: str
@@ -31,11 +31,11 @@ class Lowered:
         return f"{self.who}: {self.before} in {self.where}, {self.after or 'nothing'} now"
 
 
-def lowered(entry: Entry, before: str, where: str) -> Lowered | None:
-    """Return what an entry would lower in a cell, None if nothing.
+def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
+    """Return the grade that an entry would lower in a cell, None if it would not.
 
-    A grade that is no number cannot be compared: to replace it counts as lowering it. What an
-    instructor's correction takes is the instructor's word already.
+    Replacing a grade that is not a number counts as lowering it. Points that an instructor's
+    correction takes do not count.
     """
     if before.strip() in NONE or any(override.check == "" for override in entry.overrides):
         return None
@@ -57,14 +57,14 @@ def lowered(entry: Entry, before: str, where: str) -> Lowered | None:
     )
 
 
-def is_without_verdict(entry: Entry) -> bool:
-    """Whether nothing was found of a student, and no correction says what he or she gets."""
+def is_without_verdict(entry: GradebookEntry) -> bool:
+    """Whether a student has neither a submission here nor a corrected total."""
     corrected = any(override.check == "" for override in entry.overrides)
     return entry.status in ("missing", "elsewhere") and not corrected
 
 
 def as_number(text: str) -> float | None:
-    """Return the number in a cell, with a decimal point or comma; None if it is none."""
+    """Return the number in a cell, with a decimal point or comma; None if it is not a number."""
     try:
         return float(text.strip().replace(",", "."))
     except ValueError:

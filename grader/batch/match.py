@@ -1,4 +1,4 @@
-"""Students found on a roster: by what names one person, else by a name that only one of them has."""
+"""Finds students on a roster: by an identifier, or else by a name that only one of them has."""
 
 from __future__ import annotations
 
@@ -16,170 +16,179 @@ MOST_PARTS = 5  # of a name that is written as one word
 
 @dataclass
 class Match:
-    """The roster's row of each key; which keys were found by name alone, and which not for sure."""
+    """The roster's row of each key; the keys found by name alone, and the ambiguous ones."""
 
     rows: dict[str, int] = field(default_factory=dict)
     by_name: set[str] = field(default_factory=set)
-    doubtful: set[str] = field(default_factory=set)
+    ambiguous: set[str] = field(default_factory=set)
 
 
 @dataclass(frozen=True)
-class Way:
-    """One way to know somebody again: the marks of a submission, and those of a roster's line.
+class MatchRule:
+    """One rule to recognise a student: the identifiers of a submission and of a roster's line.
 
-    `fits`, if there is one, says whether a student and a line with the same mark can be one person.
+    `fits`, if given, says whether a student and a line with the same identifier can be one person.
     """
 
-    of_own: Callable[[Student], Iterable[str]]
+    of_student: Callable[[Student], Iterable[str]]
     of_line: Callable[[Student], Iterable[str]]
     by_name: bool = False
     fits: Callable[[Student, Student], bool] | None = None
 
 
 def match_more(
-    match: Match, ways: Iterable[Way], students: Sequence[Student], roster: Roster
+    match: Match, rules: Iterable[MatchRule], students: Sequence[Student], roster: Roster
 ) -> None:
-    """Find the row of each student who has none; a row is one key's, and the first way wins."""
+    """Find a row for each student without one; a row has one key, and the first rule wins."""
     lines = roster.students
-    for way in ways:
-        rows = _rows_by_mark(way, lines, without=set(match.rows.values()))
+    for rule in rules:
+        rows = _rows_by_identifier(rule, lines, without=set(match.rows.values()))
         claims: dict[int, list[str]] = {}
         for student in students:
             if student.key in match.rows:
                 continue
-            marked = {row for mark in way.of_own(student) for row in rows.get(mark, ())}
-            fit = {row for row in marked if way.fits is None or way.fits(student, lines[row])}
+            found = {row for own in rule.of_student(student) for row in rows.get(own, ())}
+            fit = {row for row in found if rule.fits is None or rule.fits(student, lines[row])}
             if len(fit) == 1:
                 claims.setdefault(fit.pop(), []).append(student.key)
             elif fit:
-                match.doubtful.add(student.key)
+                match.ambiguous.add(student.key)
         for row, keys in claims.items():
             if len(keys) > 1:
-                match.doubtful.update(keys)
+                match.ambiguous.update(keys)
                 continue
             match.rows[keys[0]] = row
-            if way.by_name:
+            if rule.by_name:
                 match.by_name.add(keys[0])
 
 
-def sure_ways(system: System, students: Sequence[Student], roster: Roster) -> Iterator[Way]:
-    """Yield how a submission is found by more than a name, the surest way first.
+def sure_rules(system: System, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
+    """Yield the rules that need more than a name, the surest first.
 
-    Moodle's and Canvas' numbers mean something only where the roster has them too: a small number
-    of another list would be somebody else's.
+    Moodle's and Canvas' numbers are compared only with a roster of the same system: in another list
+    a small number would be somebody else's.
     """
     numbered = system in ("moodle", "canvas")
     if system == roster.kind and numbered:
         yield _by_number(students, roster)
     if system == "github_classroom":
-        yield Way(_username, _username)
-        yield Way(_tails, _username)
+        yield MatchRule(_username, _username)
+        yield MatchRule(_tails, _username)
     if not numbered:
-        for marks in (_id_number, _username, _email):
-            yield Way(_own_marks, marks)
-        yield Way(_own_marks, _key)
-        yield Way(_own_marks, _mailbox)
+        for identifiers in (_id_number, _username, _email):
+            yield MatchRule(_all_identifiers, identifiers)
+        yield MatchRule(_all_identifiers, _key)
+        yield MatchRule(_all_identifiers, _mailbox)
 
 
-def other_ways(system: System, roster: Roster) -> Iterator[Way]:
-    """Yield the ways that are taken for what is no group's either."""
+def fallback_rules(system: System, roster: Roster) -> Iterator[MatchRule]:
+    """Yield the last rules to try: by the number of a student without a name, and by name."""
     if system == roster.kind and system in ("moodle", "canvas"):
-        yield Way(_number, _number, fits=_is_nameless)
-    yield from NAME_WAYS
+        yield MatchRule(_number, _number, fits=_is_nameless)
+    yield from NAME_RULES
 
 
-def ways_of_people(system: System, students: Sequence[Student], roster: Roster) -> Iterator[Way]:
-    """Yield how students of whom more is known than their folder's name are found in a sheet."""
+def rules_for_people(
+    system: System, students: Sequence[Student], roster: Roster
+) -> Iterator[MatchRule]:
+    """Yield the rules to find the students of a class in a sheet."""
     if system == roster.kind and system in ("moodle", "canvas"):
         yield _by_number(students, roster)
-    for marks in (_id_number, _email, _username):
-        yield Way(marks, marks)
-    yield from other_ways(system, roster)
+    for identifiers in (_id_number, _email, _username):
+        yield MatchRule(identifiers, identifiers)
+    yield from fallback_rules(system, roster)
 
 
 def names_agree(own: Student, line: Student) -> bool:
-    """Whether two names can be one person's: a word in common, or the same letters."""
+    """Whether two names can be one person's: they share a word or have the same letters."""
     return bool({*_words(own)} & {*_words(line)}) or is_same_name(own, line)
 
 
 def is_same_name(own: Student, line: Student) -> bool:
-    """Whether two names have the same letters: Korean names are written in two orders."""
+    """Whether two names have the same letters, in any order: Korean names have two orders."""
     return Counter("".join(_words(own))) == Counter("".join(_words(line)))
 
 
 def folded(name: str) -> str:
-    """Return a name without accents and capitals."""
+    """Return a name in lower case without accents."""
     plain = unicodedata.normalize("NFKD", name.casefold())
     return "".join(c for c in plain if not unicodedata.category(c).startswith("M"))
 
 
-def _by_number(students: Sequence[Student], roster: Roster) -> Way:
-    """Return the way by the system's own number.
+def _by_number(students: Sequence[Student], roster: Roster) -> MatchRule:
+    """Return the rule for the system's own number.
 
-    The number of a Moodle group is a participant's number as well. So the names must agree if the
-    roster has groups, or if the names of most numbers do not agree (nobody's name has changed then).
+    A Moodle group can have the number of a participant. So the names must agree if the roster has
+    groups, or if most numbers have different names (more than renamed students would explain).
     """
-    lines = {mark: line for line in roster.students for mark in _number(line)}
-    pairs = [(one, lines[mark]) for one in students for mark in _number(one) if mark in lines]
+    lines = {identifier: line for line in roster.students for identifier in _number(line)}
+    pairs = [
+        (one, lines[identifier])
+        for one in students
+        for identifier in _number(one)
+        if identifier in lines
+    ]
     agree = sum(names_agree(*pair) or _is_nameless(*pair) for pair in pairs)
     groups = any(line.group for line in roster.lines)
     moodle = roster.kind == "moodle" and (groups or 2 * agree < len(pairs))
-    return Way(_number, _number, fits=names_agree if moodle else None)
+    return MatchRule(_number, _number, fits=names_agree if moodle else None)
 
 
 def _is_nameless(own: Student, line: Student) -> bool:
-    """Whether one of the two has no name but the number: a blind marker sees no other."""
+    """Whether one of the two has only the number as a name, as in blind marking."""
     return line.name in ("", line.key) or own.name.endswith(f" {own.key}") or own.name == own.key
 
 
-def _rows_by_mark(way: Way, lines: Sequence[Student], *, without: set[int]) -> dict[str, list[int]]:
+def _rows_by_identifier(
+    rule: MatchRule, lines: Sequence[Student], *, without: set[int]
+) -> dict[str, list[int]]:
     rows: dict[str, list[int]] = {}
     for row, student in enumerate(lines):
         if row not in without:
-            for mark in set(way.of_line(student)):
-                rows.setdefault(mark, []).append(row)
+            for identifier in set(rule.of_line(student)):
+                rows.setdefault(identifier, []).append(row)
     return rows
 
 
-def _own_marks(student: Student) -> Iterator[str]:
+def _all_identifiers(student: Student) -> Iterator[str]:
     for value in (student.key, student.id_number, student.username, student.email):
-        yield from _mark(value)
+        yield from _normalised(value)
 
 
-def _mark(value: str) -> tuple[str, ...]:
+def _normalised(value: str) -> tuple[str, ...]:
     value = unicodedata.normalize("NFC", value).strip().casefold()
     return (value,) if value else ()
 
 
 def _key(student: Student) -> tuple[str, ...]:
-    return _mark(student.key)
+    return _normalised(student.key)
 
 
 def _number(student: Student) -> tuple[str, ...]:
-    return _mark(student.key.lstrip("0"))
+    return _normalised(student.key.lstrip("0"))
 
 
 def _id_number(student: Student) -> tuple[str, ...]:
-    return _mark(student.id_number)
+    return _normalised(student.id_number)
 
 
 def _username(student: Student) -> tuple[str, ...]:
-    return _mark(student.username)
+    return _normalised(student.username)
 
 
 def _email(student: Student) -> tuple[str, ...]:
-    return _mark(student.email)
+    return _normalised(student.email)
 
 
 def _mailbox(student: Student) -> tuple[str, ...]:
-    return _mark(student.email.partition("@")[0])
+    return _normalised(student.email.partition("@")[0])
 
 
 def _tails(student: Student) -> Iterator[str]:
-    """Yield what may be the user's name in `<assignment>-<username>`: both may have a `-`."""
+    """Yield each possible user name in `<assignment>-<username>`: both may contain `-`."""
     parts = student.key.split("-")
     for n in range(1, len(parts)):
-        yield from _mark("-".join(parts[n:]))
+        yield from _normalised("-".join(parts[n:]))
 
 
 def _words(student: Student) -> list[str]:
@@ -205,7 +214,7 @@ def _words_in_any_order(student: Student) -> Iterator[str]:
             yield "".join(order)
 
 
-NAME_WAYS = (
-    Way(_sorted_words, _sorted_words, by_name=True),
-    Way(_one_word, _words_in_any_order, by_name=True),
+NAME_RULES = (
+    MatchRule(_sorted_words, _sorted_words, by_name=True),
+    MatchRule(_one_word, _words_in_any_order, by_name=True),
 )

@@ -1,7 +1,7 @@
-"""What the rooms of a class run hand to each other: students, what they handed in, their results.
+"""The data classes that the steps of a class run share: students, submissions, results.
 
-Instants are aware datetimes (UTC). A `key` names one student within one class and never changes:
-the number that the course's system uses (Moodle's participant id, Canvas' user id), else the name
+Instants are aware datetimes (UTC). A `key` identifies one student within one class and never
+changes: it is the system's own number (Moodle's participant id, Canvas' user id), or else the name
 of the folder or archive.
 """
 
@@ -21,7 +21,7 @@ EntryStatus = Literal["graded", "ungradable", "error", "missing", "elsewhere", "
 
 @dataclass(frozen=True)
 class Student:
-    """One person (or team) of the class; what the course's system does not say is ""."""
+    """A person (or team) in the class; what the learning management system does not say is ""."""
 
     key: str
     name: str
@@ -33,12 +33,12 @@ class Student:
 
 @dataclass(frozen=True)
 class HandedIn:
-    """One attempt: `path` is a folder or an archive on this machine.
+    """One attempt of a student: `path` is a folder or an archive on this machine.
 
-    `problem` says why there is nothing that could be marked (a corrupt archive, say); `notes` what
-    the instructor should know. `submitted` is the course system's own time stamp, None if it does
-    not tell; `late` is its own word on it. `modes_kept` is False where the way here lost the exec
-    bits of loose files (an upload of file by file, say): `take_in` wants to know.
+    `problem` says why it cannot be marked (a corrupt archive, for example); `notes` are for the
+    instructor. `submitted` is the system's own time stamp, `late` its own statement; each is None
+    if the system does not say. `modes_kept` is False if loose files lost their exec bits on the way
+    (uploaded one by one, for example); `take_in` needs to know.
     """
 
     student: Student
@@ -53,9 +53,9 @@ class HandedIn:
 
 @dataclass(frozen=True)
 class Elsewhere:
-    """Why a student without a submission here is known to have handed in, in words.
+    """Why a student without a submission here is known to have handed in elsewhere.
 
-    `final` are the points that he or she has already, None if that is not known.
+    `final` are the points that the student already has, None if they are not known.
     """
 
     reason: str
@@ -64,7 +64,7 @@ class Elsewhere:
 
 @dataclass(frozen=True)
 class OnRoster:
-    """How well a class fits its roster: `strangers` are the names that are on no line of it."""
+    """How well a class fits its roster: `strangers` are the names that are not on it."""
 
     roster: str
     submissions: int
@@ -74,9 +74,9 @@ class OnRoster:
 
 @dataclass(frozen=True)
 class ClassFolder:
-    """A class as it was downloaded: every attempt, and the roster's students without any.
+    """A class as it was downloaded: every attempt, and the roster's students without one.
 
-    `elsewhere` are those of the missing, by key, who are known to have handed in all the same.
+    `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
     """
 
     system: System
@@ -90,7 +90,7 @@ class ClassFolder:
 
 @dataclass(frozen=True)
 class Override:
-    """An instructor's correction: `check` "" corrects the total. It outlives reruns and regrades."""
+    """An instructor's correction, kept across reruns and regrades; `check` "" is the total."""
 
     student: str
     check: str
@@ -100,9 +100,10 @@ class Override:
     at: datetime | None = None
 
 
-class Held:
-    """A report, or what fetches it each time that it is asked for: those of thousands of students
-    are too much to be kept in memory.
+class LazyReport:
+    """A field that holds a report, or a function that loads it on each access.
+
+    The reports of thousands of students do not fit into memory.
     """
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -113,7 +114,7 @@ class Held:
     @overload
     def __get__(self, entry: object, owner: type) -> Report | None: ...
     def __get__(self, entry: object | None, owner: type) -> Report | None:
-        """Return the report, None if there is none (and for the class, as the field's default)."""
+        """Return the report, None if there is none (and on the class: the field's default)."""
         if entry is None:
             return None
         held: Report | Callable[[], Report] | None = entry.__dict__[self._name]
@@ -124,19 +125,19 @@ class Held:
 
 
 @dataclass(frozen=True)
-class Entry:
-    """What one student gets: the report that counts, and what was made of its score.
+class GradebookEntry:
+    """What one student gets: the report that counts, and the points after policy and corrections.
 
-    `score` is the report's with overrides (None where there is none); `penalty` the points taken
-    for lateness; `final` what goes into the gradebook, None if nothing does (an ungradable
-    submission waits for the instructor, one with `error` for another try of the grader; a missing
-    one follows the assignment's policy; a student whose submission is elsewhere, where the grader
-    has not looked, keeps the grade that is there). `problem` is for the student, `notes` are not.
+    `score` is the report's score with overrides (None without a report); `penalty` the points taken
+    for lateness; `final` the grade for the gradebook, or None. None means: an ungradable submission
+    waits for the instructor, one with `error` for the grader's next run. A missing submission
+    follows the assignment's policy; a student who handed in elsewhere keeps the existing grade.
+    The student reads `problem`, only the instructor reads `notes`.
     """
 
     student: Student
     status: EntryStatus
-    report: Held = Held()
+    report: LazyReport = LazyReport()
     score: float | None = None
     penalty: float = 0
     final: float | None = None
@@ -149,30 +150,30 @@ class Entry:
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     same_as: tuple[str, ...] = ()
-    """Some of those with the same content; all are in the class' `identical`."""
+    """Keys of students with the same content, not all of them: see `ClassResult.identical`."""
     verdict: int | None = None
-    """The number of the report's verdict in the ledger."""
+    """The id of the report's verdict in the ledger."""
     lang: str = "en"
-    """The language of what the student reads: the report's, if there is one."""
+    """The language of the student's texts: the report's, if there is one."""
 
 
 @dataclass(frozen=True)
 class ClassResult:
-    """The whole class, in the order of the roster: what every output is a pure function of."""
+    """The whole class in roster order; every output is a pure function of it."""
 
     title: str
     assignment: str
     system: System
-    entries: tuple[Entry, ...]
+    entries: tuple[GradebookEntry, ...]
     max_score: float
     distros: tuple[str, ...] = ()
     started: datetime | None = None
     seconds: float = 0
     notes: tuple[str, ...] = ()
     identical: tuple[tuple[str, ...], ...] = field(default=())
-    """Groups of keys whose submissions are the same once white space and comments are gone."""
+    """Groups of keys whose submissions are the same apart from white space and comments."""
 
-    def entry(self, key: str) -> Entry:
+    def entry(self, key: str) -> GradebookEntry:
         """Return one student's entry; KeyError if there is no such student."""
         for entry in self.entries:
             if entry.student.key == key:
@@ -180,5 +181,5 @@ class ClassResult:
         raise KeyError(key)
 
 
-Comment = Callable[[Entry], str]
-"""Makes the short feedback that goes into one cell of a system's sheet."""
+Comment = Callable[[GradebookEntry], str]
+"""Writes the short feedback for one cell of a gradebook."""

@@ -1,4 +1,4 @@
-"""`grader override`: an instructor's correction, which outlives reruns and regrades."""
+"""`grader override`: an instructor's corrections, kept across reruns and regrades."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line, points
+from grader.batch.find_student import find_student
 from grader.batch.ledger import Ledger
 from grader.batch.model import Override, Student
-from grader.batch.students import find_student
 from grader.course.assignment import Assignment
 
 LEDGER = "ledger.sqlite"
 
 
 def find_ledger(ledger: Path | None, out: Path | None, here: Path) -> Path:
-    """Return the ledger that is meant: the one that was named, or the only one below `reports`.
+    """Return the ledger that was named, or the only one below `reports`.
 
-    Raises UsageError where there is none, or more than one.
+    Raises UsageError if there is none, or more than one.
     """
     if ledger is not None:
         return ledger
@@ -57,33 +57,33 @@ def put(
         raise UsageError(
             f"{check or 'the total'} is worth 0 to {points(most)} points, not "
             f"{points(points_given)}",
-            remedy="With --force it is taken all the same.",
+            remedy="Use --force to record it anyway.",
         )
     if not because.strip():
-        raise UsageError("say why: --because TEXT", remedy="The student reads it.")
+        raise UsageError("a reason is needed: --because TEXT", remedy="The student reads it.")
     ledger.override(assignment.id, _override(student.key, check, points_given, because))
     what = check or "the total"
-    notify(f"{student.name or student.key}: {what} is worth {points(points_given)} points now")
+    notify(f"{student.name or student.key}: {what} now has {points(points_given)} points")
 
 
 def remove(
     ledger: Ledger, assignment: Assignment, word: str, check: str, *, notify: Callable[[str], None]
 ) -> None:
-    """Take a correction back."""
+    """Remove a correction."""
     student = find_student(word, _students(ledger, assignment.id))
-    there = [o for o in ledger.overrides(assignment.id) if o.student == student.key]
-    if check not in {override.check for override in there}:
-        named = ", ".join(override.check or "the total" for override in there) or "nothing"
+    own = [o for o in ledger.overrides(assignment.id) if o.student == student.key]
+    if check not in {override.check for override in own}:
+        named = ", ".join(override.check or "the total" for override in own) or "nothing"
         raise UsageError(
             f"{check or 'the total'} of {student.name or student.key} was not corrected",
             remedy=f"Corrected for this student: {named}.",
         )
     ledger.drop_override(assignment.id, _override(student.key, check, 0, "taken back"))
-    notify(f"{student.name or student.key}: {check or 'the total'} is as it was marked")
+    notify(f"{student.name or student.key}: {check or 'the total'} is no longer corrected")
 
 
 def listed(ledger: Ledger, assignment: Assignment) -> list[str]:
-    """Return a line for every correction that holds."""
+    """Return a line for every correction in force."""
     names = {student.key: student.name for student in _students(ledger, assignment.id)}
     return [
         f"{names.get(o.student) or o.student}: {o.check or 'the total'} "

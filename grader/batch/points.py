@@ -1,7 +1,7 @@
-"""What each check is worth in the end: the report's points with the instructor's corrections.
+"""The points of each check: the report's, with the instructor's corrections.
 
-A system that adds up its tests must come to the same total as the gradebook. `steps` are what lies
-between the sum of the checks and the final points: a corrected total, points taken for lateness.
+A system that adds up its tests must reach the same total as the gradebook. `adjustments` are the
+difference between the sum of the checks and the final points: a corrected total, a late penalty.
 """
 
 from __future__ import annotations
@@ -11,17 +11,17 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.plain_text import one_line, points
-from grader.batch.model import Entry, Override, Student
+from grader.batch.model import GradebookEntry, Override, Student
 from grader.batch.words import duration
 from grader.report.model import CheckResult, Report
 
-DIGITS = 4  # of points, so that sums of decimals stay readable
+DIGITS = 4  # after the decimal point of points, so that sums stay readable
 OPEN = ("inconclusive", "error")
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A check and its points; None where they could be neither given nor taken."""
+    """A check and its points, None if it was not decided whether they are earned."""
 
     check: CheckResult
     points: float | None
@@ -29,14 +29,14 @@ class Mark:
 
     @property
     def passed(self) -> bool:
-        """Whether it counts as passed: it has all its points, or it passed and nobody corrected it."""
+        """Whether the check passed, or was corrected to all its points."""
         if self.override is None:
             return self.check.status == "passed"
         return self.points is not None and self.points >= self.check.max_score
 
     @property
     def correction(self) -> str:
-        """What the instructor changed and why, in one line; "" if nothing."""
+        """The instructor's correction and its reason in one line, "" if there is none."""
         if self.override is None:
             return ""
         by, why = _named(self.override), one_line(self.override.because)
@@ -58,15 +58,15 @@ class Mark:
 
 
 @dataclass(frozen=True)
-class Step:
-    """Points that are added (or taken, below 0) after the checks, and why."""
+class Adjustment:
+    """Points that are added after the checks (below 0: taken), and why."""
 
     why: str
     points: float
 
     @property
-    def told(self) -> Message:
-        """The step in one line."""
+    def text(self) -> Message:
+        """The adjustment in one line."""
         return joined(self.why, in_points(self.points), by=": ")
 
 
@@ -76,33 +76,35 @@ def in_points(value: float) -> Message:
 
 
 def rounded(value: float) -> float:
-    """Return points without the noise of binary fractions; never -0.0."""
+    """Return points without floating-point noise; never -0.0."""
     return round(value, DIGITS) + 0.0
 
 
-def marks(entry: Entry) -> tuple[Mark, ...]:
-    """Return the marks of an entry's report; () without one. Of two corrections the last counts."""
+def marks(entry: GradebookEntry) -> tuple[Mark, ...]:
+    """Return the marks of an entry's report, () without one; the last correction counts."""
     if entry.report is None:
         return ()
     corrected = {override.check: override for override in entry.overrides}
     return tuple(_mark(check, corrected.get(check.id)) for check in entry.report.checks)
 
 
-def steps(entry: Entry) -> tuple[Step, ...]:
-    """Return what leads from the sum of the marks to the final points; () if nothing is final."""
+def adjustments(entry: GradebookEntry) -> tuple[Adjustment, ...]:
+    """Return the difference between the sum of the marks and the final points, () if not final."""
     if entry.final is None:
         return ()
     total = sum(mark.points or 0 for mark in marks(entry))
     score = total if entry.score is None else entry.score
-    found = [Step(_total_words(entry), rounded(score - total))]
-    found.append(Step(_late_words(entry), rounded(entry.final - score)))
-    return tuple(step for step in found if step.points)
+    found = [Adjustment(_total_words(entry), rounded(score - total))]
+    found.append(Adjustment(_late_words(entry), rounded(entry.final - score)))
+    return tuple(adjustment for adjustment in found if adjustment.points)
 
 
-def single(report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()) -> Entry:
-    """Return the entry of a report that stands alone, outside of a class."""
+def single(
+    report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
+) -> GradebookEntry:
+    """Return the entry of a single report, outside of a class."""
     who = report.submission
-    entry = Entry(
+    entry = GradebookEntry(
         student=Student(key=who.student_id or who.name, name=who.name),
         status="graded" if report.status == "graded" else "pending",
         report=report,
@@ -124,7 +126,7 @@ def _mark(check: CheckResult, override: Override | None) -> Mark:
     return Mark(check, None if check.status in OPEN else rounded(check.score))
 
 
-def _total_words(entry: Entry) -> str:
+def _total_words(entry: GradebookEntry) -> str:
     whole = {override.check: override for override in entry.overrides}.get("")
     if whole is None:
         return say("The total was corrected")
@@ -134,7 +136,7 @@ def _total_words(entry: Entry) -> str:
     return say("The total was corrected by {name}, because: {why}", name=by, why=why)
 
 
-def _late_words(entry: Entry) -> str:
+def _late_words(entry: GradebookEntry) -> str:
     if entry.late_seconds > 0:
         return say("Handed in {duration} late", duration=duration(entry.late_seconds))
     if entry.penalty:

@@ -1,7 +1,7 @@
-"""What a student's attempts come to: lateness, penalty, which attempt counts, corrections.
+"""The policy: lateness, penalty, which attempt counts, and corrections.
 
-All of it is a pure function of the submission's own time stamps, of the verdicts and of the
-assignment's policy; nothing here reads a clock.
+Everything is a pure function of the time stamps, the verdicts and the assignment's policy; nothing
+here reads a clock.
 """
 
 from __future__ import annotations
@@ -12,26 +12,26 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 
 from grader.base.i18n.message import joined, say
-from grader.batch.model import Elsewhere, Entry, Override, Student
+from grader.batch.model import Elsewhere, GradebookEntry, Override, Student
 from grader.batch.points import marks, rounded
 from grader.course.policy import Policy, amount
 from grader.report.model import Report
 
 DAY, HOUR = 86_400.0, 3_600.0
-UNKNOWN_TIME = say("it is not known when it was handed in: nothing was taken for lateness")
+UNKNOWN_TIME = say("the time of submission is not known: no points were taken for lateness")
 OUR_FAULT = say(
-    "Not marked: the grader failed on this submission. That is no fault of yours, and your "
-    "instructor knows of it."
+    "Not marked: the grader failed on this submission. This is not your fault, and your "
+    "instructor knows about it."
 )
-CALLED_LATE = say("the course's system calls it late")
+CALLED_LATE = say("the learning management system calls it late")
 
 
 @dataclass(frozen=True)
 class Attempt:
-    """One thing that a student handed in, and the verdict on it if there is one.
+    """One attempt of a student, with its report if it has been marked.
 
-    `problem` says why there is none and never will be as it is, `fault` how our own side failed;
-    without any of them it waits for its turn. `late` is the course system's own word.
+    `problem` says why the attempt cannot be marked, `fault` how the grader failed on it; without
+    either it is still to be marked. `late` is what the learning management system says.
     """
 
     number: int
@@ -44,8 +44,9 @@ class Attempt:
 
 
 def lateness(submitted: datetime | None, policy: Policy) -> float | None:
-    """Return how many seconds late it is: 0 up to the end of the grace time, then since the due
-    date. None where there is a due date and nobody knows when it was handed in.
+    """Return the seconds since the due date, 0 until the grace time ends.
+
+    None if there is a due date and the time of submission is not known.
     """
     due = policy.deadline
     if due is None:
@@ -57,9 +58,9 @@ def lateness(submitted: datetime | None, policy: Policy) -> float | None:
 
 
 def penalty(score: float, max_score: float, submitted: datetime | None, policy: Policy) -> float:
-    """Return the points that lateness takes from a score: each begun day (hour) counts whole.
+    """Return the points that lateness takes from a score; each begun day (hour) counts as a whole.
 
-    Never more than the score, nor than the policy's `most`; all of it from `until` on.
+    At most the score and the policy's `most`; the whole score from the policy's `until` on.
     """
     late = lateness(submitted, policy)
     if not late or submitted is None:
@@ -81,12 +82,12 @@ def standing(
     max_score: float,
     *,
     elsewhere: Elsewhere | None = None,
-) -> Entry:
-    """Return what a student gets. `attempts` are in the order in which they were handed in.
+) -> GradebookEntry:
+    """Return what a student gets; `attempts` are in the order of submission.
 
-    A correction of a check counts before lateness takes its share; one of the total is the last
-    word. Who is known to have handed in `elsewhere` keeps what he or she has, whatever the policy
-    says about those who handed in nothing.
+    A corrected check counts before the penalty for lateness; a corrected total is final. A student
+    who handed in `elsewhere` keeps the existing grade, whatever the policy says about missing
+    submissions.
     """
     if not attempts:
         entry = _without_attempt(student, policy, max_score, elsewhere)
@@ -98,9 +99,9 @@ def standing(
 
 def _without_attempt(
     student: Student, policy: Policy, max_score: float, elsewhere: Elsewhere | None
-) -> Entry:
+) -> GradebookEntry:
     if elsewhere is not None:
-        return Entry(
+        return GradebookEntry(
             student,
             "elsewhere",
             final=elsewhere.final,
@@ -108,7 +109,7 @@ def _without_attempt(
             notes=(elsewhere.reason,),
         )
     nothing = 0.0 if policy.missing == "zero" else None
-    return Entry(student, "missing", final=nothing, max_score=max_score)
+    return GradebookEntry(student, "missing", final=nothing, max_score=max_score)
 
 
 def _rate(
@@ -117,15 +118,15 @@ def _rate(
     overrides: Sequence[Override],
     policy: Policy,
     max_score: float,
-) -> Entry:
-    """Return what a student would get for this attempt, but for a correction of the total."""
+) -> GradebookEntry:
+    """Return what a student gets for this attempt, without a correction of the total."""
     late = lateness(attempt.submitted, policy)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
         notes.insert(0, f"the grader failed on it: {attempt.fault}")
     if late is None:
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
-    entry = Entry(
+    entry = GradebookEntry(
         student,
         "ungradable" if attempt.problem else "pending",
         report=attempt.report,
@@ -150,20 +151,20 @@ def _rate(
     return replace(entry, status="graded", score=score, penalty=taken, final=final)
 
 
-def _chosen(rated: Sequence[Entry], policy: Policy) -> int:
-    """Return which attempt counts; of two that are equally good it is the earlier one."""
+def _chosen(rated: Sequence[GradebookEntry], policy: Policy) -> int:
+    """Return the index of the attempt that counts; the earlier one of two equally good ones."""
     if policy.attempts == "last":
         return len(rated) - 1
     if policy.attempts == "first":
         return 0
     worth = [-1.0 if entry.final is None else entry.final for entry in rated]
     best = worth.index(max(worth))
-    # where none has a verdict, the last one is what the instructor is shown
+    # if none has a verdict, the instructor is shown the last one
     return best if rated[best].final is not None else len(rated) - 1
 
 
-def _corrected(entry: Entry) -> Entry:
-    """Return the entry with the correction of its total, if there is one."""
+def _corrected(entry: GradebookEntry) -> GradebookEntry:
+    """Return the entry with its total corrected, if there is a correction."""
     whole = {override.check: override.points for override in entry.overrides}.get("")
     if whole is None:
         return entry

@@ -1,4 +1,4 @@
-"""How a class run goes, for people: a bar with the time left on a terminal, plain lines elsewhere."""
+"""The progress of a class run: a bar with the time left on a terminal, plain lines elsewhere."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
 QUIET_SECONDS = 10.0  # between two plain lines
-MANY = 500  # attempts, after which taking them in takes long enough to be told
+MANY = 500  # attempts between two lines: reading so many takes a while
 
 
 class ClassProgress(Listener):
-    """Shows how far a class run is; a context manager. Nothing of it is needed for the work."""
+    """Shows how far a class run is; a context manager."""
 
     def __init__(self, file: TextIO) -> None:
         self._file = gate(file)
@@ -28,7 +28,7 @@ class ClassProgress(Listener):
         self._line: TaskID | None = None
         self._total = self._done = self._faults = 0
         self._running: list[str] = []
-        self._begin = self._told = time.monotonic()
+        self._begin = self._printed = time.monotonic()
 
     def __enter__(self) -> ClassProgress:
         return self
@@ -44,14 +44,14 @@ class ClassProgress(Listener):
             self._bar = None
 
     def took_in(self, count: int) -> None:
-        """Say now and then that the class is being looked at."""
+        """Print a line now and then while the class is read."""
         if count % MANY == 0:
-            self._print(f"{count} submissions looked at ...")
+            self._print(f"{count} submissions read ...")
 
     def begins(self, total: int) -> None:
-        """Start the bar, or say that it begins."""
+        """Start the bar, or print a line."""
         self._total = total
-        self._begin = self._told = time.monotonic()
+        self._begin = self._printed = time.monotonic()
         if total and is_terminal(self._file):
             self._bar = _bar(self._file)
             self._line = self._bar.add_task("", total=total, names="", rest="")
@@ -60,19 +60,19 @@ class ClassProgress(Listener):
             self._print(f"marking {total} submission{'s' if total > 1 else ''} ...")
 
     def started(self, name: str) -> None:
-        """Show who is being marked."""
+        """Show whose submission is being marked."""
         self._running.append(name)
         self._show()
 
     def finished(self, name: str, done: Done) -> None:
-        """Show how far it is."""
+        """Update the number of finished submissions."""
         self._done += 1
         self._faults += done.answer.report is None
         if name in self._running:
             self._running.remove(name)
         now = time.monotonic()
-        if self._bar is None and (now - self._told > QUIET_SECONDS or self._done == self._total):
-            self._told = now
+        if self._bar is None and (now - self._printed > QUIET_SECONDS or self._done == self._total):
+            self._printed = now
             self._print(f"{self._done} of {self._total} marked{self._words()}")
         self._show()
 
@@ -88,7 +88,7 @@ class ClassProgress(Listener):
             seconds = (time.monotonic() - self._begin) / self._done * left
             words = f", about {rough(seconds)} left"
         if self._faults:
-            words += f", {self._faults} not marked as the grader failed"
+            words += f", {self._faults} not marked because the grader failed"
         return words
 
     def _print(self, text: str) -> None:
@@ -97,14 +97,14 @@ class ClassProgress(Listener):
 
 
 def rough(seconds: float) -> str:
-    """Return a duration as people say it: 40 s, 12 min, 2.5 h."""
+    """Return a rounded duration: 40 s, 12 min, 2.5 h."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
 def _bar(file: TextIO) -> Progress:
-    # rich costs 35 ms, and nobody needs it where nothing is to be marked
+    # importing rich takes 35 ms, which a run with nothing to mark need not pay
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn  # noqa: PLC0415
 
     from grader.base.gated_console import GatedConsole  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""The result of a class: what each student gets, from the ledger and what was handed in."""
+"""The result of a class: what each student gets, from the ledger and the submissions."""
 
 from __future__ import annotations
 
@@ -8,23 +8,29 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 
-from grader.batch.handed_in_before import HandedInBefore
-from grader.batch.intake import Item
-from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import HandedInRow, VerdictRow, path_text
-from grader.batch.model import ClassFolder, ClassResult, Elsewhere, Entry, Override, Student
+from grader.batch.earlier_submissions import EarlierSubmissions
+from grader.batch.intake import IntakeItem
+from grader.batch.ledger import HandedInRow, Ledger, VerdictRow, path_text
+from grader.batch.model import (
+    ClassFolder,
+    ClassResult,
+    Elsewhere,
+    GradebookEntry,
+    Override,
+    Student,
+)
 from grader.batch.policy import Attempt, standing
 from grader.batch.similar import groups
 from grader.course.assignment import Assignment
 from grader.report.model import Report
 
-MOST_SAME = 10  # of the others with the same content, in one student's line
-GONE = "handed in before, and no longer in the class' folder"
+MOST_SAME = 10  # students with the same content that are named for one student
+GONE = "handed in earlier, and no longer in the class folder"
 
 
 @dataclass(frozen=True)
-class Found:
-    """One attempt of a student: when it was handed in (else first seen), and its verdict's number."""
+class DatedAttempt:
+    """An attempt, when it was handed in (or first seen), and the id of its verdict."""
 
     at: datetime | None
     attempt: Attempt
@@ -35,7 +41,7 @@ class Found:
 def class_result(
     ledger: Ledger,
     folder: ClassFolder,
-    items: Sequence[Item],
+    items: Sequence[IntakeItem],
     assignment: Assignment,
     *,
     distro: str,
@@ -43,36 +49,38 @@ def class_result(
     started: datetime | None = None,
     seconds: float = 0,
 ) -> ClassResult:
-    """Return the result of a class as the ledger has it now; the ledger must stay open as
-    long as its reports are asked for. `lang` is the language where there is no report.
+    """Return the result of a class from what the ledger has now.
+
+    The ledger must stay open while the result's reports are read. `lang` is the language of a
+    student without a report.
     """
     verdicts = ledger.verdicts()
     overrides = defaultdict(list)
     for override in ledger.overrides(assignment.id):
         overrides[override.student].append(override)
-    seen = {(row.student, row.submission): row for row in ledger.seen(assignment.id)}
-    earlier = _earlier(ledger, items, seen.values(), assignment.id)
-    own: dict[str, list[Item]] = defaultdict(list)
+    rows = {(row.student, row.submission): row for row in ledger.handed_in(assignment.id)}
+    earlier = _earlier(ledger, items, rows.values(), assignment.id)
+    own: dict[str, list[IntakeItem]] = defaultdict(list)
     students: dict[str, Student] = {}
     for item in items:
         own[item.student].append(item)
         students.setdefault(item.student, item.handed_in.student)
-    entries: list[Entry] = []
+    entries: list[GradebookEntry] = []
     submissions: dict[str, str] = {}
     for key, student in students.items():
-        found = [_of_item(ledger, item, verdicts, seen) for item in own[key]]
+        found = [_of_item(ledger, item, verdicts, rows) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
         entry, counts = _entry(student, found, overrides[key], assignment, lang)
         if counts is not None:
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
-    before = HandedInBefore(ledger, assignment.id, students, earlier)
+    recorded = EarlierSubmissions(ledger, assignment.id, students, earlier)
     for student in folder.missing:
-        known = before.as_known(student)
+        known = recorded.with_known_key(student)
         found = [_of_row(ledger, row, assignment.id) for row in earlier.get(known.key, ())]
-        where = folder.elsewhere.get(student.key)
-        entry, counts = _entry(known, found, overrides[known.key], assignment, lang, where)
+        elsewhere = folder.elsewhere.get(student.key)
+        entry, counts = _entry(known, found, overrides[known.key], assignment, lang, elsewhere)
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
     identical = _identical(ledger, submissions, _paths(items))
@@ -92,13 +100,13 @@ def class_result(
 
 def _entry(
     student: Student,
-    found: list[Found],
+    found: list[DatedAttempt],
     overrides: Sequence[Override],
     assignment: Assignment,
     lang: str,
     elsewhere: Elsewhere | None = None,
-) -> tuple[Entry, Found | None]:
-    """Return a student's entry, and which attempt it stands on."""
+) -> tuple[GradebookEntry, DatedAttempt | None]:
+    """Return a student's entry, and the attempt that counts (None without a report)."""
     dated = sorted(found, key=lambda f: (f.at is not None, f.at.timestamp() if f.at else 0))
     attempts = [replace(f.attempt, number=n) for n, f in enumerate(dated, start=1)]
     policy, most = assignment.policy, assignment.max_score
@@ -110,16 +118,16 @@ def _entry(
 
 def _of_item(
     ledger: Ledger,
-    item: Item,
+    item: IntakeItem,
     verdicts: Mapping[tuple[str, str], VerdictRow],
-    seen: Mapping[tuple[str, str], HandedInRow],
-) -> Found:
+    rows: Mapping[tuple[str, str], HandedInRow],
+) -> DatedAttempt:
     given = item.handed_in
     row = verdicts.get((item.student, item.key))
     notes = list(given.notes)
     fault = ledger.fault(item.student, item.key) if item.key else item.fault
     if fault and row is not None:
-        notes.append(f"marking it again failed, the verdict before stands: {fault}")
+        notes.append(f"marking it again failed, the earlier verdict still counts: {fault}")
     attempt = Attempt(
         number=given.attempt,
         submitted=given.submitted,
@@ -129,40 +137,39 @@ def _of_item(
         notes=tuple(notes),
         fault=fault,
     )
-    noted = seen.get((item.student, item.submission))
-    at = given.submitted or (noted.first_seen if noted else None)
-    return Found(at, attempt, item.submission, row.id if row else None)
+    recorded = rows.get((item.student, item.submission))
+    at = given.submitted or (recorded.first_seen if recorded else None)
+    return DatedAttempt(at, attempt, item.submission, row.id if row else None)
 
 
-def _of_row(ledger: Ledger, seen: HandedInRow, assignment: str) -> Found:
-    row = ledger.verdict_of(assignment, seen.student, seen.submission)
+def _of_row(ledger: Ledger, handed_in: HandedInRow, assignment: str) -> DatedAttempt:
+    row = ledger.verdict_of(assignment, handed_in.student, handed_in.submission)
     attempt = Attempt(
         number=0,
-        submitted=seen.submitted,
-        late=seen.late,
+        submitted=handed_in.submitted,
+        late=handed_in.late,
         report=_report(ledger, row),
         problem="",
         notes=(GONE,),
     )
-    return Found(
-        seen.submitted or seen.first_seen, attempt, seen.submission, row.id if row else None
-    )
+    at = handed_in.submitted or handed_in.first_seen
+    return DatedAttempt(at, attempt, handed_in.submission, row.id if row else None)
 
 
 def _earlier(
-    ledger: Ledger, items: Sequence[Item], seen: Iterable[HandedInRow], assignment: str
+    ledger: Ledger, items: Sequence[IntakeItem], rows: Iterable[HandedInRow], assignment: str
 ) -> dict[str, list[HandedInRow]]:
-    """Return what students handed in before that is no longer there, and was marked.
+    """Return the marked attempts of each student that are no longer in the folder.
 
-    What lies in the folder is only theirs whose it is now: a group's submission that was marked
-    without a roster is no attempt of the participant who has the group's number.
+    A path that is still in the folder belongs only to its present students: a group's submission
+    that was marked without a roster is no attempt of the participant with the group's number.
     """
     here = {(item.student, item.submission) for item in items}
     places: dict[str, set[str]] = defaultdict(set)
     for item in items:
         places[path_text(item.handed_in.path)].add(item.student)
     found: dict[str, list[HandedInRow]] = defaultdict(list)
-    for row in seen:
+    for row in rows:
         others = row.path in places and row.student not in places[row.path]
         if (row.student, row.submission) in here or others:
             continue
@@ -175,15 +182,15 @@ def _report(ledger: Ledger, row: VerdictRow | None) -> Report | None:
     return None if row is None else ledger.report(row.id)
 
 
-def _paths(items: Iterable[Item]) -> dict[tuple[str, str], str]:
-    """Return where each student's contents lie."""
+def _paths(items: Iterable[IntakeItem]) -> dict[tuple[str, str], str]:
+    """Return the path of each submission, by student and hash."""
     return {(i.student, i.submission): path_text(i.handed_in.path) for i in items if i.submission}
 
 
 def _identical(
     ledger: Ledger, submissions: Mapping[str, str], paths: Mapping[tuple[str, str], str]
 ) -> tuple[tuple[str, ...], ...]:
-    """Return who has the same content; the members of one group have handed in only once."""
+    """Return the groups of equal content; members of one group are not listed."""
     known = ledger.fingerprints()
     found = groups({key: known.get(submission, "") for key, submission in submissions.items()})
 
@@ -194,10 +201,10 @@ def _identical(
 
 
 def _with_reports(
-    ledger: Ledger, entries: Sequence[Entry], identical: Sequence[Sequence[str]]
-) -> Iterator[Entry]:
-    """Yield the entries with what fetches each report, and with whose submission is the same."""
-    # each names a few of the others: all of them, for all of a large group, is a number squared
+    ledger: Ledger, entries: Sequence[GradebookEntry], identical: Sequence[Sequence[str]]
+) -> Iterator[GradebookEntry]:
+    """Yield the entries with a loader for each report, and the students with the same content."""
+    # only a few names each: all names for all students of a large group grow quadratically
     others = {
         key: tuple(other for other in group[: MOST_SAME + 1] if other != key)[:MOST_SAME]
         for group in identical

@@ -1,4 +1,4 @@
-"""The list of a class' students, as the course's system or the instructor keeps it: a CSV file."""
+"""Reads the list of a class' students from a CSV file of a system or the instructor."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from grader.base.plain_text import one_line
 from grader.base.shown import shown
 from grader.batch.decoded import AS_CSV, decoded
 from grader.batch.model import Student
-from grader.batch.roster_columns import KNOWN, Columns, Kind, columns_of, participant
+from grader.batch.roster_columns import KNOWN, RosterColumns, RosterKind, columns_of, participant
 from grader.batch.roster_guess import EMAIL
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
@@ -28,13 +28,12 @@ NO_STUDENT = ("points possible", "manual posting", "student, test", "test studen
 
 
 @dataclass(frozen=True)
-class Line:
-    """A student's line: `row` is its number in the sheet, `group` the group in which he or she is.
+class RosterLine:
+    """A student's line: `row` is its number in the sheet, `group` the student's group.
 
-    `evidence` is why the course's system knows a submission or a grade of this student, in words;
-    "" if it knows none. `submitted` is when the student handed in, as the course's system says (UTC;
-    None: it does not). `unknown` are the cells of the columns that were not understood, by their
-    names.
+    `evidence` says in words which submission or grade of the student the system knows, "" if none.
+    `submitted` is the system's time of submission (UTC), None if it does not say. `unknown` are the
+    cells of unrecognised columns, by the columns' names.
     """
 
     student: Student
@@ -47,10 +46,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Roster:
-    """A class' students in the order of their file; `kind` tells whose numbers the keys are."""
+    """A class' students in the order of the file; `kind`: which system's numbers the keys are."""
 
-    lines: tuple[Line, ...]
-    kind: Kind
+    lines: tuple[RosterLine, ...]
+    kind: RosterKind
     name: str = "the roster"
     notes: tuple[str, ...] = ()
 
@@ -61,17 +60,17 @@ class Roster:
 
 
 def read_roster(path: Path) -> Roster:
-    """Read a roster with a header line, whatever its delimiter, encoding and order of columns.
+    """Read a roster with a header line, in any encoding, with any delimiter and order of columns.
 
-    UsageError, with the file and the line, for what cannot be read, for a header that tells nobody
-    apart, and for a student who is in it twice.
+    Raises UsageError, with file and line, if it cannot be read, if no column identifies a student,
+    or if a student is in it twice.
     """
     name = shown(str(path))
     found = decoded(_content(path, name), f"the roster {name}")
     text = found.text
     first, _, rest = text.partition("\n")
     skipped = 0
-    if first.strip().lower().startswith("sep="):  # Excel's own line
+    if first.strip().lower().startswith("sep="):  # written by Excel
         text, skipped = rest, 1
     sheet = Sheet(text.encode(), name=f"the roster {name}")
 
@@ -79,23 +78,23 @@ def read_roster(path: Path) -> Roster:
         return f"{name}:{skipped + _line(text, sheet.rows[row][0].start)}"
 
     columns = columns_of(sheet)
-    if not columns.tells_people_apart or _has_no_header(sheet):
+    if not columns.identifies_students or _has_no_header(sheet):
         raise UsageError(f"{place(0)}: {_no_columns(sheet)}", remedy=_remedy())
     roster = roster_of(sheet, f"the roster {name}", columns)
     _no_duplicates(roster.lines, place)
     if not roster.lines:
-        raise UsageError(f"{place(0)}: there is no student below the header")
+        raise UsageError(f"{place(0)}: there are no students below the header")
     left_out = sorted(set(range(1, len(sheet.rows))) - {line.row for line in roster.lines})
     numbers = [place(row).rpartition(":")[2] for row in left_out]
     notes = (found.note, *roster.notes, *_left_out(name, numbers))
     return Roster(roster.lines, roster.kind, roster.name, tuple(note for note in notes if note))
 
 
-def roster_of(sheet: Sheet, name: str, columns: Columns | None = None) -> Roster:
-    """Return the students of a sheet that was read already (a worksheet, say)."""
+def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> Roster:
+    """Return the students of a sheet that was already read (a worksheet, for example)."""
     columns = columns_of(sheet) if columns is None else columns
     lines = tuple(
-        Line(
+        RosterLine(
             student=student,
             row=row,
             group=_cell(sheet, row, columns, "group"),
@@ -106,13 +105,13 @@ def roster_of(sheet: Sheet, name: str, columns: Columns | None = None) -> Roster
         for row in range(1, len(sheet.rows))
         if (student := _student(sheet, row, columns)) is not None
     )
-    told = ", ".join(one_line(guess, most=100) for guess in columns.guesses)
-    notes = (f"{name}: columns with unknown names were taken by their content: {told}",)
-    return Roster(lines, columns.kind, name, notes if told else ())
+    guesses = ", ".join(one_line(guess, most=100) for guess in columns.guesses)
+    notes = (f"{name}: columns with unknown names were recognised by their content: {guesses}",)
+    return Roster(lines, columns.kind, name, notes if guesses else ())
 
 
-def _evidence(sheet: Sheet, row: int, columns: Columns) -> str:
-    """Return why Moodle knows a submission or a grade of this student; "" if it does not."""
+def _evidence(sheet: Sheet, row: int, columns: RosterColumns) -> str:
+    """Return which submission or grade of a student Moodle knows, in words; "" if none."""
     if columns.kind != "moodle":
         return ""
     grade = _cell(sheet, row, columns, "grade")
@@ -133,7 +132,7 @@ def _content(path: Path, name: str) -> bytes:
     if isinstance(content, Unread):
         raise UsageError(f"the roster {name} cannot be read: {content.reason}")
     if content.startswith(ZIP):
-        raise UsageError(f"the roster {name} is a spreadsheet and no CSV file", remedy=AS_CSV)
+        raise UsageError(f"the roster {name} is a spreadsheet, not a CSV file", remedy=AS_CSV)
     return content
 
 
@@ -142,14 +141,14 @@ def _line(text: str, position: int) -> int:
     return before.count("\n") + before.count("\r") + 1
 
 
-def _cell(sheet: Sheet, row: int, columns: Columns, name: str) -> str:
+def _cell(sheet: Sheet, row: int, columns: RosterColumns, name: str) -> str:
     texts = (sheet.value(row, index) for index in columns.of(name))
     found = next((text for text in texts if text), "")
     return unicodedata.normalize("NFC", one_line(found, most=LONGEST))
 
 
-def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
-    """Return a row's student, None if there is nobody in it."""
+def _student(sheet: Sheet, row: int, columns: RosterColumns) -> Student | None:
+    """Return a row's student, None if it has none."""
 
     def cell(name: str) -> str:
         return _cell(sheet, row, columns, name)
@@ -170,7 +169,7 @@ def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
         return None
     return Student(
         key=key,
-        name=_in_order(name) or key,
+        name=_first_name_first(name) or key,
         email=email,
         username=username,
         id_number=number,
@@ -178,58 +177,58 @@ def _student(sheet: Sheet, row: int, columns: Columns) -> Student | None:
     )
 
 
-def _submitted(sheet: Sheet, row: int, columns: Columns) -> datetime | None:
-    """Return the time of submission in a row; None for an empty cell and for what is no time."""
+def _submitted(sheet: Sheet, row: int, columns: RosterColumns) -> datetime | None:
+    """Return the time of submission in a row; None if the cell is empty or not a time."""
     stamps = (instant(sheet.value(row, index)) for index in columns.of("submitted"))
     return next((stamp for stamp in stamps if stamp is not None), None)
 
 
-def _in_order(name: str) -> str:
+def _first_name_first(name: str) -> str:
     """Return `Lee, Ann` as `Ann Lee`; other names as they are."""
     last, comma, first = name.partition(", ")
     return f"{first} {last}" if comma and first and last and "," not in first else name
 
 
 def _has_no_header(sheet: Sheet) -> bool:
-    """Whether the first line is a student already: it has an email address in it."""
+    """Whether the first line is already a student's: it contains an email address."""
     return any(EMAIL.fullmatch(name) for name in sheet.header)
 
 
 def _no_columns(sheet: Sheet) -> str:
     names = ", ".join(f"'{one_line(name, most=40)}'" for name in sheet.header[:10])
     if _has_no_header(sheet):
-        return f"the first line has to name the columns, and it has an email address: {names}"
+        return f"the first line must name the columns, but it has an email address: {names}"
     for name in sheet.header:
         close = difflib.get_close_matches(name.casefold(), KNOWN, n=1, cutoff=0.7)
         if close:
-            return f"no column tells who a student is: {names} (did you mean '{close[0]}'?)"
-    return f"no column tells who a student is: {names}"
+            return f"no column identifies a student: {names} (did you mean '{close[0]}'?)"
+    return f"no column identifies a student: {names}"
 
 
 def _remedy() -> str:
     return (
-        "The first line names the columns; at least one of: name (or first name and last name), "
+        "The first line must name the columns, at least one of: name (or first name and last name), "
         "email, username, id number, in English or Korean. Exports of Moodle, Canvas, Gradescope "
         "and GitHub Classroom are read as they are."
     )
 
 
-def _no_duplicates(lines: tuple[Line, ...], place: Callable[[int], str]) -> None:
+def _no_duplicates(lines: tuple[RosterLine, ...], place: Callable[[int], str]) -> None:
     seen: dict[tuple[str, str], int] = {}
     for line in lines:
-        for what, value in _marks(line.student):
-            mark = (what, value.casefold())
-            if mark in seen:
-                other = place(seen[mark]).rpartition(":")[2]
+        for what, value in _identifiers(line.student):
+            identifier = (what, value.casefold())
+            if identifier in seen:
+                other = place(seen[identifier]).rpartition(":")[2]
                 raise UsageError(
-                    f"{place(line.row)}: the {what} '{value}' is in line {other} too",
-                    remedy="Take one of the two lines out, or correct it.",
+                    f"{place(line.row)}: the {what} '{value}' is also in line {other}",
+                    remedy="Remove or correct one of the two lines.",
                 )
-            seen[mark] = line.row
+            seen[identifier] = line.row
 
 
-def _marks(student: Student) -> Iterator[tuple[str, str]]:
-    """Yield what nobody shares with anybody; a name does not count."""
+def _identifiers(student: Student) -> Iterator[tuple[str, str]]:
+    """Yield the values that are unique to a student; a name is not."""
     if student.key not in (student.name, student.id_number, student.username, student.email):
         yield "id", student.key
     for what, value in (
@@ -245,4 +244,4 @@ def _left_out(name: str, lines: list[str]) -> list[str]:
     if not lines:
         return []
     more = f" and {len(lines) - 10} more" if len(lines) > 10 else ""
-    return [f"the roster {name} has lines that are no student's: {', '.join(lines[:10])}{more}"]
+    return [f"the roster {name} has lines without a student: {', '.join(lines[:10])}{more}"]

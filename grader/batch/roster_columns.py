@@ -1,4 +1,4 @@
-"""Which column of a roster is what: the headers of the courses' systems, and common ones."""
+"""Recognises the columns of a roster by the headers of the systems, and by common ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from grader.batch.systems.moodle.words import (
     TEAM,
 )
 
-Kind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
+RosterKind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
 
 NAMES: Mapping[str, tuple[str, ...]] = {
     "name": (
@@ -66,33 +66,33 @@ KNOWN = tuple(name for names in NAMES.values() for name in names)
 
 
 @dataclass(frozen=True)
-class Columns:
-    """The columns of each field, the best one first, and whose export it is.
+class RosterColumns:
+    """The columns of each field, the best one first, and which system exported them.
 
-    `guesses` says which columns were recognised by what is in them, `unknown` which were not
-    recognised at all.
+    `guesses` describes the columns that were recognised by their content, `unknown` are those that
+    were not recognised.
     """
 
-    kind: Kind
+    kind: RosterKind
     fields: Mapping[str, tuple[int, ...]]
     guesses: tuple[str, ...] = ()
     unknown: tuple[int, ...] = ()
 
     def of(self, field: str) -> tuple[int, ...]:
-        """Return the columns in which a field may stand."""
+        """Return the columns that may contain a field."""
         return self.fields.get(field, ())
 
     @property
-    def tells_people_apart(self) -> bool:
-        """Whether there is anything by which a student is known."""
+    def identifies_students(self) -> bool:
+        """Whether a column identifies a student."""
         known = ("key", "name", "last name", "email", "username", "id number")
         return any(self.of(field) for field in known)
 
 
-def columns_of(sheet: Sheet, *, participants: int | None = None) -> Columns:
-    """Return what the columns of a sheet are: by their names, else by what is in them.
+def columns_of(sheet: Sheet, *, participants: int | None = None) -> RosterColumns:
+    """Return the columns of a sheet, recognised by their names, or else by their content.
 
-    `participants` is the column of Moodle's identifiers, if that is known.
+    `participants` is the column of Moodle's identifiers, if it is known.
     """
     header = [_folded(name) for name in sheet.header]
     fields = {field: _named(header, names) for field, names in NAMES.items()}
@@ -114,15 +114,15 @@ def columns_of(sheet: Sheet, *, participants: int | None = None) -> Columns:
         kind = "moodle"
     if kind == "moodle":
         fields |= _of_moodle(header, fields)
-    told = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
+    described = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
     rest = tuple(index for index in unknown if index not in guesses.values())
-    return Columns(kind, fields, tuple(told), rest)
+    return RosterColumns(kind, fields, tuple(described), rest)
 
 
 def _of_moodle(
     header: list[str], fields: Mapping[str, tuple[int, ...]]
 ) -> dict[str, tuple[int, ...]]:
-    """Return the columns of a worksheet that tell whether Moodle has a submission or a grade."""
+    """Return the worksheet's columns that say whether Moodle has a submission or a grade."""
     found = {field: _named(header, tuple(names)) for field, names in MOODLES.items()}
     return {field: columns or fields.get(field, ()) for field, columns in found.items()}
 
@@ -134,7 +134,7 @@ def _named(header: list[str], names: tuple[str, ...]) -> tuple[int, ...]:
 
 def _folded(name: str) -> str:
     words = name.casefold().replace("_", " ").split()
-    # blanks between Korean words are a matter of taste: 이메일 주소, 이메일주소
+    # spaces between Korean words are optional: 이메일 주소, 이메일주소
     return (" " if name.isascii() else "").join(words)
 
 
@@ -149,18 +149,18 @@ def _is_known(name: str) -> bool:
     return name in _FOLDED or MAXIMUM.search(name) is not None
 
 
-def _kind(sheet: Sheet, header: list[str]) -> tuple[Kind, int | None]:
-    """Return whose export it is, and the column of that system's own number."""
+def _kind(sheet: Sheet, header: list[str]) -> tuple[RosterKind, int | None]:
+    """Return which system exported a sheet, and the column of that system's own number."""
     identifiers = {_folded(name) for name in IDENTIFIER}
     for index, name in enumerate(header):
         values = [value for value in sheet.column(index)[:PEEKED] if value]
         if name in identifiers and values and all(PARTICIPANT.fullmatch(v) for v in values):
-            # (`student 1`, `student 2` are somebody's own numbers: Moodle has a column of grades)
+            # (`student 1`, `student 2` below another header are somebody's own numbers)
             return "moodle", index
     split = header[:2] == ["lastname", "firstname"]
     if (header[:1] == ["student"] or split) and "id" in header and "section" in header:
         return "canvas", header.index("id")
-    for name in ("identifier", "roster identifier"):  # of the roster, and of the grades
+    for name in ("identifier", "roster identifier"):  # in the roster, and in the grades
         if name in header and "github username" in header:
             return "github_classroom", header.index(name)
     if "sid" in header and "email" in header:

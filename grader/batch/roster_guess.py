@@ -1,6 +1,6 @@
-"""Which column of a roster is what by its content: for headers in a language that is not known.
+"""Recognises the columns of a roster by their content, for headers in an unknown language.
 
-Only columns whose name is unknown are looked at, and only for what no known column tells.
+Only columns with unknown names are examined, and only for fields that no known column has.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from collections.abc import Callable, Collection, Sequence
 
 from grader.batch.sheet import Sheet
 
-PEEKED = 50  # rows
-MOST = 0.9  # of the rows, for a column that people may have typed
-LEAST_COLUMNS = 4  # of Moodle's worksheet: identifier, name, status, grade
-PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word in any language, then the number
+PEEKED = 50  # rows that are examined
+MOST = 0.9  # share of the rows that must fit in a column that people may have typed
+LEAST_COLUMNS = 4  # of a Moodle worksheet: identifier, name, status, grade
+PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word in any script, then the number
 EMAIL = re.compile(r"[^@\s]+@[^@\s]+\.[^@\s]+")
 NUMBER = re.compile(r"[A-Za-z]{0,3}[-.]?\d[\d.-]{3,14}")
 NAME = re.compile(r"[^\W\d_]+(?:[ ,.'’·-]+[^\W\d_]+)*\.?")
@@ -22,7 +22,7 @@ YEAR = re.compile(r"\b(?:19|20)\d\d\b|(?:19|20)\d\d(?=\D)")
 
 
 def guessed(sheet: Sheet, unknown: Sequence[int], known: Collection[str]) -> dict[str, int]:
-    """Return the column of each field that only its content tells; `known` are found already."""
+    """Return the column of each field that is recognised by content; `known` fields are skipped."""
     found: dict[str, int] = {}
 
     def look(field: str, fits: Callable[[list[str]], bool], *, unless: tuple[str, ...]) -> None:
@@ -45,7 +45,7 @@ def guessed(sheet: Sheet, unknown: Sequence[int], known: Collection[str]) -> dic
 
 
 def _are_participants(values: list[str]) -> bool:
-    """Whether each is the same word with a number of its own."""
+    """Whether all values are the same word, each with a number of its own."""
     matches = [PARTICIPANT.fullmatch(value) for value in values]
     whole = [match for match in matches if match is not None]
     words, numbers = {match[1] for match in whole}, {match[2] for match in whole}
@@ -57,7 +57,7 @@ def _are_emails(values: list[str]) -> bool:
 
 
 def _are_numbers(values: list[str]) -> bool:
-    """Whether each is a number of its own; 1, 2, 3, … only counts the lines."""
+    """Whether all values are different numbers of several digits (1, 2, 3, … number the lines)."""
     given = [value for value in values if value]
     return (
         len(given) >= MOST * len(values)
@@ -67,7 +67,7 @@ def _are_numbers(values: list[str]) -> bool:
 
 
 def _are_names(values: list[str]) -> bool:
-    """Whether these are people's names: letters, hardly any twice, of several words (or CJK)."""
+    """Whether these are people's names: several words of letters (or CJK), hardly any repeated."""
     given = [value for value in values if value]
     named = [value for value in given if NAME.fullmatch(value)]
     whole = [v for v in named if CJK_NAME.fullmatch(v) or len(re.findall(r"[^\W\d_]+", v)) > 1]
@@ -75,6 +75,6 @@ def _are_names(values: list[str]) -> bool:
 
 
 def _are_dates(values: list[str]) -> bool:
-    """Whether these are times, and `-` for none."""
+    """Whether these are times, or `-` for none."""
     given = [value for value in values if value not in ("", "-")]
     return all(YEAR.search(value) and len(value) > len("2026") for value in given) and bool(given)

@@ -1,4 +1,4 @@
-"""The run of a class: what is not marked yet is marked, and each verdict is kept at once."""
+"""Runs a class: finds the submissions without a verdict, marks them and records each at once."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from dataclasses import dataclass, field
 from datetime import datetime, timezone
 
 from grader.base.errors import SurroundingsError
-from grader.batch.handed_in_before import HandedInBefore
-from grader.batch.intake import Item, take_in_class, tasks
-from grader.batch.keys import surroundings_key
-from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import HandedInRow, Regrade, path_text
+from grader.batch.earlier_submissions import EarlierSubmissions
+from grader.batch.group_submissions import Pair, by_submission, reports_for, share_group_verdicts
+from grader.batch.intake import IntakeItem, take_in_class, tasks
+from grader.batch.ledger import HandedInRow, Ledger, Regrade, path_text
 from grader.batch.model import ClassFolder, Student
-from grader.batch.shared import Pair, give_known, reports_of, together
 from grader.batch.similar import fingerprint
+from grader.batch.verdict_key import surroundings_key
 from grader.batch.work import Done, Job, Pool
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
@@ -25,13 +24,15 @@ from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
 from grader.verdict.order import Order
 
-FAULTS_IN_A_ROW = 3  # after so many, the sandbox is tried without a submission before the next
+FAULTS_IN_A_ROW = 3  # after that many failures the sandbox is tried without a submission
 
 
 @dataclass(frozen=True, kw_only=True)
-class Setting:
-    """In what a class is marked: `key` is the hash of all that decides a verdict beside the
-    submission, `sandbox` one that was proven to open.
+class MarkingSetting:
+    """What a class is marked in.
+
+    `key` is the hash of everything but the submission that decides a verdict; `sandbox` the name of
+    a sandbox that was opened successfully.
     """
 
     assignment: Assignment
@@ -43,15 +44,15 @@ class Setting:
 
     @property
     def job(self) -> Job:
-        """What a worker is told of it."""
+        """The part that a worker needs."""
         return Job(self.assignment, self.distro.name, self.sandbox, self.limits, self.lang)
 
 
-def prove(order: Order, *, notify: Callable[[str], None]) -> Setting:
-    """Open the order's sandbox once and return what is marked in; SurroundingsError if none opens."""
+def prepare(order: Order, *, notify: Callable[[str], None]) -> MarkingSetting:
+    """Open the order's sandbox once and return the setting; SurroundingsError if none opens."""
     sandbox = open_sandbox(order.sandbox, order.distro, order.limits, notify=notify)
     sandbox.close()
-    return Setting(
+    return MarkingSetting(
         assignment=order.assignment,
         distro=order.distro,
         limits=order.limits,
@@ -62,63 +63,67 @@ def prove(order: Order, *, notify: Callable[[str], None]) -> Setting:
 
 
 @dataclass
-class Plan:
-    """Every attempt of a class, the submissions that are still to be marked, and the regrades.
+class ClassPlan:
+    """Every attempt of a class, the submissions still to be marked, and the regrades.
 
-    A group's submission is in `todo` once; `sharing` are all students who get its verdict, by the
-    pair of student and key that it is marked for.
+    A group's submission is in `todo` once. `sharing` lists all students who get its verdict, by the
+    student and key that it is marked for.
     """
 
-    items: list[Item]
-    todo: list[Item]
+    items: list[IntakeItem]
+    todo: list[IntakeItem]
     regrades: dict[Pair, Regrade] = field(default_factory=dict)
     sharing: dict[Pair, list[Student]] = field(default_factory=dict)
 
     @property
     def students(self) -> set[str]:
-        """The students who will have a new verdict."""
+        """The keys of the students who will get a new verdict."""
         return {student.key for students in self.sharing.values() for student in students}
 
     @property
     def marked(self) -> int:
-        """How many submissions have their verdict already."""
-        return len(together(self.items)) - len(self.todo)
+        """How many submissions already have a verdict."""
+        return len(by_submission(self.items)) - len(self.todo)
 
 
 class Listener:
-    """Hears how a class run goes; this one lets it pass."""
+    """Receives the progress of a class run; this one ignores it."""
 
     def took_in(self, count: int) -> None:
-        """So many attempts have been looked at."""
+        """`count` attempts have been read so far."""
 
     def begins(self, total: int) -> None:
-        """So many submissions are to be marked."""
+        """The marking of `total` submissions begins."""
 
     def started(self, name: str) -> None:
-        """One is being marked."""
+        """The marking of one submission begins."""
 
     def finished(self, name: str, done: Done) -> None:
-        """One is done, and its verdict is on the disk."""
+        """One submission is done, and its verdict is on the disk."""
 
 
-def make_plan(ledger: Ledger, folder: ClassFolder, setting: Setting, *, listener: Listener) -> Plan:
-    """Take everything in, note it in the ledger, and see what there is to do."""
+def make_plan(
+    ledger: Ledger, folder: ClassFolder, setting: MarkingSetting, *, listener: Listener
+) -> ClassPlan:
+    """Read all submissions, record them in the ledger, and return what is to be marked."""
     surroundings = setting.key
     known = ledger.fingerprints()
     fresh: dict[str, str] = {}
 
-    def seen(submission: Submission) -> None:
+    def keep_fingerprint(submission: Submission) -> None:
         if submission.sha256 not in known:
             fresh[submission.sha256] = fingerprint(submission)
 
     items = []
-    for item in take_in_class(folder.handed_in, setting.assignment, surroundings, seen=seen):
+    for item in take_in_class(
+        folder.handed_in, setting.assignment, surroundings, seen=keep_fingerprint
+    ):
         items.append(item)
         listener.took_in(len(items))
     if fresh:
         ledger.keep_fingerprints(fresh)
-    _remember(ledger, items, setting.assignment.id)
-    give_known(ledger, items)
+    _record_attempts(ledger, items, setting.assignment.id)
+    share_group_verdicts(ledger, items)
     students = {attempt.student.key: attempt.student for attempt in folder.handed_in}
     students.update({student.key: student for student in _missing(ledger, folder, setting)})
     if set(students.values()) - set(ledger.students(setting.assignment.id)):
@@ -126,42 +131,42 @@ def make_plan(ledger: Ledger, folder: ClassFolder, setting: Setting, *, listener
     return _plan(ledger, items)
 
 
-def _missing(ledger: Ledger, folder: ClassFolder, setting: Setting) -> Iterator[Student]:
-    """Yield who has no submission now, under the key of what was handed in before."""
+def _missing(ledger: Ledger, folder: ClassFolder, setting: MarkingSetting) -> Iterator[Student]:
+    """Yield the students without a submission, under the key of their earlier ones."""
     assignment = setting.assignment.id
     present = {attempt.student.key for attempt in folder.handed_in}
-    seen = {row.student for row in ledger.seen(assignment)}
-    before = HandedInBefore(ledger, assignment, present, seen)
-    yield from (before.as_known(student) for student in folder.missing)
+    recorded = {row.student for row in ledger.handed_in(assignment)}
+    earlier = EarlierSubmissions(ledger, assignment, present, recorded)
+    yield from (earlier.with_known_key(student) for student in folder.missing)
 
 
-def ask_regrade(ledger: Ledger, plan: Plan, students: Sequence[str] | None) -> Plan:
-    """Have verdicts reached again: these students', or (None) everybody's.
+def request_regrade(ledger: Ledger, plan: ClassPlan, students: Sequence[str] | None) -> ClassPlan:
+    """Return the plan with regrades of these students, or of everybody (None).
 
-    Where a regrade of everybody was begun and not finished, it goes on instead.
+    An unfinished regrade of everybody is continued instead.
     """
     if students is None and plan.regrades:
         return plan
     verdicts = ledger.verdicts()
     wanted = {
         (item.student, item.key)
-        for group in together(plan.items)
+        for group in by_submission(plan.items)
         if students is None or any(item.student in students for item in group)
         for item in group
     }
-    ledger.ask_again(verdicts[pair] for pair in sorted(wanted) if pair in verdicts)
+    ledger.request_regrades(verdicts[pair] for pair in sorted(wanted) if pair in verdicts)
     return _plan(ledger, plan.items)
 
 
 def carry_out(
-    ledger: Ledger, plan: Plan, setting: Setting, pool: Pool, *, listener: Listener
+    ledger: Ledger, plan: ClassPlan, setting: MarkingSetting, pool: Pool, *, listener: Listener
 ) -> None:
-    """Mark what is to be marked.
+    """Mark the submissions in `todo`.
 
-    A verdict is on the disk before it is said to be done. A submission on which our side fails, try
-    by try, has no verdict, and the others go on: it is at fault itself if the sandbox works without
-    it (`Pool.prove`). Raises SurroundingsError if that does not work, or if nothing of a class can
-    be marked; what was reached until then is kept.
+    A verdict is on the disk before the listener hears that it is done. A submission on which the
+    grader fails at every try gets no verdict, and the others go on if the sandbox works without it
+    (`Pool.prove`). Raises SurroundingsError if it does not, or if no submission of the class can be
+    marked; the verdicts reached so far are kept.
     """
     listener.begins(len(plan.todo))
     names = {item.student: item.handed_in.student.name or item.student for item in plan.todo}
@@ -182,8 +187,8 @@ def carry_out(
         pool.prove()
     if faults >= FAULTS_IN_A_ROW and not reached:
         raise SurroundingsError(
-            f"the grader failed on all {faults} submissions, and its sandbox works",
-            remedy="The reasons are in gradebook.csv: please report them.",
+            f"the grader failed on all {faults} submissions, although its sandbox works",
+            remedy="The reasons are in gradebook.csv. Please report them.",
         )
 
 
@@ -192,8 +197,8 @@ def cores_here() -> int:
     return len(os.sched_getaffinity(0))
 
 
-def _remember(ledger: Ledger, items: Sequence[Item], assignment: str) -> None:
-    known = {(row.student, row.submission): row for row in ledger.seen(assignment)}
+def _record_attempts(ledger: Ledger, items: Sequence[IntakeItem], assignment: str) -> None:
+    known = {(row.student, row.submission): row for row in ledger.handed_in(assignment)}
     now = datetime.now(timezone.utc)
     rows = []
     for item in items:
@@ -212,15 +217,15 @@ def _remember(ledger: Ledger, items: Sequence[Item], assignment: str) -> None:
         if row != before:
             rows.append(row)
     if rows:
-        ledger.see(assignment, rows)
+        ledger.record_handed_in(assignment, rows)
 
 
-def _plan(ledger: Ledger, items: list[Item]) -> Plan:
-    verdicts, asked = ledger.verdicts(), ledger.asked_again()
-    plan = Plan(items, [])
-    for group in together(items):
+def _plan(ledger: Ledger, items: list[IntakeItem]) -> ClassPlan:
+    verdicts, regrades = ledger.verdicts(), ledger.pending_regrades()
+    plan = ClassPlan(items, [])
+    for group in by_submission(items):
         pairs = [(item.student, item.key) for item in group]
-        waiting = [n for n, pair in enumerate(pairs) if pair not in verdicts or pair in asked]
+        waiting = [n for n, pair in enumerate(pairs) if pair not in verdicts or pair in regrades]
         if not waiting:
             continue
         first = pairs[waiting[0]]
@@ -228,18 +233,18 @@ def _plan(ledger: Ledger, items: list[Item]) -> Plan:
             plan.todo.append(group[waiting[0]])
         students = [group[n].handed_in.student for n in waiting]
         plan.sharing.setdefault(first, []).extend(students)
-        plan.regrades |= {pairs[n]: asked[pairs[n]] for n in waiting if pairs[n] in asked}
+        plan.regrades |= {pairs[n]: regrades[pairs[n]] for n in waiting if pairs[n] in regrades}
     return plan
 
 
 def _keep(ledger: Ledger, done: Done, sharing: Mapping[Pair, list[Student]]) -> bool:
-    """Keep a verdict; return False where there is none, and the one before still counts."""
+    """Record a verdict; return False if there is none, so that an earlier one still counts."""
     task, report = done.task, done.answer.report
     others = [one for one in sharing.get((task.student, task.key), ()) if one.key != task.student]
     if report is None:
         for student in (task.student, *(other.key for other in others)):
             ledger.record_fault(student, task.key, done.answer.fault)
         return False
-    # one that became, while it waited, what had been marked before keeps that verdict
-    ledger.record_for_all(task.key, {task.student: report, **reports_of(report, others)})
+    # a submission that changed back to a marked one while it waited keeps that verdict
+    ledger.record_for_all(task.key, {task.student: report, **reports_for(report, others)})
     return True

@@ -1,8 +1,8 @@
-"""A CSV file of a teacher's, of which some cells are replaced: every other byte stays as it was.
+"""An instructor's CSV file in which some cells are replaced; every other byte stays the same.
 
-It is read as Python's `csv` reads it; where each cell stands is kept, so that delimiter, quotes,
-line ends, byte order mark and unknown columns need not be written anew. Only a file that is not
-UTF-8 becomes UTF-8: that is what the courses' systems read.
+It is read as Python's `csv` reads it. The position of each cell is kept, so that delimiter, quotes,
+line ends, byte order mark and unknown columns are preserved. Only a file that is not UTF-8 becomes
+UTF-8, which the learning management systems read.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ DECIMAL_POINT = re.compile(r"\s*-?\d+\.\d+\s*")
 
 
 @dataclass(frozen=True)
-class Cell:
-    """A cell's value, and where it stands in the text: `start` to `end`, quotes included."""
+class CsvCell:
+    """A cell's value and its position in the text: `start` to `end`, including quotes."""
 
     value: str
     start: int
@@ -31,23 +31,23 @@ class Cell:
 
 @dataclass(frozen=True)
 class Filled:
-    """A file that was filled in, and what its owner should know about it."""
+    """A file that was filled in, and warnings for the instructor."""
 
     content: bytes
     warnings: tuple[str, ...] = ()
 
 
 class Sheet:
-    """The rows of a CSV file, the header first; blank lines are left out (and stay in the file)."""
+    """The rows of a CSV file, the header first; blank lines are skipped (and stay in the file)."""
 
     def __init__(self, content: bytes, *, name: str) -> None:
-        """Read a file; UsageError (which calls it `name`) if it is no CSV file."""
+        """Read a file, called `name` in errors; raise UsageError if it is not a CSV file."""
         found = decoded(content, name)
         self._text = found.text
         self.note = found.note
         self._bom = BOM if found.marked else b""
         if "\0" in self._text:
-            raise UsageError(f"{name} is no CSV file: it has zero bytes in it")
+            raise UsageError(f"{name} is not a CSV file: it contains zero bytes")
         heads = {d: next(_rows(self._text, d), []) for d in DELIMITERS}
         self.delimiter = max(DELIMITERS, key=lambda d: len(heads[d]))
         self.rows = tuple(_rows(self._text, self.delimiter))
@@ -56,20 +56,20 @@ class Sheet:
 
     @property
     def header(self) -> list[str]:
-        """The names of the columns, without blanks around them."""
+        """The names of the columns, stripped."""
         return [cell.value.strip() for cell in self.rows[0]]
 
     def column(self, index: int) -> list[str]:
-        """Return the values below the header, "" where a row is too short."""
+        """Return the values below the header, "" if a row is too short."""
         return [self.value(row, index) for row in range(1, len(self.rows))]
 
     def value(self, row: int, column: int) -> str:
-        """Return a cell's value, without blanks around it; "" where the row is too short."""
+        """Return a cell's value, stripped; "" if the row is too short."""
         cells = self.rows[row]
         return cells[column].value.strip() if column < len(cells) else ""
 
     def has_cell(self, row: int, column: int) -> bool:
-        """Return whether the row is long enough."""
+        """Return whether the row has a cell in this column."""
         return column < len(self.rows[row])
 
     def decimal_comma(self, *columns: int) -> bool:
@@ -79,7 +79,7 @@ class Sheet:
         return commas and not any(DECIMAL_POINT.fullmatch(value) for value in values)
 
     def filled(self, changes: Mapping[tuple[int, int], str]) -> bytes:
-        """Return the file with other values in some cells, each named by (row, column)."""
+        """Return the file with new values in some cells, given by (row, column)."""
         parts = []
         position = 0
         for row, column in sorted(changes):
@@ -97,8 +97,8 @@ class Sheet:
         return value
 
 
-def _rows(text: str, delimiter: str) -> Iterator[list[Cell]]:
-    """Yield the rows of a text that are not blank, with the cells' places."""
+def _rows(text: str, delimiter: str) -> Iterator[list[CsvCell]]:
+    """Yield the rows of a text that are not blank."""
     position, cells = 0, []
     while position < len(text):
         cell = _cell(text, position, delimiter)
@@ -107,7 +107,7 @@ def _rows(text: str, delimiter: str) -> Iterator[list[Cell]]:
         if position < len(text) and text[position] == delimiter:
             position += 1
             if position == len(text):  # the file ends with an empty cell
-                cells.append(Cell("", position, position, quoted=False))
+                cells.append(CsvCell("", position, position, quoted=False))
             continue
         if len(cells) > 1 or cells[0].end > cells[0].start:
             yield cells
@@ -117,17 +117,17 @@ def _rows(text: str, delimiter: str) -> Iterator[list[Cell]]:
         yield cells
 
 
-def _cell(text: str, start: int, delimiter: str) -> Cell:
+def _cell(text: str, start: int, delimiter: str) -> CsvCell:
     quoted = text.startswith('"', start)
     value, position = _in_quotes(text, start + 1) if quoted else ("", start)
     end = position
     while end < len(text) and text[end] not in (delimiter, "\r", "\n"):
         end += 1
-    return Cell(value + text[position:end], start, end, quoted)
+    return CsvCell(value + text[position:end], start, end, quoted)
 
 
 def _in_quotes(text: str, position: int) -> tuple[str, int]:
-    """Return what stands in quotes from `position` on, and where it goes on after them."""
+    """Return the quoted value that begins at `position`, and the position after its quotes."""
     parts: list[str] = []
     while True:
         end = text.find('"', position)

@@ -1,4 +1,4 @@
-"""The teacher's own files that are filled in: read, and their columns found, before anything runs."""
+"""Reads the instructor's worksheet and gradebook before the marking, and finds their columns."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from grader.batch.systems.canvas.write import CanvasGradebook
     from grader.batch.systems.moodle.worksheet import Worksheet
 
-MOST_INPUT = 50_000_000  # bytes of a file of the teacher's
+MOST_INPUT = 50_000_000  # bytes of one file
 
 
 @dataclass(frozen=True)
-class Sheets:
-    """The teacher's own files that are filled in, and the names of their columns."""
+class SheetOptions:
+    """The instructor's files that are filled in, and the names of their columns."""
 
     worksheet: Path | None = None
     canvas: Path | None = None
@@ -35,7 +35,7 @@ class Sheets:
 
 @dataclass(frozen=True)
 class OpenSheets:
-    """The files as they were read before the marking; `digest` is the hash of their contents."""
+    """The files as read before the marking; `digest` is the hash of their contents."""
 
     worksheet: Worksheet | None = None
     canvas: CanvasGradebook | None = None
@@ -43,16 +43,16 @@ class OpenSheets:
 
     @property
     def rosters(self) -> list[Roster]:
-        """What the files tell of the class, the one first that tells more."""
+        """The rosters in the files, the more detailed one first."""
         return [sheet.roster for sheet in self._sheets]
 
     @property
     def notes(self) -> list[str]:
-        """What the instructor should know about the files."""
+        """Notes about the files for the instructor."""
         return [note for sheet in self._sheets for note in sheet.notes]
 
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
-        """Return of whom a file knows a submission or a grade, by key."""
+        """Return the students whose submission or grade is in a file, by key."""
         found: dict[str, Elsewhere] = {}
         for sheet in self._sheets:
             found |= sheet.elsewhere(students, system)
@@ -63,7 +63,7 @@ class OpenSheets:
         return [one for sheet in self._sheets for one in sheet.lowered(result)]
 
     def covered(self, students: Sequence[Student], system: System) -> Iterator[OnRoster]:
-        """Yield how many of those who handed in have a row in each file."""
+        """Yield for each file how many of the students have a row in it."""
         for sheet in self._sheets:
             rows = sheet.match(students, system).rows
             strangers = tuple(one.name for one in students if one.key not in rows)
@@ -75,9 +75,9 @@ class OpenSheets:
         return [sheet for sheet in (self.worksheet, self.canvas) if sheet is not None]
 
 
-def open_sheets(sheets: Sheets, assignment: Assignment) -> OpenSheets:
-    """Read the files and find their columns; UsageError for one that cannot be filled in."""
-    # each brings a library or templates that a class without these files does not need
+def open_sheets(sheets: SheetOptions, assignment: Assignment) -> OpenSheets:
+    """Read the files and find their columns; raise UsageError if one cannot be filled in."""
+    # slow to import, and not needed by a class without these files
     from grader.batch.systems.canvas.write import read_gradebook  # noqa: PLC0415
     from grader.batch.systems.moodle.worksheet import read_worksheet  # noqa: PLC0415
 
@@ -107,5 +107,7 @@ def _content(path: Path) -> bytes:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise UsageError(f"{path} cannot be read: {reason}") from None
     if len(content) > MOST_INPUT:
-        raise UsageError(f"{path} is too large for a list of grades")
+        raise UsageError(
+            f"{path} is too large for a gradebook: more than {MOST_INPUT // 1_000_000} MB"
+        )
     return content

@@ -1,8 +1,8 @@
-"""The archive of a whole class, unpacked once below a folder of ours.
+"""Unpacks the archive of a whole class once, below the grader's own folder.
 
-What is in it comes from strangers: no name leads out, no link, device or pipe is made, and nothing
-is larger than one student's work can be. What breaks a rule is left out and told, and costs nobody
-else anything. The students' own archives stay as they are.
+Its content is untrusted: no name leads out of the folder, no link, device or pipe is created, and
+the size of each student's files is limited. A member that breaks a rule is left out with a remark
+and affects no other student. The students' own archives are not unpacked.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ from typing import IO
 
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.shown import shown
-from grader.batch.unpack_members import CLASS_LIMITS, Writing
+from grader.batch.unpack_members import CLASS_LIMITS, ClassWriter
 from grader.package.intake.archive import members_of, parsing
 from grader.package.intake.archive_kind import HEAD, kind_of
 from grader.package.intake.archive_limits import Spent
 from grader.package.intake.archive_problems import ArchiveError
 from grader.package.intake.reading import Unread, open_file
 
-FORM = 1  # of what is written beside the files; another number is unpacked anew
+FORM = 1  # of unpacked.json; a folder with another form is unpacked again
 CHUNK = 1_000_000
 
 
 @dataclass(frozen=True)
 class Unpacked:
-    """Where the class is now. `remarks` are pairs of a path in it and what is to be said of it."""
+    """The unpacked class; `remarks` are pairs of a path in it and a remark."""
 
     folder: Path
     remarks: tuple[tuple[str, str], ...] = ()
@@ -41,10 +41,10 @@ class Unpacked:
 
 
 def unpack_class(path: Path, root: Path) -> Unpacked:
-    """Unpack an archive below `root`, in a folder named by its content; done before, found again.
+    """Unpack an archive below `root` into a folder named by its hash, unless that exists.
 
-    Raises UsageError for what is no archive or is damaged as a whole, SurroundingsError where it
-    cannot be written.
+    Raises UsageError if it is not an archive or is damaged as a whole, SurroundingsError if the
+    folder cannot be written.
     """
     opened = open_file(path)
     if isinstance(opened, Unread):
@@ -54,12 +54,12 @@ def unpack_class(path: Path, root: Path) -> Unpacked:
         target = root / digest
         try:
             root.mkdir(parents=True, exist_ok=True, mode=0o700)
-            with _alone(root / f".{digest}.lock"):
-                return _found(target) or _made(file, path, target)
+            with _locked(root / f".{digest}.lock"):
+                return _existing(target) or _unpacked(file, path, target)
         except OSError as error:
             raise SurroundingsError(
                 f"the class cannot be unpacked into {shown(str(root))}: {error.strerror}",
-                remedy="Make room there, or choose another folder with --out.",
+                remedy="Free some space, or choose another folder with --out.",
             ) from None
 
 
@@ -72,8 +72,8 @@ def _digest(file: IO[bytes]) -> str:
 
 
 @contextmanager
-def _alone(path: Path) -> Iterator[None]:
-    """Let one process in at a time; the lock of one that was killed is free."""
+def _locked(path: Path) -> Iterator[None]:
+    """Hold an exclusive lock; the kernel releases it if the process is killed."""
     handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX)
@@ -82,56 +82,56 @@ def _alone(path: Path) -> Iterator[None]:
         os.close(handle)
 
 
-def _found(target: Path) -> Unpacked | None:
+def _existing(target: Path) -> Unpacked | None:
     try:
-        told = json.loads((target / "unpacked.json").read_text())
-        if told["form"] != FORM or not (target / "class").is_dir():
+        found = json.loads((target / "unpacked.json").read_text())
+        if found["form"] != FORM or not (target / "class").is_dir():
             return None
-        remarks = tuple((str(where), str(what)) for where, what in told["remarks"])
-        return Unpacked(target / "class", remarks, bool(told["modes_recorded"]))
+        remarks = tuple((str(where), str(what)) for where, what in found["remarks"])
+        return Unpacked(target / "class", remarks, bool(found["modes_recorded"]))
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
-def _made(file: IO[bytes], path: Path, target: Path) -> Unpacked:
-    """Unpack beside the target, and give it the name when all of it is there."""
+def _unpacked(file: IO[bytes], path: Path, target: Path) -> Unpacked:
+    """Unpack into a temporary folder, and rename it to the target when it is complete."""
     building = target.with_name(f".{target.name}.part")
-    for left in (building, target):  # of a run that was killed, or of an older form
+    for left in (building, target):  # from a run that was killed, or of an older form
         shutil.rmtree(left, ignore_errors=True)
-    building.mkdir(mode=0o700)  # nobody else's to read, whatever lies in it
+    building.mkdir(mode=0o700)  # the files are for the instructor only
     (building / "class").mkdir()
     try:
-        writing = Writing(building / "class")
-        _read_into(writing, file, path)
-        told = {
+        writer = ClassWriter(building / "class")
+        _read_into(writer, file, path)
+        description = {
             "form": FORM,
-            "remarks": writing.remarks,
-            "modes_recorded": writing.modes_recorded,
+            "remarks": writer.remarks,
+            "modes_recorded": writer.modes_recorded,
         }
-        (building / "unpacked.json").write_text(json.dumps(told))
+        (building / "unpacked.json").write_text(json.dumps(description))
         building.rename(target)
     finally:
         shutil.rmtree(building, ignore_errors=True)
-    return Unpacked(target / "class", tuple(writing.remarks), writing.modes_recorded)
+    return Unpacked(target / "class", tuple(writer.remarks), writer.modes_recorded)
 
 
-def _read_into(writing: Writing, file: IO[bytes], path: Path) -> None:
+def _read_into(writer: ClassWriter, file: IO[bytes], path: Path) -> None:
     kind = kind_of(file.read(HEAD))
     file.seek(0)
     name = shown(path.name)
     if kind is None:
         raise UsageError(
-            f"{shown(str(path))} is a file, and neither a folder nor an archive",
-            remedy="Give the folder of all submissions, or the zip that the course's system made.",
+            f"{shown(str(path))} is neither a folder nor an archive",
+            remedy="Give the folder of all submissions, or the archive that was downloaded.",
         )
     try:
         with parsing(path.name):
             for member in members_of(file, kind, path.name, Spent(CLASS_LIMITS)):
-                writing.add(member)
-        if writing.locked is not None:
-            raise writing.locked
+                writer.add(member)
+        if writer.locked is not None:
+            raise writer.locked
     except ArchiveError as error:
         raise UsageError(
-            f"the class' archive cannot be unpacked. {error.problem.text}",
+            f"the class archive cannot be unpacked. {error.problem.text}",
             remedy=f"Download {name} again, or unpack it yourself and give the folder.",
         ) from None

@@ -1,4 +1,4 @@
-"""Members of a class' archive, written to the disk one by one: what may be, and why not the rest."""
+"""Writes the members of a class archive to the disk, with a remark for each that is left out."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from grader.package.intake.archive_problems import ENCRYPTED, ArchiveError, too_
 from grader.package.intake.reading import MEGABYTE
 
 MOST_REMARKS = 2_000
-OURS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO)
+DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO)
 CLASS_LIMITS = ArchiveLimits(
     packed=50_000 * MEGABYTE,
     unpacked=50_000 * MEGABYTE,
-    # (a zip of text may well be small; what one student may have is limited below)
+    # (a zip of text can be very small; each student's share is limited below)
     ratio=1_000,
     ratio_from=2_000 * MEGABYTE,
     members=1_000_000,
@@ -31,29 +31,29 @@ CLASS_LIMITS = ArchiveLimits(
 )
 ONE_STUDENT = ArchiveLimits()
 NOT_UNPACKED = "not unpacked"
-LEADS_OUT = f"{NOT_UNPACKED}, as its name leads out of the archive"
-IS_LINK = f"{NOT_UNPACKED}, as it is a link"
-SPECIAL = f"{NOT_UNPACKED}, as it is neither a file nor a folder"
-TOO_LARGE = f"{NOT_UNPACKED}, as it is larger than {ONE_STUDENT.packed // MEGABYTE} MB"
+LEADS_OUT = f"{NOT_UNPACKED}: its name leads out of the archive"
+IS_LINK = f"{NOT_UNPACKED}: it is a link"
+SPECIAL = f"{NOT_UNPACKED}: it is neither a file nor a folder"
+TOO_LARGE = f"{NOT_UNPACKED}: it is larger than {ONE_STUDENT.packed // MEGABYTE} MB"
 TOO_MUCH = (
-    f"{NOT_UNPACKED}, as there are more than {ONE_STUDENT.unpacked // MEGABYTE} MB or "
-    f"{ONE_STUDENT.members:,} files beside it"
+    f"{NOT_UNPACKED}: its folder has more than {ONE_STUDENT.unpacked // MEGABYTE} MB or "
+    f"{ONE_STUDENT.members:,} files"
 )
-NO_SOURCE = f"{NOT_UNPACKED}, as a hard link to what is not in the archive before it"
-NO_PLACE = f"{NOT_UNPACKED}, as it has no place beside the other names, or too long a name"
-LOCKED = f"{NOT_UNPACKED}, as it is locked with a password"
-DAMAGED = f"{NOT_UNPACKED} to its end, as it is damaged"
+NO_SOURCE = f"{NOT_UNPACKED}: it is a hard link to a file that does not precede it"
+NO_PLACE = f"{NOT_UNPACKED}: its name is too long, or in conflict with another one"
+LOCKED = f"{NOT_UNPACKED}: it is locked with a password"
+DAMAGED = f"{NOT_UNPACKED}: it is damaged"
 
 
-class Writing:
-    """The class' folder while it is filled."""
+class ClassWriter:
+    """Fills the class folder and collects remarks."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
         self.remarks: list[tuple[str, str]] = []
         self.modes_recorded = True
         self.locked: ArchiveError | None = None
-        """What the first locked file raised, as long as there is no file that is not locked."""
+        """The error of the first locked file, None once a file that is not locked was written."""
         self._filled = False
         self._total = 0
         self._folders: set[Path] = set()
@@ -61,7 +61,7 @@ class Writing:
         self._files: Counter[str] = Counter()
 
     def add(self, member: Member) -> None:
-        """Write one member, or say why not."""
+        """Write one member, or add a remark why not."""
         path = inside(member.name.replace("\0", "\ufffd"))
         if path is None:
             self._remark(member.name, LEADS_OUT)
@@ -83,7 +83,7 @@ class Writing:
             self.remarks.append((path, what))
 
     def _is_too_much(self, path: str, size: int) -> bool:
-        """Count what lies together: a student's folder is at the top, or one below."""
+        """Count a member; a student's folder is at the top level, or one below."""
         self._total += size
         if self._total > CLASS_LIMITS.unpacked:
             most = f"{CLASS_LIMITS.unpacked / 1e9:g} GB"
@@ -100,7 +100,7 @@ class Writing:
         try:
             self._write(path, member)
         except OSError as error:
-            if error.errno in OURS:
+            if error.errno in DISK_ERRORS:
                 raise
             self._remark(path, NO_PLACE)
         except UnicodeEncodeError:
@@ -135,7 +135,7 @@ class Writing:
             self._remark(path, why)
 
     def _fill(self, out: IO[bytes], member: Member) -> str:
-        """Write a file's bytes; return what is wrong with them, "" if nothing is."""
+        """Write a file's bytes; return a remark if that fails, or ""."""
         try:
             for chunk in member.chunks():
                 out.write(chunk)
@@ -146,7 +146,7 @@ class Writing:
             return f"{NOT_UNPACKED}. {error.problem.text}"
         except OSError:
             raise
-        except Exception as error:  # whatever a parser raises over the bytes of a stranger
+        except Exception as error:  # whatever a parser raises for untrusted bytes
             return f"{DAMAGED} ({shown(str(error))})"
         self._filled, self.locked = True, None
         return ""

@@ -1,4 +1,4 @@
-"""Instants, durations and states in the words of the page."""
+"""Instants, durations and states as texts for people."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ SYSTEMS: dict[System, str] = {
     "gradescope": "Gradescope",
     "github_classroom": "GitHub Classroom",
 }
-# a sign for each state of a check, so that colour never tells it alone
+# a sign for each state of a check: colour is never the only difference
 SIGNS = {"passed": "✓", "failed": "✗", "skipped": "–", "inconclusive": "?", "error": "!"}
 
 
 def instant(value: datetime | None) -> str:
-    """Return an instant in UTC to the minute; "" for none. One without a zone is UTC already."""
+    """Return an instant in UTC to the minute, "" for None; without a zone it is taken as UTC."""
     if value is None:
         return ""
     zoned = value if value.tzinfo else value.replace(tzinfo=timezone.utc)
@@ -44,7 +44,7 @@ def instant(value: datetime | None) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Return a duration in its two greatest units: 4.2 s, 12 min, 2 h 10 min, 3 d 4 h."""
+    """Return a duration in its two largest units: 4.2 s, 12 min, 2 h 10 min, 3 d 4 h."""
     if seconds < MINUTE:
         return say("{count} s", count=f"{seconds:.1f}")
     for (unit, words), (less, less_words) in zip(UNITS, UNITS[1:]):

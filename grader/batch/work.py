@@ -1,7 +1,7 @@
-"""What goes to whoever marks, and what comes back: text, so that any machine may do it.
+"""The messages between a class run and its workers: jobs, tasks and answers, as lines of JSON.
 
-The submission goes as it was taken in, with its contents: what is marked is what was hashed, also
-where the folder has changed meanwhile.
+A task carries the submission with its contents, so that a worker marks what was hashed, even if the
+folder has changed in the meantime.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ import json
 import time
 import traceback
 from collections.abc import Callable, Generator, Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Protocol
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import joined
 from grader.base.i18n.translator import Translator
 from grader.base.unheard import unheard
-from grader.batch.submission_text import from_text, to_text
+from grader.batch.submission_json import submission_from_json, submission_json
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.report.model import Report
@@ -26,13 +26,13 @@ from grader.sandbox.limits import Limits
 from grader.verdict.mark import mark
 from grader.verdict.order import Order
 
-TRIES = 3  # how often a submission is marked where our own side fails
-MARGIN_SECONDS = 60.0  # beyond a verdict's ceiling, before its worker counts as hung
+TRIES = 3  # at most, if the grader itself fails on a submission
+MARGIN_SECONDS = 60.0  # on top of a verdict's time limit, before its worker counts as hung
 
 
 @dataclass(frozen=True)
 class Job:
-    """What is the same for a whole class."""
+    """What is the same for all submissions of a class."""
 
     assignment: Assignment
     distro: str
@@ -42,7 +42,7 @@ class Job:
 
     @property
     def seconds(self) -> float:
-        """Wall time in which one submission is done, whatever it does, or its worker hangs."""
+        """The wall time after which the worker that marks a submission counts as hung."""
         return self.limits.verdict_seconds + MARGIN_SECONDS
 
     def to_text(self) -> str:
@@ -62,7 +62,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Task:
-    """One submission to mark: whose it is, and the key that its verdict will have."""
+    """One submission to mark: its student, and the key that its verdict will have."""
 
     student: str
     name: str
@@ -73,18 +73,18 @@ class Task:
     def to_text(self) -> str:
         """Return it as JSON on one line."""
         who = {"student": self.student, "name": self.name, "student_id": self.student_id}
-        return json.dumps({**who, "key": self.key, "submission": to_text(self.submission)})
+        return json.dumps({**who, "key": self.key, "submission": submission_json(self.submission)})
 
     @classmethod
     def from_text(cls, text: str) -> Task:
         """Return what `to_text` wrote."""
         found = json.loads(text)
-        return cls(**{**found, "submission": from_text(found["submission"])})
+        return cls(**{**found, "submission": submission_from_json(found["submission"])})
 
 
 @dataclass(frozen=True)
 class Answer:
-    """A report, or the reason why our own side failed to make one; `seconds` is what it took."""
+    """A report, or why the grader failed to make one; `seconds` is the time that it took."""
 
     report: Report | None = None
     fault: str = ""
@@ -102,21 +102,21 @@ class Answer:
         try:
             report, fault, seconds = found["report"], str(found["fault"]), float(found["seconds"])
         except (KeyError, TypeError) as error:
-            raise ValueError("this is no answer") from error
+            raise ValueError("not an answer") from error
         return cls(Report.model_validate_json(report) if report else None, fault, seconds)
 
     @property
-    def doubtful(self) -> bool:
-        """Whether another try may know more: our side failed, or kept points from being known.
+    def worth_retrying(self) -> bool:
+        """Whether another try may yield more: the grader failed, or left checks inconclusive.
 
-        What met a limit of its own meets it again: that was the submission, and not our side.
+        A submission that ran into one of its limits would do so again: it is not retried.
         """
         if self.report is None:
             return True
         return self.report.inconclusive > 0 and not self.report.met_a_limit
 
     def better(self, other: Answer | None) -> Answer:
-        """Return which of two tries knows more: this one unless the other does."""
+        """Return the answer that knows more, this one if both know the same."""
         if other is None or other.report is None:
             return self
         if self.report is None or other.report.inconclusive < self.report.inconclusive:
@@ -126,32 +126,61 @@ class Answer:
 
 @dataclass(frozen=True)
 class Done:
-    """A task with its answer, after so many tries."""
+    """A finished task with its answer, and how many tries it took."""
 
     task: Task
     answer: Answer
     tries: int = 1
 
 
+@dataclass(eq=False)
+class Trial:
+    """A task with its tries so far and the best answer; only the grader's own failures are retried.
+
+    `most` is the time limit of one try in seconds: once the tries together have taken longer, there
+    is no further one.
+    """
+
+    task: Task
+    most: float
+    tries: int = 0
+    spent: float = 0
+    best: Answer | None = None
+
+    def add(self, answer: Answer) -> Done | None:
+        """Count an answer; return the finished task, or None if it is to be tried again."""
+        self.best = answer.better(self.best)
+        self.spent += answer.seconds
+        if self.best.worth_retrying and self.tries < TRIES and self.spent <= self.most:
+            return None
+        return Done(self.task, self._with_attempts(self.best), self.tries)
+
+    def _with_attempts(self, best: Answer) -> Answer:
+        """Return the answer with the number of tries in its report."""
+        if best.report is None:
+            return best
+        return replace(best, report=best.report.model_copy(update={"attempts": self.tries}))
+
+
 class Pool(Protocol):
-    """Whoever marks many submissions at once."""
+    """Marks many submissions at once."""
 
     def run(
         self, tasks: Iterable[Task], *, started: Callable[[Task], None]
     ) -> Generator[Done, None, None]:
-        """Mark them and yield each when it is done; tasks are taken as they can be begun.
+        """Mark the tasks and yield each when it is done; a task is taken once it can start.
 
         Closing the generator ends everything that was started.
         """
         ...
 
     def prove(self) -> None:
-        """Raise SurroundingsError if it is our side that fails, and not the submissions."""
+        """Raise SurroundingsError if the sandbox fails without any submission."""
         ...
 
 
-def answer(job: Job, task: Task) -> Answer:
-    """Mark one submission here; whatever goes wrong on our side is in the answer."""
+def mark_task(job: Job, task: Task) -> Answer:
+    """Mark one submission in this process; a failure of the grader is part of the answer."""
     submission = task.submission
     begin = time.monotonic()
     order = Order(
@@ -166,10 +195,10 @@ def answer(job: Job, task: Task) -> Answer:
     )
     report, fault = None, ""
     try:
-        # the steps of one verdict are not reported: many run at once
+        # no progress of single verdicts: many run at once
         report = mark(submission, order, unheard)
     except GraderError as error:
         fault = Translator(job.lang)(joined(error.message, error.remedy, by="\n"))
-    except Exception:  # a fault of ours must cost nobody but this one submission
+    except Exception:  # a failure of the grader must not stop the other submissions
         fault = traceback.format_exc(limit=-6)
     return Answer(report, fault, time.monotonic() - begin)

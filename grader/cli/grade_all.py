@@ -104,7 +104,7 @@ def grade_all(
     # imported here to keep --help fast
     from grader.batch.accept import accepted  # noqa: PLC0415
     from grader.batch.override import LEDGER  # noqa: PLC0415
-    from grader.batch.sheets import Sheets  # noqa: PLC0415
+    from grader.batch.sheets import SheetOptions  # noqa: PLC0415
     from grader.publish import class_run as run  # noqa: PLC0415
     from grader.verdict.order import make_orders  # noqa: PLC0415
 
@@ -116,7 +116,7 @@ def grade_all(
             remedy="Run the command once for each, with its own --out.",
         )
     out = out or Path("reports") / (path.resolve().stem or "class")
-    sheets = Sheets(
+    sheets = SheetOptions(
         worksheet=worksheet,
         canvas=canvas,
         canvas_column=canvas_column,

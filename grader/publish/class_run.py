@@ -16,14 +16,14 @@ from grader.base.gate import gate, show
 from grader.base.plain_text import one_line
 from grader.base.stream import takes_styles, width_of
 from grader.batch import run
-from grader.batch.beforehand import GRADEBOOK, look_beforehand
+from grader.batch.find_student import find_student
+from grader.batch.inputs import GRADEBOOK, read_inputs
 from grader.batch.ledger import Ledger
 from grader.batch.local_pool import LocalPool
 from grader.batch.model import ClassFolder, ClassResult
 from grader.batch.progress import ClassProgress
 from grader.batch.result import class_result
-from grader.batch.sheets import Sheets
-from grader.batch.students import find_student
+from grader.batch.sheets import SheetOptions
 from grader.batch.work import Job, Pool
 from grader.publish.class_table import changes_of, class_page, regrade_page
 from grader.publish.outputs import INDEX, Outcome, Outputs
@@ -49,7 +49,7 @@ class ClassOrder:
     students: tuple[str, ...] = ()
     workers: int = 0
     scheduler: str = ""
-    sheets: Sheets = field(default_factory=Sheets)
+    sheets: SheetOptions = field(default_factory=SheetOptions)
     accepts: frozenset[str] = frozenset()
     quiet: bool = False
 
@@ -63,7 +63,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
     """
     started = datetime.now(timezone.utc)
     order = asked.order
-    known = look_beforehand(
+    known = read_inputs(
         order.path,
         order.assignment,
         asked.sheets,
@@ -84,7 +84,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
                     count = len(plan.items if chosen is None else chosen)
                     _notify(f"a regrade would mark {count} again")
                 else:
-                    plan = run.ask_regrade(ledger, plan, chosen)
+                    plan = run.request_regrade(ledger, plan, chosen)
             _say_plan(plan)
             if dry_run:
                 for item in plan.todo:
@@ -120,7 +120,7 @@ def _say_ended(ended: KeyboardInterrupt | SurroundingsError, written: Outcome) -
 
 
 def _result(
-    asked: ClassOrder, ledger: Ledger, folder: ClassFolder, plan: run.Plan, started: datetime
+    asked: ClassOrder, ledger: Ledger, folder: ClassFolder, plan: run.ClassPlan, started: datetime
 ) -> ClassResult:
     """Return the result of the class as the ledger has it now."""
     return class_result(
@@ -136,11 +136,11 @@ def _result(
 
 
 @contextlib.contextmanager
-def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
+def _marking(asked: ClassOrder) -> Iterator[tuple[run.MarkingSetting, Pool]]:
     """Open what marks: workers on this machine, or those of a cluster."""
     order = asked.order
     if not asked.scheduler:
-        setting = run.prove(order, notify=_notify)
+        setting = run.prepare(order, notify=_notify)
         cores = run.cores_here()
         most = asked.workers or MOST_A_CORE * cores
         yield setting, LocalPool(setting.job, asked.workers or cores, most=most)
@@ -149,7 +149,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
 
     job = Job(order.assignment, order.distro.name, order.sandbox, order.limits, order.lang)
     with Cluster(asked.scheduler, job, notify=_notify) as cluster:
-        setting = run.Setting(
+        setting = run.MarkingSetting(
             assignment=order.assignment,
             distro=order.distro,
             limits=order.limits,
@@ -160,7 +160,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.Setting, Pool]]:
         yield setting, cluster
 
 
-def _chosen(words: Sequence[str], plan: run.Plan) -> list[str]:
+def _chosen(words: Sequence[str], plan: run.ClassPlan) -> list[str]:
     """Return the keys of the students who are to be marked again."""
     students = {item.student: item.handed_in.student for item in plan.items}
     return [find_student(word, list(students.values())).key for word in words]
@@ -182,14 +182,14 @@ def _status(result: ClassResult) -> int:
     return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
 
 
-def _say_plan(plan: run.Plan) -> None:
+def _say_plan(plan: run.ClassPlan) -> None:
     again = sum((item.student, item.key) in plan.regrades for item in plan.todo)
     words = f"{len(plan.todo)} to mark" + (f" ({again} again)" if again else "")
     _notify(f"{words}, {plan.marked} marked before")
 
 
 def _show(
-    result: ClassResult, plan: run.Plan, ledger: Ledger, asked: ClassOrder, written: Outcome
+    result: ClassResult, plan: run.ClassPlan, ledger: Ledger, asked: ClassOrder, written: Outcome
 ) -> None:
     out = sys.stdout
     width, styled = width_of(out), takes_styles(out)

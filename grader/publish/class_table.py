@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.base.plain_text import one_line, points
-from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import Regrade
-from grader.batch.model import ClassResult, Entry
+from grader.batch.ledger import Ledger, Regrade
+from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
 from grader.report.model import Report
 from grader.report.page import Page
@@ -105,7 +104,7 @@ def _passed(report: Report) -> set[str]:
     return {check.id for check in report.checks if check.status == "passed"}
 
 
-def _row(entry: Entry) -> list[tuple[str, str]]:
+def _row(entry: GradebookEntry) -> list[tuple[str, str]]:
     name = one_line(entry.student.name or entry.student.key, most=40)
     score = "-" if entry.score is None else f"{points(entry.score)} / {points(entry.max_score)}"
     final = "-" if entry.final is None else points(entry.final)
@@ -113,7 +112,7 @@ def _row(entry: Entry) -> list[tuple[str, str]]:
     return [(name, style), (score, ""), (final, "bold"), (_reason(entry), style)]
 
 
-def _reason(entry: Entry) -> str:
+def _reason(entry: GradebookEntry) -> str:
     if entry.status == "elsewhere":
         return one_line("; ".join(entry.notes), most=120)
     if entry.status == "error":
@@ -132,7 +131,7 @@ def _names(names: Sequence[str]) -> str:
     return ", ".join([*shown, f"{more} more"] if more > 0 else shown)
 
 
-def _totals(entries: Sequence[Entry]) -> str:
+def _totals(entries: Sequence[GradebookEntry]) -> str:
     count = Counter[str](entry.status for entry in entries)
     full = sum(1 for e in entries if e.report is not None and e.report.all_passed)
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]

@@ -13,7 +13,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import LANGUAGES, Translator
 from grader.base.plain_text import one_line
 from grader.batch.cells import number
-from grader.batch.model import Entry
+from grader.batch.model import GradebookEntry
 from grader.batch.words import STATES
 from grader.publish.pages.render import Renderer
 from grader.publish.pages.student import FOLDER, KEY, CheckView, StudentView, student_view
@@ -27,7 +27,7 @@ MOST = 300  # characters of one text in the short form
 MOST_CHECKS = 40
 
 
-def feedback_view(entry: Entry, *, show_hidden: bool) -> StudentView:
+def feedback_view(entry: GradebookEntry, *, show_hidden: bool) -> StudentView:
     """Return the view for a student's page, without the facts meant for the instructor only."""
     view = student_view(entry, show_hidden=show_hidden, lang=entry.lang)
     excluded = [Translator(entry.lang)(name) for name in INSTRUCTOR_FACTS]
@@ -35,7 +35,7 @@ def feedback_view(entry: Entry, *, show_hidden: bool) -> StudentView:
     return replace(view, facts=facts, details=())
 
 
-def headline(entry: Entry) -> str:
+def headline(entry: GradebookEntry) -> str:
     """Return the result in a few words: `85 of 100 points`, or why there are none."""
     text = say("No points yet")
     if entry.final is not None:
@@ -70,7 +70,7 @@ def mark_of(one: CheckView, lang: str) -> str:
     return Translator(lang)(joined(state, given, by=", "))
 
 
-def short_html(entry: Entry, *, show_hidden: bool) -> str:
+def short_html(entry: GradebookEntry, *, show_hidden: bool) -> str:
     """Return the feedback as short HTML without line breaks or quotation marks.
 
     Moodle keeps comments as HTML, and PHP's CSV reader treats a backslash before a quotation
@@ -103,7 +103,7 @@ def _skipped(count: int) -> str:
     return say("{count} checks skipped because of these", count=count) if count else ""
 
 
-def html_page(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
+def html_page(entry: GradebookEntry, title: str, *, show_hidden: bool) -> bytes:
     """Return the feedback as a self-contained HTML page that makes no requests."""
     view = feedback_view(entry, show_hidden=show_hidden)
     translate = Translator(entry.lang)

@@ -9,7 +9,7 @@ from datetime import datetime, timezone
 
 from grader.base.plain_text import points
 from grader.batch import cells
-from grader.batch.model import ClassResult, Entry
+from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
 
 BEFORE = (
@@ -54,7 +54,7 @@ def check_ids(result: ClassResult) -> list[str]:
     return list(dict.fromkeys(c.id for report in reports if report for c in report.checks))
 
 
-def _row(entry: Entry, checks: Sequence[str]) -> list[str]:
+def _row(entry: GradebookEntry, checks: Sequence[str]) -> list[str]:
     student = entry.student
     given = {mark.check.id: mark.points for mark in marks(entry)}
     who = (
@@ -88,12 +88,12 @@ def _instant(value: datetime | None) -> str:
     return zoned.astimezone(timezone.utc).isoformat(timespec="seconds")
 
 
-def _mistakes(entry: Entry) -> str:
+def _mistakes(entry: GradebookEntry) -> str:
     found = [m.id for mark in marks(entry) for m in mark.check.mistakes]
     return " ".join(dict.fromkeys(found))
 
 
-def _notes(entry: Entry) -> list[str]:
+def _notes(entry: GradebookEntry) -> list[str]:
     notes = [entry.problem, *entry.notes]
     for override in entry.overrides:
         by = f" by {override.by}" if override.by else ""

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from grader.base.folder import Folder
-from grader.batch.model import ClassResult, Entry
+from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.sheet import Filled
 from grader.batch.systems.canvas.write import CanvasGradebook, new_gradebook
 from grader.batch.systems.moodle.gradebook_import import moodle_import
@@ -89,7 +89,7 @@ def _feedback(
         yield f"{page.removesuffix('.html')}.md", text
 
 
-def _markdown(entry: Entry, title: str, *, show_hidden: bool) -> bytes:
+def _markdown(entry: GradebookEntry, title: str, *, show_hidden: bool) -> bytes:
     return markdown(entry, title, show_hidden=show_hidden).encode()
 
 

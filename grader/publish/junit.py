@@ -14,8 +14,8 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, one_line, points
 from grader.batch.check_text import check_text, headline
-from grader.batch.model import ClassResult, Entry
-from grader.batch.points import Mark, marks, single, steps
+from grader.batch.model import ClassResult, GradebookEntry
+from grader.batch.points import Mark, adjustments, marks, single
 from grader.report.model import Report
 
 SUBMISSION = "submission"  # the test case of a submission that could not be marked
@@ -39,7 +39,7 @@ def class_xml(result: ClassResult) -> bytes:
     return _document(result.title or result.assignment, result.entries)
 
 
-def _document(title: str, entries: Sequence[Entry]) -> bytes:
+def _document(title: str, entries: Sequence[GradebookEntry]) -> bytes:
     """Return the document; suites are serialised one by one, to keep the tree small."""
     totals = dict.fromkeys(COUNTS, 0)
     suites = []
@@ -58,7 +58,7 @@ def _document(title: str, entries: Sequence[Entry]) -> bytes:
     return opened.replace(CLOSED, b"".join(suites) + CLOSED) + b"\n"
 
 
-def _suite(entry: Entry) -> ET.Element:
+def _suite(entry: GradebookEntry) -> ET.Element:
     report, student = entry.report, entry.student
     suite = ET.Element("testsuite", name=one_line(student.key or student.name, most=MOST))
     _properties(suite, entry)
@@ -79,7 +79,7 @@ def _suite(entry: Entry) -> ET.Element:
     return suite
 
 
-def _properties(suite: ET.Element, entry: Entry) -> None:
+def _properties(suite: ET.Element, entry: GradebookEntry) -> None:
     student, translate = entry.student, Translator(entry.lang)
     found = [
         ("student", student.name),
@@ -91,7 +91,10 @@ def _properties(suite: ET.Element, entry: Entry) -> None:
         ("max_score", points(entry.max_score)),
         ("late_seconds", points(entry.late_seconds) if entry.late_seconds > 0 else ""),
         ("attempt", f"{entry.attempt} of {entry.attempts}"),
-        *(("adjusted", f"{translate(step.why)}: {points(step.points)}") for step in steps(entry)),
+        *(
+            ("adjusted", f"{translate(adjustment.why)}: {points(adjustment.points)}")
+            for adjustment in adjustments(entry)
+        ),
         *(
             ("corrected", f"{mark.check.id}: {translate(mark.correction)}")
             for mark in marks(entry)
@@ -133,7 +136,7 @@ def _check_case(suite: ET.Element, mark: Mark, report: Report) -> None:
         ET.SubElement(case, "failure", type=kinds or "failed", message=message).text = text
 
 
-def _submission_case(suite: ET.Element, entry: Entry) -> None:
+def _submission_case(suite: ET.Element, entry: GradebookEntry) -> None:
     """Add the test case of an entry without checks: ungradable, a grader error, or missing."""
     translate = Translator(entry.lang)
     case = ET.SubElement(suite, "testcase", classname=SUBMISSION, name=SUBMISSION, time="0.000")

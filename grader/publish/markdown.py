@@ -7,7 +7,7 @@ import re
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, last_lines, one_line
-from grader.batch.model import Entry
+from grader.batch.model import GradebookEntry
 from grader.publish.feedback import feedback_view, headline, hidden_words, mark_of
 from grader.publish.pages.student import CheckView
 
@@ -18,7 +18,7 @@ BACKTICKS = re.compile(r"`+")
 LOG_LINES, FIELD_LINES = 60, 30
 
 
-def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
+def markdown(entry: GradebookEntry, title: str, *, show_hidden: bool) -> str:
     """Return the feedback; hidden checks are only counted, unless `show_hidden`."""
     view = feedback_view(entry, show_hidden=show_hidden)
     student, translate = entry.student, Translator(entry.lang)

@@ -14,11 +14,11 @@ from typing import Any, Literal
 from grader.base.errors import UsageError
 from grader.base.project import PACKAGE
 from grader.batch.accept import refuse_lower
-from grader.batch.beforehand import Beforehand
-from grader.batch.keys import source_digest
+from grader.batch.inputs import ClassInputs
 from grader.batch.ledger import Ledger
-from grader.batch.model import ClassResult, Entry
-from grader.batch.sheets import Sheets
+from grader.batch.model import ClassResult, GradebookEntry
+from grader.batch.sheets import SheetOptions
+from grader.batch.verdict_key import source_digest
 
 INDEX = "index.html"
 CLASS_FOLDERS = ("students", "feedback", "unpacked")
@@ -40,15 +40,15 @@ class Outputs:
     """
 
     out: Path
-    sheets: Sheets
-    known: Beforehand
+    sheets: SheetOptions
+    known: ClassInputs
     ledger: Ledger
     accepts: frozenset[str] = frozenset()
 
     @property
     def can_lower(self) -> bool:
         """Whether there are grades yet that could go down."""
-        return bool(self.known.before.rows or self.known.sheets.rosters)
+        return bool(self.known.gradebook.rows or self.known.sheets.rosters)
 
     def refuse_lower(
         self, result: ClassResult, *, but: Collection[str] = (), marked: bool = False
@@ -60,7 +60,7 @@ class Outputs:
         """
         noted = self._noted().get("at")
         corrected = self.ledger.corrected_since(datetime.fromisoformat(noted)) if noted else set()
-        found = [*self.known.sheets.lowered(result), *self.known.before.lowered(result)]
+        found = [*self.known.sheets.lowered(result), *self.known.gradebook.lowered(result)]
         rest = [one for one in found if one.key not in corrected and one.key not in but]
         refuse_lower(rest, self.accepts, marked=marked)
 
@@ -130,7 +130,7 @@ class Outputs:
         return hashlib.sha256(text).hexdigest()
 
 
-def _write_report(entry: Entry, out: Path) -> list[Path]:
+def _write_report(entry: GradebookEntry, out: Path) -> list[Path]:
     from grader.report.files import write_report  # noqa: PLC0415
 
     report = entry.report

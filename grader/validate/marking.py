@@ -11,7 +11,7 @@ from pathlib import Path
 
 from grader.base.unheard import unheard
 from grader.batch.local_pool import LocalPool
-from grader.batch.run import cores_here, prove
+from grader.batch.run import cores_here, prepare
 from grader.batch.work import Done, Task
 from grader.package.submission import Submission, take_in
 from grader.publish.class_run import MOST_A_CORE
@@ -85,7 +85,7 @@ def mark_all(
     `workers`: how many at once (0: as a class is marked). Raises SurroundingsError if no sandbox
     can be opened.
     """
-    job = prove(order, notify=unheard).job
+    job = prepare(order, notify=unheard).job
     cores = cores_here()
     pool = LocalPool(job, workers or cores, most=workers or MOST_A_CORE * cores)
     tasks = (Task(name, name, name, submission.sha256, submission) for name, submission in work)

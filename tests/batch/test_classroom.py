@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.batch.discover import discover
-from grader.batch.model import ClassFolder, Entry, HandedIn
+from grader.batch.model import ClassFolder, GradebookEntry, HandedIn
 from grader.batch.policy import Attempt, standing
 from grader.course.policy import Late, Policy
 from tests.report.samples import report
@@ -35,7 +35,7 @@ def grades(path: Path, **times: str) -> Path:
     return path
 
 
-def judged(given: HandedIn) -> Entry:
+def judged(given: HandedIn) -> GradebookEntry:
     """Return what a right package gets under the policy."""
     attempt = Attempt(1, given.submitted, given.late, report(), notes=given.notes)
     return standing(given.student, [attempt], [], POLICY, 100)
@@ -71,7 +71,7 @@ def test_the_time_of_a_commit_costs_nothing_and_spares_nothing(tmp_path: Path, d
     assert "sets the time of a commit" in "\n".join(found.notes)
     entry = judged(found.handed_in[0])
     assert (entry.penalty, entry.final) == (0, 100)
-    assert "not known when it was handed in" in entry.notes[-1]
+    assert "time of submission is not known" in entry.notes[-1]
 
 
 def test_the_grades_file_of_classroom_tells_who_was_late(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn
-from grader.batch.systems.words import plain
+from grader.batch.systems.notes import printable
 
 from .handed_out import NODE_PATH, PACKAGE, package, take, tarred, write, zipped
 
@@ -183,7 +183,7 @@ def test_a_system_can_be_forced(tmp_path: Path) -> None:
     assert found_in(tmp_path / "c", tmp_path).system == "moodle"
     found = found_in(tmp_path / "c", tmp_path, "folders")
     assert (found.system, keys(found)) == ("folders", ["Jane Roe_12_assignsubmission_file"])
-    assert "as was asked for" in said(found)
+    assert "as requested" in said(found)
 
 
 # exec bits
@@ -265,7 +265,7 @@ def test_no_submission_is_lost_whatever_it_is_called(
             text.encode()
     for name in made:
         gathered = any(name.endswith(part) for part in taken if part)
-        assert gathered or shown(plain(name)) in said(found) + str(found.handed_in)
+        assert gathered or shown(printable(name)) in said(found) + str(found.handed_in)
     attempts = [(given.student.key, given.attempt) for given in found.handed_in]
     assert len(attempts) == len(set(attempts))
 

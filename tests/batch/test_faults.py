@@ -13,9 +13,16 @@ from grader.batch import intake, local_pool
 from grader.batch.intake import take_in_class
 from grader.batch.ledger import Ledger
 from grader.batch.model import ClassFolder, HandedIn, Student
-from grader.batch.proof import prove
 from grader.batch.result import class_result
-from grader.batch.run import FAULTS_IN_A_ROW, Listener, Plan, Setting, carry_out, make_plan
+from grader.batch.run import (
+    FAULTS_IN_A_ROW,
+    ClassPlan,
+    Listener,
+    MarkingSetting,
+    carry_out,
+    make_plan,
+)
+from grader.batch.sandbox_proof import prove
 from grader.batch.work import Answer, Done, Job, Task
 from grader.package.submission import Submission, take_in
 from grader.publish.feedback import html_page
@@ -28,7 +35,7 @@ from grader.sandbox.limits import Limits
 from tests.batch.works import ASSIGNMENT, JOB, package
 from tests.report.samples import report
 
-SETTING = Setting(
+SETTING = MarkingSetting(
     assignment=ASSIGNMENT,
     distro=find_distro("jazzy"),
     limits=Limits(),
@@ -79,7 +86,7 @@ def a_class(folder: Path, count: int) -> ClassFolder:
     return ClassFolder("folders", folder, tuple(handed_in))
 
 
-def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> Plan:
+def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> ClassPlan:
     plan = make_plan(ledger, folder, SETTING, listener=Listener())
     carry_out(ledger, plan, SETTING, pool, listener=Listener())
     return plan
@@ -95,7 +102,7 @@ def test_what_the_grader_fails_on_is_one_students_line_and_the_class_goes_on(
     assert [entry.status for entry in result.entries] == ["error", "graded", "graded"]
     failed = result.entries[0]
     assert failed.final is None
-    assert "no fault of yours" in failed.problem
+    assert "not your fault" in failed.problem
     assert REASON in failed.notes[0]
     assert "No space left on device" in gradebook_csv(result).decode("utf-8-sig")
     assert "No space left" not in html_page(failed, "x", show_hidden=True).decode()

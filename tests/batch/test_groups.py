@@ -129,7 +129,7 @@ def test_a_member_who_handed_in_alone_too_has_two_attempts(tmp_path: Path) -> No
     assert members(found) == {class_[0].name: ["Blue_7"], class_[1].name: ["Blue_7", alone]}
     second = [given for given in found.handed_in if given.student.name == class_[1].name]
     assert [given.attempt for given in second] == [1, 2]
-    assert any("as well as with the group" in note for note in second[0].notes)
+    assert any("also handed in alone" in note for note in second[0].notes)
 
 
 def test_names_that_differ_in_capitals_alone_are_told_apart(tmp_path: Path) -> None:
@@ -155,7 +155,7 @@ def test_the_column_of_groups_is_found_in_a_language_that_is_not_known(tmp_path:
     class_ = grouped(("Sininen", 3), ("Punainen", 2))
     found = found_for(tmp_path, class_, ("Sininen", 7), ("Punainen", 8), words=FINNISH)
     assert [place for (place,) in members(found).values()] == ["Sininen_7"] * 3 + ["Punainen_8"] * 2
-    assert any("'Ryhmittely' was taken as the group" in note for note in found.notes)
+    assert any("'Ryhmittely' was used as the group" in note for note in found.notes)
 
 
 def test_folders_called_after_groups_are_their_members_too(tmp_path: Path) -> None:

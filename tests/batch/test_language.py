@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.batch.keys import surroundings_key
+from grader.batch.verdict_key import surroundings_key
 from grader.batch.work import Job
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits

@@ -14,8 +14,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import GraderError, SurroundingsError, UsageError
-from grader.batch.ledger import Ledger
-from grader.batch.ledger_rows import AlreadyMarkedError, HandedInRow
+from grader.batch.ledger import AlreadyMarkedError, HandedInRow, Ledger
 from grader.batch.model import Override, Student
 from grader.report.model import Report
 from tests.report.samples import check, report
@@ -90,11 +89,11 @@ def test_nobody_is_marked_twice_for_the_same(ledger: Ledger) -> None:
 
 def test_a_regrade_is_asked_for_once_and_done_once(ledger: Ledger) -> None:
     first = ledger.record("kim", "k1", report())
-    ledger.ask_again(ledger.verdicts().values())
-    ledger.ask_again(ledger.verdicts().values())
-    assert [again.before for again in ledger.asked_again().values()] == [first]
+    ledger.request_regrades(ledger.verdicts().values())
+    ledger.request_regrades(ledger.verdicts().values())
+    assert [again.before for again in ledger.pending_regrades().values()] == [first]
     second = ledger.record("kim", "k1", worse())
-    assert not ledger.asked_again()
+    assert not ledger.pending_regrades()
     assert ledger.verdicts()["kim", "k1"].id == second
     assert ledger.report(first) == report(), "history is kept"
     with pytest.raises(AlreadyMarkedError):
@@ -105,21 +104,21 @@ def test_a_fault_of_ours_leaves_the_verdict_before_and_the_wish_for_another(
     ledger: Ledger,
 ) -> None:
     first = ledger.record("kim", "k1", report())
-    ledger.ask_again(ledger.verdicts().values())
+    ledger.request_regrades(ledger.verdicts().values())
     ledger.record_fault("kim", "k1", "the disk was full")
     assert ledger.verdicts()["kim", "k1"].id == first
     assert ledger.fault("kim", "k1") == "the disk was full"
-    assert ledger.asked_again()
+    assert ledger.pending_regrades()
     ledger.record("kim", "k1", report())
     assert ledger.fault("kim", "k1") == "", "what went well at last is no fault any more"
 
 
 def test_what_was_handed_in_keeps_when_it_was_first_seen(ledger: Ledger) -> None:
     later = AT.replace(year=2027)
-    ledger.see(HELLO, [HandedInRow("kim", "s1", AT, None, "/a", AT)])
-    ledger.see(HELLO, [HandedInRow("kim", "s1", later, True, "/b", later)])
-    assert ledger.seen(HELLO) == [HandedInRow("kim", "s1", later, True, "/b", AT)]
-    assert ledger.seen("another") == []
+    ledger.record_handed_in(HELLO, [HandedInRow("kim", "s1", AT, None, "/a", AT)])
+    ledger.record_handed_in(HELLO, [HandedInRow("kim", "s1", later, True, "/b", later)])
+    assert ledger.handed_in(HELLO) == [HandedInRow("kim", "s1", later, True, "/b", AT)]
+    assert ledger.handed_in("another") == []
 
 
 def test_the_newest_correction_of_a_check_holds_until_it_is_taken_back(ledger: Ledger) -> None:

@@ -9,7 +9,7 @@ from zoneinfo import ZoneInfo
 
 import pytest
 
-from grader.batch.model import Entry, Override, Student
+from grader.batch.model import GradebookEntry, Override, Student
 from grader.batch.policy import Attempt, lateness, penalty, standing
 from grader.course.policy import Policy
 from tests.report.samples import check, report
@@ -115,7 +115,7 @@ def attempt(number: int, seconds: float | None, lost: Sequence[str] = (), **more
     return Attempt(number, **{**usual, **more})
 
 
-def stand(*attempts: Attempt, overrides: Sequence[Override] = (), **rules: Any) -> Entry:
+def stand(*attempts: Attempt, overrides: Sequence[Override] = (), **rules: Any) -> GradebookEntry:
     return standing(KIM, attempts, overrides, policy(**rules), 100)
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from grader.batch.local_pool import LocalPool
-from grader.batch.submission_text import from_text, to_text
+from grader.batch.submission_json import submission_from_json, submission_json
 from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
@@ -107,7 +107,7 @@ def test_what_is_no_answer_is_no_verdict(tmp_path: Path) -> None:
     pool = LocalPool(JOB, 1, command=command)
     (done,) = pool.run(tasks(tmp_path, ["solution"]), started=_unheard)
     assert done.answer.report is None
-    assert "said something else" in done.answer.fault
+    assert "sent an invalid answer" in done.answer.fault
 
 
 def test_leaving_in_the_middle_ends_every_worker_and_its_sandbox(
@@ -133,7 +133,7 @@ def test_a_submission_travels_whatever_is_in_it(tmp_path: Path) -> None:
     (strange,) = _again(tmp_path)
     assert {file.path for file in strange.submission.files} > {"bytes.bin", "link", "empty"}
     for sent in (task, strange):
-        assert from_text(to_text(sent.submission)) == sent.submission
+        assert submission_from_json(submission_json(sent.submission)) == sent.submission
         assert Task.from_text(sent.to_text()) == sent
 
 

@@ -76,7 +76,7 @@ def test_canvas_gradebook_is_read_without_its_points_and_test_student(tmp_path: 
         Student("101", "Ann Lee", "", "alee", "4711", "Lab 1"),
         Student("102", "Zoë Roe", "", "zroe", "4712", "Lab 2"),
     )
-    assert "lines that are no student's: 2, 5" in found.notes[0]
+    assert "lines without a student: 2, 5" in found.notes[0]
 
 
 def test_gradescopes_and_classrooms_rosters_are_read(tmp_path: Path) -> None:
@@ -135,7 +135,9 @@ def test_every_common_encoding_is_read(
 def test_excels_own_first_line_is_passed_over(tmp_path: Path) -> None:
     found = roster(tmp_path, "sep=;\nname;email\nAnn Lee;a@b.c\n")
     assert found.students == (Student("a@b.c", "Ann Lee", "a@b.c"),)
-    with pytest.raises(UsageError, match=r"roster.csv:4: the email address 'A@b.c' is in line 3"):
+    with pytest.raises(
+        UsageError, match=r"roster.csv:4: the email address 'A@b.c' is also in line 3"
+    ):
         roster(tmp_path, "sep=;\nname;email\nAnn Lee;a@b.c\nJoe;A@b.c\n")
 
 
@@ -143,14 +145,20 @@ def test_excels_own_first_line_is_passed_over(tmp_path: Path) -> None:
     ("content", "message"),
     [
         ("", "is empty"),
-        ("name,email\n", r"roster.csv:1: there is no student"),
+        ("name,email\n", r"roster.csv:1: there are no students"),
         ("nmae,grade\nAnn,5\n", r"roster.csv:1: no column .*'nmae'.*did you mean 'name'"),
-        ("a,b\n1,2\n", r"roster.csv:1: no column tells who a student is: 'a', 'b'"),
-        ('name,id\nAnn,1\n\n"J\noe",2\nMax,1\n', r"roster.csv:6: the id number '1' is in line 2"),
-        (MOODLE + "Participant 11,Max,9,m@x.y,,,,,\n", r"roster.csv:4: the id '11' is in line 2"),
-        (b"\xff\xfea", "UTF-16, and is not"),
-        (b"a\0b", "no CSV file"),
-        (b"PK\x03\x04xl/worksheets", "spreadsheet and no CSV"),
+        ("a,b\n1,2\n", r"roster.csv:1: no column identifies a student: 'a', 'b'"),
+        (
+            'name,id\nAnn,1\n\n"J\noe",2\nMax,1\n',
+            r"roster.csv:6: the id number '1' is also in line 2",
+        ),
+        (
+            MOODLE + "Participant 11,Max,9,m@x.y,,,,,\n",
+            r"roster.csv:4: the id '11' is also in line 2",
+        ),
+        (b"\xff\xfea", "UTF-16 but is not"),
+        (b"a\0b", "not a CSV file"),
+        (b"PK\x03\x04xl/worksheets", "spreadsheet, not a CSV"),
     ],
 )
 def test_a_roster_that_cannot_be_used_is_said_to_be_so(
@@ -226,7 +234,7 @@ def test_the_order_is_the_rosters_and_who_is_missing_is_told(tmp_path: Path) -> 
     )
     assert names_of(found) == [("4712", "Zoë Roe"), ("al", "Ann Lee"), ("stranger", "stranger")]
     assert found.missing == (Student("4713", "Max Ray", "", "mr", "4713"),)
-    assert "no line of the roster" in said(found.handed_in[2])
+    assert "not on the roster" in said(found.handed_in[2])
     assert not found.handed_in[0].notes
     assert found.handed_in[1].student == Student("al", "Ann Lee", "", "al", "4711")
 
@@ -242,7 +250,7 @@ def test_a_folders_name_may_be_whatever_names_one_student(tmp_path: Path, name: 
     )
     assert names_of(found)[0] == (name, "Ann Lée")
     by_name = name.lower() not in ("4711", "alee", "ann@school.edu", "ann")
-    assert ("by the name alone" in said(found.handed_in[0])) == by_name
+    assert ("by name only" in said(found.handed_in[0])) == by_name
 
 
 def test_a_name_that_two_students_have_joins_neither(tmp_path: Path) -> None:
@@ -270,7 +278,7 @@ def test_moodles_number_joins_its_own_worksheet_and_no_other_number_does(tmp_pat
     assert names_of(found) == [("11", "Ann Lee"), ("4712", "Max Ray")]
     assert [student.key for student in found.missing] == ["12"]
     assert found.handed_in[0].student.email == "ann@school.edu"
-    assert "by the name alone" not in said(found.handed_in[0])
+    assert "by name only" not in said(found.handed_in[0])
     plain = handed(tmp_path, [], "id,name\n11,Zoë Roe\n4712,Ann Lee\n")
     assert ("11", "Ann Lee") in names_of(plain)
     assert [student.name for student in plain.missing] == ["Zoë Roe"]
@@ -282,7 +290,7 @@ def test_canvas_submissions_join_by_number_else_by_the_squeezed_name(tmp_path: P
         (tmp_path / "class" / name).write_bytes(b"PK\x03\x04")
     found = handed(tmp_path, [], CANVAS)
     assert names_of(found) == [("555", "Ann Lee"), ("102", "Zoë Roe")]
-    assert "by the name alone" in said(found.handed_in[0])
+    assert "by name only" in said(found.handed_in[0])
 
 
 def test_classroom_repositories_join_by_the_github_name(tmp_path: Path) -> None:

@@ -97,9 +97,9 @@ def test_numbers_that_count_the_lines_are_nobodys(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("Sarake,Toinen\n5,x\n6,x\n", "no column tells who a student is"),
-        ("김민지,2024001,kim@school.kr\n이서연,2024002,lee@school.kr\n", "first line has to name"),
-        ("Kim Minji,kim@school.kr\nLee Seoyeon,lee@school.kr\n", "first line has to name"),
+        ("Sarake,Toinen\n5,x\n6,x\n", "no column identifies a student"),
+        ("김민지,2024001,kim@school.kr\n이서연,2024002,lee@school.kr\n", "first line must name"),
+        ("Kim Minji,kim@school.kr\nLee Seoyeon,lee@school.kr\n", "first line must name"),
     ],
 )
 def test_a_roster_that_is_not_understood_is_an_error(

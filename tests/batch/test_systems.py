@@ -76,7 +76,7 @@ def test_moodles_folders_are_known_by_the_participants_number(tmp_path: Path, wa
     assert "onlinetext" in said(ann)
     assert "only text" in max_.problem
     assert [given.submitted for given in found.handed_in] == [None] * 3
-    assert "does not tell when" in said(found)
+    assert "does not contain the times" in said(found)
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -181,7 +181,7 @@ def test_a_korean_class_is_joined(tmp_path: Path, zero: Path, encoding: str) -> 
 @pytest.mark.parametrize(
     ("roster", "said"),
     [
-        ("Sarake;Toinen\n5;x\n6;x\n", "no column tells who a student is"),
+        ("Sarake;Toinen\n5;x\n6;x\n", "no column identifies a student"),
         # understood, and nobody of this class is on it
         ("이름,학번,이메일\n홍길동,1,hong@x.kr\n", "only 0 of 4 submissions are on the roster"),
     ],

@@ -113,13 +113,13 @@ def test_a_class_from_elsewhere_is_joined_by_the_login() -> None:
 
 def test_other_points_possible_are_said() -> None:
     before = export(POSSIBLE.replace("100.00", "20"), student(0))
-    assert "out of 100" in fill_gradebook(before, hello(0)).warnings[0]
+    assert "100 here" in fill_gradebook(before, hello(0)).warnings[0]
 
 
 @pytest.mark.parametrize(
     ("content", "column", "said"),
     [
-        (b"Identifier,Grade\nParticipant 1,\n", "", "no Canvas gradebook"),
+        (b"Identifier,Grade\nParticipant 1,\n", "", "not a Canvas gradebook"),
         (export(POSSIBLE, student(0)), "Hello tim", "Hello tim"),
         (export(POSSIBLE, student(0)), "Current Score", "Current Score"),
         (export(POSSIBLE.replace("100.00", "(read only)"), student(0)), "", "read only"),

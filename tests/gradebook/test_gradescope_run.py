@@ -264,7 +264,7 @@ def test_another_courses_assignment_goes_in(
 
 
 def test_an_archive_of_nothing_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(SurroundingsError, match="no checkout"):
+    with pytest.raises(SurroundingsError, match="not a checkout"):
         gradescope_zip(root=tmp_path)
     with pytest.raises(UsageError, match="hello_tme"):
         gradescope_zip(assignment="hello_tme")

@@ -17,7 +17,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from grader.base.errors import SurroundingsError
-from grader.batch.model import ClassResult, Entry, Override
+from grader.batch.model import ClassResult, GradebookEntry, Override
 from grader.batch.points import single
 from grader.batch.policy import Attempt, standing
 from grader.batch.systems.github_classroom import write as github
@@ -93,7 +93,7 @@ CORRECTIONS = (
 )
 
 
-def entries() -> Iterator[Entry]:
+def entries() -> Iterator[GradebookEntry]:
     """Yield an entry of each kind: late, corrected, missing, ungradable, waiting, with our fault."""
     usual: dict[str, Any] = {"student": classes.student(1), "lang": "ko"}
     usual["student"] = dataclasses.replace(usual["student"], name="김하나", section="가")
@@ -160,7 +160,7 @@ def english(text: str) -> list[str]:
 
 @pytest.mark.parametrize("show_hidden", [False, True])
 @pytest.mark.parametrize("entry", ENTRIES, ids=range(len(ENTRIES)))
-def test_feedback_has_no_english_in_it(entry: Entry, show_hidden: bool) -> None:
+def test_feedback_has_no_english_in_it(entry: GradebookEntry, show_hidden: bool) -> None:
     page = html_page(entry, TITLE, show_hidden=show_hidden).decode()
     assert '<html lang="ko"' in page
     short = short_html(entry, show_hidden=show_hidden)
@@ -169,14 +169,14 @@ def test_feedback_has_no_english_in_it(entry: Entry, show_hidden: bool) -> None:
         assert english(_without_contact(text, entry)) == [], text
 
 
-def _without_contact(text: str, entry: Entry) -> str:
+def _without_contact(text: str, entry: GradebookEntry) -> str:
     for own in (entry.student.email, entry.student.username):
         text = text.replace(own, " ")
     return text
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=range(len(ENTRIES)))
-def test_what_other_systems_show_has_no_english_in_it(entry: Entry) -> None:
+def test_what_other_systems_show_has_no_english_in_it(entry: GradebookEntry) -> None:
     documents: list[Any] = [prairielearn.results(entry), github.results(entry)]
     if entry.report is not None:
         documents.append(gradescope.results(entry.report, penalty=5, overrides=entry.overrides))

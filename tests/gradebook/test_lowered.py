@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.batch.gradebook_before import Before, read_before
+from grader.batch.earlier_gradebook import EarlierGradebook, read_earlier_gradebook
 from grader.batch.lowered import lowered
-from grader.batch.model import Entry, Override
+from grader.batch.model import GradebookEntry, Override
 from grader.publish.gradebook_csv import gradebook_csv
 from tests.report import samples
 from tests.site import classes
@@ -17,7 +17,7 @@ from tests.site import classes
 FAILED = samples.report(samples.check("run.output", "failed"))  # 90 of 100
 
 
-def entry(final: float | None, *overrides: Override) -> Entry:
+def entry(final: float | None, *overrides: Override) -> GradebookEntry:
     return classes.entry(1, FAILED, score=final, final=final, overrides=overrides)
 
 
@@ -53,10 +53,10 @@ def test_what_a_correction_takes_is_the_instructors_word() -> None:
     assert lowered(entry(80, taken), "90", "x") is not None, "but not what the verdict takes"
 
 
-def before_of(tmp_path: Path, *entries: Entry) -> Before:
+def before_of(tmp_path: Path, *entries: GradebookEntry) -> EarlierGradebook:
     path = tmp_path / "gradebook.csv"
     path.write_bytes(gradebook_csv(classes.result(entries), bom=True))
-    return read_before(path)
+    return read_earlier_gradebook(path)
 
 
 def test_the_gradebook_that_is_there_is_compared_row_by_row(tmp_path: Path) -> None:
@@ -95,4 +95,4 @@ def test_what_is_no_gradebook_of_ours_holds_nothing(tmp_path: Path, content: byt
     path = tmp_path / "gradebook.csv"
     if content is not None:
         path.write_bytes(content)
-    assert not read_before(path).rows
+    assert not read_earlier_gradebook(path).rows

@@ -6,7 +6,7 @@ import dataclasses
 
 from hypothesis import strategies as st
 
-from grader.batch.model import ClassResult, Entry, Override, Student
+from grader.batch.model import ClassResult, GradebookEntry, Override, Student
 from tests.report import samples
 from tests.site import classes
 
@@ -56,7 +56,7 @@ texts = st.one_of(
 )
 
 
-def hostile_entry(text: str, *, number: int = 1) -> Entry:
+def hostile_entry(text: str, *, number: int = 1) -> GradebookEntry:
     """An entry in which every text, of the student and of the report, is `text`."""
     poisoned = classes.poisoned(samples.failing_report(), text.replace("\ud800", "?"))
     entry = classes.entry(

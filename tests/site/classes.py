@@ -8,7 +8,7 @@ from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
-from grader.batch.model import ClassResult, Entry, Override, Student
+from grader.batch.model import ClassResult, GradebookEntry, Override, Student
 from grader.report.model import CheckResult, Report
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -43,7 +43,7 @@ def student(number: int) -> Student:
     )
 
 
-def entry(number: int, report: Report | None, **fields: Any) -> Entry:
+def entry(number: int, report: Report | None, **fields: Any) -> GradebookEntry:
     usual: dict[str, Any] = {
         "student": student(number),
         "status": "graded",
@@ -52,10 +52,10 @@ def entry(number: int, report: Report | None, **fields: Any) -> Entry:
         "final": report.score if report else None,
         "submitted": DUE - timedelta(hours=number % 50),
     }
-    return Entry(**(usual | fields))
+    return GradebookEntry(**(usual | fields))
 
 
-def result(entries: Sequence[Entry], **fields: Any) -> ClassResult:
+def result(entries: Sequence[GradebookEntry], **fields: Any) -> ClassResult:
     usual: dict[str, Any] = {
         "title": "Robotics 1, winter term",
         "assignment": "hello_time",
@@ -89,7 +89,7 @@ def mixed(reports: Sequence[Report], count: int) -> ClassResult:
     return result(entries, identical=(pair,), notes=("notes.txt lies beside the submissions",))
 
 
-def _of_kind(number: int, report: Report) -> Entry:
+def _of_kind(number: int, report: Report) -> GradebookEntry:
     nothing: dict[str, Any] = {"submitted": None}
     kind = number % 20
     if kind == 7:

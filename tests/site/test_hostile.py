@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.batch.model import ClassResult, Entry, Override, Student
+from grader.batch.model import ClassResult, GradebookEntry, Override, Student
 from grader.publish.pages import write_site
 from grader.publish.pages.names import page_names
 from tests.report.samples import failing_report
@@ -63,10 +63,10 @@ def hostile_class(texts: list[str]) -> ClassResult:
         bad = classes.poisoned(failing_report(), text.encode(errors="replace").decode())
         student = Student(text, text, text, text, text, text)
         override = Override(text, text, 5, text, text)
-        graded = Entry(student, "graded", bad, 50, final=50, notes=(text,), problem=text)
+        graded = GradebookEntry(student, "graded", bad, 50, final=50, notes=(text,), problem=text)
         entries += [
             replace(graded, overrides=(override,), same_as=(texts[0],)),
-            Entry(Student(f"{text}!", text), "ungradable", problem=text),
+            GradebookEntry(Student(f"{text}!", text), "ungradable", problem=text),
         ]
     everything = "".join(texts)
     return ClassResult(

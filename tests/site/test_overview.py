@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from grader.batch.model import Entry
+from grader.batch.model import GradebookEntry
 from grader.publish.pages import overview
 from grader.report.model import Mistake, Timing
 from tests.report.samples import check, report
@@ -19,7 +19,7 @@ def failed(check_id: str, **fields: Any) -> Any:
     return check(check_id, "failed", mistakes=TEXT, **fields)
 
 
-def graded(number: int, final: float) -> Entry:
+def graded(number: int, final: float) -> GradebookEntry:
     return entry(number, report(), score=final, final=final)
 
 

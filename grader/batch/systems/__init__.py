@@ -1,1 +1,1 @@
-"""What the courses' systems give an instructor to download: one module for each."""
+"""The learning management systems: one package for each, to read and to fill in its files."""

@@ -1,4 +1,4 @@
-"""Whether the folders of a class kept their exec bits: if nobody has one, nobody forgot it."""
+"""Detects whether a class lost its exec bits: without a single one, they were lost on the way."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import stat
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-MOST_FOLDERS = 200  # looked at for one student
+MOST_FOLDERS = 200  # searched for one student
 DEEPEST = 8
-AT_LEAST = 2  # one student alone may well have forgotten it
+AT_LEAST = 2  # submissions: one student alone may have forgotten it
 
 
-def nobody_has_one(paths: Sequence[Path]) -> bool:
-    """Whether several folders have Python files, and not one of these files is executable."""
+def no_exec_bits(paths: Sequence[Path]) -> bool:
+    """Whether several folders have Python files and none of these files is executable."""
     with_files = 0
     for path in paths:
         any_file = False

@@ -1,4 +1,4 @@
-"""The top of a class' folder: one name for each thing in it, looked at from outside, and no deeper."""
+"""The top level of a class folder: the name and kind of each item, without looking inside."""
 
 from __future__ import annotations
 
@@ -12,19 +12,17 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.batch.model import HandedIn
-from grader.batch.systems.words import Notes, plain
+from grader.batch.systems.notes import Notes, printable
 from grader.package.intake.archive_kind import HEAD, is_named_archive, kind_of
 from grader.package.intake.reading import Unread, open_file
 
-Kind = Literal["folder", "archive", "file"]
+ItemKind = Literal["folder", "archive", "file"]
 
 MOST_NAMES = 100_000
-HIDDEN = "left out, as hidden"
-OF_SYSTEM = "left out, as no student's: the operating system's, a tool's or this grader's"
-NO_SUBMISSION = "left out, as neither a folder nor an archive"
-IS_LINK = say(
-    "it is a link to elsewhere, and links are not followed: put what it leads to in its place"
-)
+HIDDEN = "left out: hidden"
+OF_SYSTEM = "left out: files of the operating system, of a tool or of this grader"
+NO_SUBMISSION = "left out: neither a folder nor an archive"
+IS_LINK = say("it is a link, and links are not followed: replace it with what it points to")
 FILES = frozenset(
     [
         ".csv",
@@ -45,7 +43,7 @@ FILES = frozenset(
         ".png",
     ]
 )
-OF_NOBODY = frozenset(
+TOOL_NAMES = frozenset(
     {
         *("__MACOSX", "__pycache__", "System Volume Information", "lost+found", "$RECYCLE.BIN"),
         *("reports", "node_modules", "Thumbs.db", "desktop.ini"),
@@ -54,41 +52,41 @@ OF_NOBODY = frozenset(
 
 
 @dataclass(frozen=True)
-class Item:
-    """One name in the class' folder; `problem` says why nothing can be done with it."""
+class FolderItem:
+    """An item in the class folder; `problem` says why it cannot be marked."""
 
     name: str
-    kind: Kind
+    kind: ItemKind
     problem: str = ""
 
     @property
     def may_be_submission(self) -> bool:
-        """Whether it would be somebody's by its kind alone."""
+        """Whether its kind is that of a submission."""
         return self.kind != "file"
 
 
 @dataclass(frozen=True)
 class Layout:
-    """A class' folder; `left_out` are the names that are nobody's, by the reason."""
+    """A class folder; `left_out` are the names of no submission, by the reason."""
 
     path: Path
-    items: tuple[Item, ...]
+    items: tuple[FolderItem, ...]
     left_out: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
-    def has(self, name: str, kind: Kind) -> bool:
-        """Return whether there is a thing of that name and kind."""
+    def has(self, name: str, kind: ItemKind) -> bool:
+        """Return whether there is an item of that name and kind."""
         return any(item.name == name and item.kind == kind for item in self.items)
 
-    def submissions(self) -> list[Item]:
-        """Return what would be somebody's by its kind alone: folders and archives."""
+    def submissions(self) -> list[FolderItem]:
+        """Return the items that may be submissions: folders and archives."""
         return [item for item in self.items if item.may_be_submission]
 
 
 @dataclass(frozen=True)
 class Reading:
-    """What the reader of a system is given beside the layout.
+    """What a system's reader gets besides the layout.
 
-    `gather` puts files of one student, each with the name that it shall have, into one folder.
+    `gather` copies files of one student, each under a given name, into one folder.
     """
 
     notes: Notes
@@ -97,32 +95,32 @@ class Reading:
 
 @dataclass(frozen=True)
 class Read:
-    """What a system's reader made of a layout; `rest` is what it did not know."""
+    """What a system's reader found in a layout; `rest` are the items that it did not recognise."""
 
     handed_in: list[HandedIn]
-    rest: list[Item] = field(default_factory=list)
+    rest: list[FolderItem] = field(default_factory=list)
 
 
 def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()) -> Layout:
-    """Return what is in a class' folder.
+    """Return the layout of a class folder; raise UsageError if it cannot be read.
 
-    `lost` are names that should be in it and could not be unpacked, with the reason; `without` are
-    folders of ours. UsageError if it cannot be read.
+    `lost` are names that could not be unpacked, with the reason; `without` are folders of the
+    grader.
     """
-    ours = {place.name for place in without if place.parent == path}
+    own = {place.name for place in without if place.parent == path}
     items = [
-        Item(name, _kind_by_name(name), why)
+        FolderItem(name, _kind_by_name(name), why)
         for name, why in lost.items()
-        if _why_nobodys(name) is None
+        if _why_left_out(name) is None
     ]
     left_out: dict[str, list[str]] = {}
     try:
         with os.scandir(path) as entries:
             for entry in entries:
-                if entry.name in ours:
+                if entry.name in own:
                     continue
                 found = _item(entry)
-                if isinstance(found, Item):
+                if isinstance(found, FolderItem):
                     items.append(found)
                 else:
                     left_out.setdefault(found, []).append(entry.name)
@@ -134,36 +132,36 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
     return Layout(path, tuple(items), {why: tuple(sorted(n)) for why, n in left_out.items()})
 
 
-def _item(entry: os.DirEntry[str]) -> Item | str:
-    """Return an item, or the reason for which there is none."""
+def _item(entry: os.DirEntry[str]) -> FolderItem | str:
+    """Return an item, or the reason why the name is left out."""
     name = entry.name
-    nobodys = _why_nobodys(name)
-    if nobodys is not None:
-        return nobodys
+    left_out = _why_left_out(name)
+    if left_out is not None:
+        return left_out
     if entry.is_symlink():
-        # (what it leads to is not looked at: its name must do)
-        return Item(name, _kind_by_name(name), IS_LINK)
+        # (its target is not examined, so its name decides)
+        return FolderItem(name, _kind_by_name(name), IS_LINK)
     if entry.is_dir(follow_symlinks=False):
-        return Item(name, "folder")
+        return FolderItem(name, "folder")
     if entry.is_file(follow_symlinks=False):
-        return Item(name, "archive" if _is_archive(entry) else "file")
+        return FolderItem(name, "archive" if _is_archive(entry) else "file")
     return NO_SUBMISSION
 
 
-def _why_nobodys(name: str) -> str | None:
-    if name in OF_NOBODY or name.endswith("~"):
+def _why_left_out(name: str) -> str | None:
+    if name in TOOL_NAMES or name.endswith("~"):
         return OF_SYSTEM
     return HIDDEN if name.startswith(".") else None
 
 
-def _kind_by_name(name: str) -> Kind:
+def _kind_by_name(name: str) -> ItemKind:
     if is_named_archive(name):
         return "archive"
     return "file" if Path(name).suffix.lower() in FILES else "folder"
 
 
 def _is_archive(entry: os.DirEntry[str]) -> bool:
-    """Whether a file is called an archive, or has no ending and is one."""
+    """Whether a file is named like an archive, or has no extension and is one."""
     if is_named_archive(entry.name) or "." in entry.name:
         return is_named_archive(entry.name)
     opened = open_file(Path(entry.path))
@@ -174,13 +172,13 @@ def _is_archive(entry: os.DirEntry[str]) -> bool:
 
 
 def seen(layout: Layout) -> str:
-    """Return in words what there is, for who expected something else."""
+    """Return in words what is in a layout, for error messages."""
     counts = {
         "folder": sum(item.kind == "folder" for item in layout.items),
         "archive": sum(item.kind == "archive" for item in layout.items),
         "other file": sum(item.kind == "file" for item in layout.items),
     }
     parts = [f"{n} {what}{'s' if n != 1 else ''}" for what, n in counts.items() if n]
-    names = ", ".join(shown(plain(item.name)) for item in layout.items[:3])
+    names = ", ".join(shown(printable(item.name)) for item in layout.items[:3])
     more = f" and {len(layout.items) - 3} more" if len(layout.items) > 3 else ""
     return f"{' and '.join(parts)} ({names}{more})" if parts else "nothing"

@@ -1,4 +1,4 @@
-"""Folders and archives that an instructor named himself: each is called after its student."""
+"""Folders and archives without a system: each has the name of its student."""
 
 from __future__ import annotations
 
@@ -7,47 +7,47 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import NO_SUBMISSION, Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import NO_SUBMISSION, FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 from grader.package.intake.archive_kind import without_ending
 
 
 def recognise(layout: Layout) -> bool:
-    """Whether there is a folder or an archive at all."""
+    """Whether there is any folder or archive."""
     return bool(layout.submissions())
 
 
 def read(layout: Layout, reading: Reading) -> Read:
-    """Take every folder and archive as a student's."""
+    """Return every folder and archive as a student's submission."""
     return Read(read_items(layout.path, layout.items, reading))
 
 
-def read_items(path: Path, items: Iterable[Item], reading: Reading) -> list[HandedIn]:
-    """Take folders and archives as students'; note the other files.
+def read_items(path: Path, items: Iterable[FolderItem], reading: Reading) -> list[HandedIn]:
+    """Return folders and archives as students' submissions; add a note about other files.
 
-    `jane.zip` beside `jane/` are attempts of one student, in this order: who unpacks an archive
-    does so afterwards. Of several archives the one that was written last comes last.
+    `jane.zip` and `jane/` are attempts of one student, in this order, because an archive is
+    unpacked after it was written. Several archives are in the order in which they were written.
     """
-    by_key: dict[str, list[Item]] = {}
+    by_key: dict[str, list[FolderItem]] = {}
     others = []
     for item in items:
         if item.may_be_submission:
             stem = without_ending(item.name) if item.kind == "archive" else item.name
-            by_key.setdefault(plain(stem), []).append(item)
+            by_key.setdefault(printable(stem), []).append(item)
         else:
             others.append(item.name)
     if others:
-        reading.notes.name(NO_SUBMISSION, others)
+        reading.notes.add_names(NO_SUBMISSION, others)
     return [handed_in for key, group in by_key.items() for handed_in in _student(path, key, group)]
 
 
-def _student(path: Path, key: str, items: list[Item]) -> list[HandedIn]:
+def _student(path: Path, key: str, items: list[FolderItem]) -> list[HandedIn]:
     student = Student(key=key, name=key)
     if len(items) == 1:
         return [HandedIn(student, path / items[0].name, problem=items[0].problem)]
     items = sorted(items, key=lambda item: (item.kind == "folder", _written(path / item.name)))
-    names = ", ".join(plain(item.name) for item in items)
-    note = f"several of the same name, taken as attempts of one student in this order: {names}"
+    names = ", ".join(printable(item.name) for item in items)
+    note = f"several with this name, used as attempts of one student in this order: {names}"
     return [
         HandedIn(student, path / item.name, attempt=n, notes=(note,), problem=item.problem)
         for n, item in enumerate(items, start=1)

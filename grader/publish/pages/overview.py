@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.base.plain_text import one_line
-from grader.batch.model import ClassResult, Entry
+from grader.batch.model import ClassResult, GradebookEntry
 from grader.report.model import CheckResult
 
 BINS = 10
@@ -68,10 +68,10 @@ class MistakeTally:
     id: str
     checks: list[str]
     example: str
-    who: list[Entry]
+    who: list[GradebookEntry]
 
 
-def shown(entry: Entry, *, show_hidden: bool) -> list[CheckResult]:
+def shown(entry: GradebookEntry, *, show_hidden: bool) -> list[CheckResult]:
     """Return the checks of an entry's report that may be shown; [] without a report."""
     if entry.report is None:
         return []
@@ -136,7 +136,9 @@ def mistakes(result: ClassResult, *, show_hidden: bool) -> list[MistakeTally]:
     return sorted(found.values(), key=lambda tally: (-len(tally.who), tally.id))
 
 
-def unsure(result: ClassResult, *, show_hidden: bool) -> list[tuple[Entry, list[CheckResult]]]:
+def unsure(
+    result: ClassResult, *, show_hidden: bool
+) -> list[tuple[GradebookEntry, list[CheckResult]]]:
     """Return the entries with undecided checks, for which the student is not to blame."""
     found = []
     for entry in result.entries:
@@ -146,11 +148,11 @@ def unsure(result: ClassResult, *, show_hidden: bool) -> list[tuple[Entry, list[
     return found
 
 
-def slowest(result: ClassResult) -> list[Entry]:
+def slowest(result: ClassResult) -> list[GradebookEntry]:
     """Return the entries whose verdicts took longest, at most SLOWEST."""
     timed = [entry for entry in result.entries if entry.report is not None]
     return sorted(timed, key=_total, reverse=True)[:SLOWEST]
 
 
-def _total(entry: Entry) -> float:
+def _total(entry: GradebookEntry) -> float:
     return entry.report.timing.total if entry.report is not None else 0.0

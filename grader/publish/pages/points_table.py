@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from grader.base.i18n.message import joined, say
 from grader.base.plain_text import points
-from grader.batch.model import Entry, Override
+from grader.batch.model import GradebookEntry, Override
 from grader.batch.points import in_points
 from grader.batch.words import duration, instant
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 
 
-def reckoning(entry: Entry, visible: set[str]) -> list[str]:
+def reckoning(entry: GradebookEntry, visible: set[str]) -> list[str]:
     """Return how the final points were calculated, one step per line."""
     report = entry.report
     lines = _given(report) if report is not None else []
@@ -49,7 +49,7 @@ def _given(report: Report) -> list[str]:
     return lines
 
 
-def _lateness(entry: Entry) -> str:
+def _lateness(entry: GradebookEntry) -> str:
     """Return the line about the late penalty, "" if there is none."""
     taken = in_points(entry.penalty)
     if entry.late_seconds <= 0:
@@ -60,7 +60,7 @@ def _lateness(entry: Entry) -> str:
     return say("Late by {duration}: {points} taken.", duration=late, points=taken)
 
 
-def _correction(override: Override, entry: Entry, visible: set[str]) -> str:
+def _correction(override: Override, entry: GradebookEntry, visible: set[str]) -> str:
     known = {check.id: check for check in entry.report.checks} if entry.report else {}
     hidden = override.check in known and override.check not in visible
     check = known.get(override.check)

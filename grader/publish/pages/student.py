@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines
-from grader.batch.model import Entry, Override
+from grader.batch.model import GradebookEntry, Override
 from grader.batch.words import instant
 from grader.publish.pages.charts import Timeline, timeline
 from grader.publish.pages.overview import shown
@@ -52,7 +52,7 @@ class CheckView:
 class StudentView:
     """A student's page."""
 
-    entry: Entry
+    entry: GradebookEntry
     checks: tuple[CheckView, ...]
     hidden: int
     reckoning: tuple[str, ...]
@@ -68,7 +68,7 @@ class StudentView:
         return [v for v in self.checks if v.check.status == "passed" and v.check.advice]
 
 
-def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> StudentView:
+def student_view(entry: GradebookEntry, *, show_hidden: bool, lang: str = SOURCE) -> StudentView:
     """Return the content of one student's page in a language.
 
     Without `show_hidden`, hidden checks are only counted.
@@ -91,7 +91,9 @@ def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> Stud
     )
 
 
-def _check(check: CheckResult, entry: Entry, visible: set[str], translate: Translator) -> CheckView:
+def _check(
+    check: CheckResult, entry: GradebookEntry, visible: set[str], translate: Translator
+) -> CheckView:
     assert entry.report is not None
     because: list[str] = []
     if check.status == "skipped":
@@ -139,7 +141,7 @@ def _fields(check: CheckResult) -> list[Field]:
     ]
 
 
-def _facts(entry: Entry) -> list[tuple[str, str]]:
+def _facts(entry: GradebookEntry) -> list[tuple[str, str]]:
     student, report = entry.student, entry.report
     facts: list[tuple[str, str]] = [
         (KEY, student.key if student.key != student.name else ""),

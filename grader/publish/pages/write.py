@@ -9,7 +9,7 @@ from pathlib import Path
 
 from grader.base.folder import Folder
 from grader.base.plain_text import one_line
-from grader.batch.model import ClassResult, Entry
+from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.words import STATES, SYSTEMS, duration, instant
 from grader.publish.pages import overview
 from grader.publish.pages.charts import histogram
@@ -82,13 +82,13 @@ def _heading(result: ClassResult) -> str:
     return one_line(result.title or result.assignment)
 
 
-def _about_student(result: ClassResult, entry: Entry) -> list[str]:
+def _about_student(result: ClassResult, entry: GradebookEntry) -> list[str]:
     submitted = f"submitted {instant(entry.submitted)}" if entry.submitted else ""
     parts = (_heading(result), _number(entry), STATES[entry.status], submitted)
     return [part for part in parts if part]
 
 
-def _number(entry: Entry) -> str:
+def _number(entry: GradebookEntry) -> str:
     """Return the student's number in the course, "" if it is the name."""
     number = entry.student.id_number or entry.student.key
     return one_line(number, most=60) if number != entry.student.name else ""
@@ -107,7 +107,7 @@ def _remove_old(folder: Folder, kept: set[str]) -> None:
 class Row:
     """A student's row; `find` holds texts that the search matches beside the visible ones."""
 
-    entry: Entry
+    entry: GradebookEntry
     number: str
     attempt: str
     failed: tuple[str, ...]
@@ -152,7 +152,7 @@ def _about(result: ClassResult) -> list[str]:
     return [part for part in parts if part]
 
 
-def _cards(entries: Sequence[Entry]) -> list[tuple[str, int]]:
+def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
     def count(status: str) -> int:
         return sum(entry.status == status for entry in entries)
 
@@ -173,13 +173,13 @@ def _cards(entries: Sequence[Entry]) -> list[tuple[str, int]]:
     return [*cards, *((name, number) for name, number in rare.items() if number)]
 
 
-def _identical(result: ClassResult) -> list[list[Entry]]:
+def _identical(result: ClassResult) -> list[list[GradebookEntry]]:
     known = {entry.student.key: entry for entry in result.entries}
     groups = ([known[key] for key in group if key in known] for group in result.identical)
     return [group for group in groups if len(group) > 1]
 
 
-def _row(entry: Entry, *, show_hidden: bool) -> Row:
+def _row(entry: GradebookEntry, *, show_hidden: bool) -> Row:
     student = entry.student
     checks = overview.shown(entry, show_hidden=show_hidden)
     mistakes = [mistake.id for check in checks for mistake in check.mistakes]

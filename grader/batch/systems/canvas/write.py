@@ -1,9 +1,9 @@
-"""Canvas' gradebook CSV: one column of the teacher's export filled in, or a new file.
+"""Canvas' gradebook CSV: fills in one column of the instructor's export, or writes a new file.
 
-By Canvas' lib/gradebook_importer.rb: the first cells are the student's (`Student`, `ID`, SIS ids,
-`Section`), then columns `Title (assignment id)`; a row `    Points Possible`, in which `(read
-only)` marks what the import ignores; perhaps a row that says `Manual Posting`; `EX` is an excused
-student, and `N/A` one who does not have the assignment.
+By Canvas' lib/gradebook_importer.rb: the first columns identify the student (`Student`, `ID`, SIS
+ids, `Section`), then come columns `Title (assignment id)`. In a row `    Points Possible`, `(read
+only)` marks columns that the import ignores; there may be a row with `Manual Posting`. `EX` is an
+excused student, `N/A` one who does not have the assignment.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.lowered import NONE, Lowered, as_number, is_without_verdict, lowered
-from grader.batch.match import Match, Way, match_more, ways_of_people
-from grader.batch.model import ClassResult, Elsewhere, Entry, Student, System
+from grader.batch.match import Match, MatchRule, match_more, rules_for_people
+from grader.batch.model import ClassResult, Elsewhere, GradebookEntry, Student, System
 from grader.batch.roster import Roster, roster_of
 from grader.batch.sheet import Filled, Sheet
 
@@ -30,13 +30,13 @@ POSSIBLE = "    Points Possible"
 TITLE_AND_ID = re.compile(r"(?P<title>.*?)\s*\((?P<id>\d+)\)")
 KEPT = ("EX", "N/A")
 READ_ONLY = re.compile(r"read\s+only")
-# columns that Canvas computes; the names may stand after a group's and before a period's
+# columns that Canvas computes; the name of a group may precede, that of a period may follow
 COMPUTED = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
 
 
 @dataclass(frozen=True)
 class CanvasGradebook:
-    """A gradebook that was understood: the column that is filled in, and whose line each row is."""
+    """A gradebook: the column to fill in, and the student of each row."""
 
     sheet: Sheet
     column: int
@@ -44,16 +44,16 @@ class CanvasGradebook:
     notes: tuple[str, ...] = ()
 
     def match(self, students: Sequence[Student], system: System) -> Match:
-        """Return the line of each student, by key."""
+        """Return the roster line of each student, by key."""
         found = Match()
-        ways = list(ways_of_people(system, students, self.roster))
-        sure = [way for way in ways if not way.by_name]
-        ways = [*sure, Way(_email, _login), *(way for way in ways if way.by_name)]
-        match_more(found, ways, students, self.roster)
+        rules = list(rules_for_people(system, students, self.roster))
+        sure = [rule for rule in rules if not rule.by_name]
+        rules = [*sure, MatchRule(_email, _login), *(rule for rule in rules if rule.by_name)]
+        match_more(found, rules, students, self.roster)
         return found
 
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
-        """Return who has a grade in Canvas (or is excused), by key, and why that counts."""
+        """Return the students with a grade in Canvas, or excused, by key."""
         found = {}
         for key, index in self.match(students, system).rows.items():
             cell = self._cell(self.roster.lines[index].row)
@@ -71,13 +71,13 @@ class CanvasGradebook:
         return [one for one in found if one is not None]
 
     def filled(self, result: ClassResult) -> Filled:
-        """Return the teacher's export with the assignment's column filled in.
+        """Return the instructor's export with the assignment's column filled in.
 
-        Rows of students without a final result stay as they are, cells with EX or N/A too, and
-        cells with a grade where nothing was found of a student.
+        A cell does not change if the student has no final grade, if it has EX or N/A, or if it has
+        a grade and the student has no submission here.
         """
         match = self._match(result)
-        warnings = [*_points_warning(self.sheet, self.column, result), *_told(result, match)]
+        warnings = [*_points_warning(self.sheet, self.column, result), *_warnings(result, match)]
         comma = self.sheet.decimal_comma(self.column)
         changes: dict[tuple[int, int], str] = {}
         for row, entry in self._filled_in(result, match):
@@ -93,8 +93,8 @@ class CanvasGradebook:
     def _cell(self, row: int) -> str:
         return self.sheet.value(row, self.column)
 
-    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
-        """Yield the rows whose cells get a grade, and whose they are."""
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, GradebookEntry]]:
+        """Yield the rows that get a grade, with their entries."""
         for entry in result.entries:
             index = match.rows.get(entry.student.key)
             if index is None or entry.final is None:
@@ -110,8 +110,8 @@ def read_gradebook(
 ) -> CanvasGradebook:
     """Read a gradebook and find the assignment's column.
 
-    `column` is its header, its title or its number (default: the first of `names` that one column
-    has). UsageError for a file that is no gradebook, and if the column cannot be told.
+    `column` is its header, title or number (default: the first of `names` that exactly one column
+    has). Raises UsageError if the file is not a gradebook or the column is not found.
     """
     sheet = Sheet(content, name=NAME)
     index = _column(sheet, [column] if column else [name for name in names if name])
@@ -124,10 +124,10 @@ def read_gradebook(
 
 
 def new_gradebook(result: ClassResult, *, title: str = "") -> bytes:
-    """Return a gradebook of one new column; Canvas makes the assignment when it takes it in.
+    """Return a gradebook with one new column; Canvas creates the assignment on import.
 
-    Who has no final result is left out: if there is an assignment of this title already, Canvas
-    takes an empty cell for "no grade any more" (`no_change_to_value?`).
+    Students without a final grade are left out: if an assignment of this title exists, Canvas
+    removes the grade for an empty cell (`no_change_to_value?`).
     """
     out = io.StringIO()
     table = csv.writer(out)
@@ -157,9 +157,9 @@ def _column(sheet: Sheet, wanted: Sequence[str]) -> int:
     listed = one_line(", ".join(f"'{header[index]}'" for index in open_), most=1_000)
     name = one_line(wanted[0]) if wanted else ""
     raise UsageError(
-        f"{NAME} has not exactly one column that is called '{name}'",
+        f"{NAME} does not have exactly one column named '{name}'",
         remedy="Name the column with --canvas-column (make: CANVAS_COLUMN='its name'). "
-        f"There are: {listed or 'none'}.",
+        f"Its columns: {listed or 'none'}.",
     )
 
 
@@ -168,7 +168,7 @@ def _need_gradebook(header: list[str]) -> None:
     split = header[:2] == ["LastName", "FirstName"] and len(header) > 4 and "ID" in header[2]
     if not (names or split) or "Section" not in header:
         raise UsageError(
-            "this is no Canvas gradebook: it does not begin with Student, ID", remedy=REMEDY
+            "this is not a Canvas gradebook: it does not begin with Student, ID", remedy=REMEDY
         )
 
 
@@ -191,18 +191,18 @@ def _points_warning(sheet: Sheet, column: int, result: ClassResult) -> list[str]
     if not possible or cells.number(result.max_score) == cells.number(as_number(possible)):
         return []
     return [
-        f"Canvas has {possible} points for this assignment, the class is marked out of "
-        f"{cells.number(result.max_score)}: the points went in as they are"
+        f"the assignment is worth {possible} points in Canvas and {cells.number(result.max_score)} "
+        "here: the grades were not converted"
     ]
 
 
-def _told(result: ClassResult, match: Match) -> Iterator[str]:
-    """Yield who has no row (or more than one), and who was found by the name alone."""
+def _warnings(result: ClassResult, match: Match) -> Iterator[str]:
+    """Yield a warning for each student without exactly one row or found by name only."""
     for entry in result.entries:
         if entry.student.key not in match.rows:
             yield f"{_who(entry)} is not in the gradebook: nothing was filled in"
         elif entry.student.key in match.by_name:
-            yield f"{_who(entry)} was found in the gradebook by the name alone"
+            yield f"{_who(entry)} was found in the gradebook by name only"
 
 
 def _email(student: Student) -> tuple[str, ...]:
@@ -213,5 +213,5 @@ def _login(line: Student) -> tuple[str, ...]:
     return (line.username.strip().casefold(),) if line.username.strip() else ()
 
 
-def _who(entry: Entry) -> str:
+def _who(entry: GradebookEntry) -> str:
     return one_line(entry.student.name or entry.student.key, most=100)

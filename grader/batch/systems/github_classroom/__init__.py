@@ -1,1 +1,1 @@
-"""GitHub Classroom: its clones and the results of its reporter."""
+"""GitHub Classroom: its clones, and the results for its reporter."""

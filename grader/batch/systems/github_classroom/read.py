@@ -1,4 +1,4 @@
-"""GitHub Classroom: clones of the students' repositories, each called `<assignment>-<username>`."""
+"""Reads GitHub Classroom's clones of student repositories, named `<assignment>-<username>`."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ from itertools import takewhile
 from pathlib import Path
 
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 
-SUBMISSIONS = "-submissions"  # what `gh classroom clone` puts behind the assignment's name
+SUBMISSIONS = "-submissions"  # appended to the assignment's name by `gh classroom clone`
 NO_TIMES = (
-    "a clone does not tell when it was handed in (the student's own computer sets the time of a "
-    "commit): only the CSV of Classroom's 'Download grades' tells it, given as --roster"
+    "a clone does not contain the time of submission (the student's own computer sets the time of "
+    "a commit): only the CSV of Classroom's 'Download grades' has it, given as --roster"
 )
 
 
 def recognise(layout: Layout) -> bool:
-    """Whether at least half of the folders are repositories, and all names begin alike."""
+    """Whether at least half of the folders are repositories with a common prefix."""
     repositories = _repositories(layout)
     folders = [item for item in layout.items if item.kind == "folder"]
     return 2 * len(repositories) >= max(1, len(folders)) and bool(_prefix(layout, repositories))
 
 
 def read(layout: Layout, reading: Reading) -> Read:
-    """Return each repository. Nothing in a clone is a time of submission that can be trusted."""
+    """Return each repository; no time in a clone can be trusted as the time of submission."""
     repositories = _repositories(layout)
     prefix = _prefix(layout, repositories)
     found = []
@@ -33,14 +33,14 @@ def read(layout: Layout, reading: Reading) -> Read:
         if item not in repositories:
             rest.append(item)
             continue
-        username = plain(item.name).removeprefix(prefix)
-        student = Student(key=plain(item.name), name=username, username=username)
+        username = printable(item.name).removeprefix(prefix)
+        student = Student(key=printable(item.name), name=username, username=username)
         found.append(HandedIn(student, layout.path / item.name))
-    reading.notes.say(NO_TIMES)
+    reading.notes.add(NO_TIMES)
     return Read(found, rest)
 
 
-def _repositories(layout: Layout) -> list[Item]:
+def _repositories(layout: Layout) -> list[FolderItem]:
     folders = [item for item in layout.items if item.kind == "folder" and not item.problem]
     return [item for item in folders if _is_folder(layout.path / item.name / ".git")]
 
@@ -49,18 +49,18 @@ def _is_folder(path: Path) -> bool:
     return path.is_dir() and not path.is_symlink()
 
 
-def _prefix(layout: Layout, repositories: list[Item]) -> str:
-    """Return what all names begin with, up to a `-`; "" if there is no such thing.
+def _prefix(layout: Layout, repositories: list[FolderItem]) -> str:
+    """Return the common prefix of all names up to a `-`, "" if there is none.
 
-    The folder that `gh classroom clone` makes tells the assignment's name; else the names do,
-    unless there is only one.
+    The folder of `gh classroom clone` has the assignment's name; otherwise two or more names are
+    compared.
     """
-    names = [plain(item.name) for item in repositories]
-    told = f"{plain(layout.path.name).removesuffix(SUBMISSIONS)}-"
-    if layout.path.name.endswith(SUBMISSIONS) and any(name.startswith(told) for name in names):
-        return told
+    names = [printable(item.name) for item in repositories]
+    prefix = f"{printable(layout.path.name).removesuffix(SUBMISSIONS)}-"
+    if layout.path.name.endswith(SUBMISSIONS) and any(name.startswith(prefix) for name in names):
+        return prefix
     if len(names) < 2:
         return ""
-    first, last = min(names), max(names)  # what these two begin with, all between them do
+    first, last = min(names), max(names)  # all names between these two share their prefix
     same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, last)))
     return first[: first.rfind("-", 0, same) + 1]

@@ -1,1 +1,1 @@
-"""Gradescope: its export, its results.json and its autograder archive."""
+"""Gradescope: its export, its results.json and the autograder archive for it."""

@@ -1,7 +1,7 @@
-"""The autograder archive for Gradescope: this grader, with `setup.sh` and `run_autograder`.
+"""Makes the autograder archive for Gradescope: this grader, `setup.sh` and `run_autograder`.
 
-It holds the keys (solution, hidden checks), as the instructor uploads it: `run_autograder` closes
-the folder to the student's account before anything of theirs runs.
+It contains the keys (solution, hidden checks): `run_autograder` removes other accounts' access to
+the folder before any student code runs.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ PARTS = (
     "package.xml",
     "resource",
     "LICENSE",
-    "tests/requirements.txt",  # bootstrap.py tells environments apart by both locks
+    "tests/requirements.txt",  # bootstrap.py identifies an environment by both lock files
 )
 LEFT_OUT = ("__pycache__", ".git", ".mypy_cache", ".ruff_cache", "build", "install", "log")
 OWN_ASSIGNMENT, OWN_KEYS = "assignment", "keys"
-WHEN = (1980, 1, 1, 0, 0, 0)  # the archive of the same files is the same, byte for byte
+WHEN = (1980, 1, 1, 0, 0, 0)  # for reproducible archives: the same files give the same bytes
 FILE, PROGRAM = 0o100644, 0o100755
 
 SETUP = r"""#!/usr/bin/env bash
@@ -53,8 +53,8 @@ RUN = r"""#!/usr/bin/env bash
 # Run by Gradescope, as root, for each submission; it copies this file beside `source`.
 autograder=$(cd "$(dirname "${{BASH_SOURCE[0]}}")" && pwd)
 results=$autograder/results/results.json
-# the student's code runs under another account: the keys, the other files and what Gradescope
-# knows of earlier submissions are not for it
+# the student's code runs under another account, which must not read the keys, the other files and
+# Gradescope's data about earlier submissions
 chmod go-rwx "$autograder/source" "$autograder/run_autograder" "$autograder/submission" \
   "$autograder/submission_metadata.json" 2> /dev/null
 rm -f "$results"
@@ -79,18 +79,16 @@ def gradescope_zip(
     lang: str = SOURCE,
     root: Path = CHECKOUT,
 ) -> bytes:
-    """Return the archive; `assignment` is an id, the path of an assignment.yaml, or the one meant.
+    """Return the archive; `assignment` is an id, the path of an assignment.yaml or None.
 
-    `keys` is the instructor's folder of it, of which the hidden checks go in.
-
-    What students read is in the language `lang`.
-    `root` is the checkout that goes in. SurroundingsError if it is none (the grader was installed
-    without its sources), UsageError for an assignment that is not there.
+    `keys` is the instructor's folder with the hidden checks, `lang` the language of what students
+    read, `root` the checkout to pack. Raises SurroundingsError if `root` is not a checkout (the
+    grader was installed without its sources), UsageError if there is no such assignment.
     """
     if not (root / "grader" / "bootstrap.py").is_file() or not (root / "lab/course").is_dir():
         raise SurroundingsError(
-            f"{root} is no checkout of this project: the archive is made of its files",
-            remedy="Call grader gradescope-zip from the checkout.",
+            f"{root} is not a checkout of this project, from which the archive is made",
+            remedy="Run grader gradescope-zip from a checkout.",
         )
     files = dict(_files(root))
     file = assignment_file(assignment)
@@ -98,7 +96,7 @@ def gradescope_zip(
     if file.resolve() != (root / "lab/course" / named / file.name).resolve():
         files |= _own_assignment(file)
         named = f"{OWN_ASSIGNMENT}/{file.name}"
-    load_with_hidden(assignment, keys)  # what is wrong is told here, and not at Gradescope
+    load_with_hidden(assignment, keys)  # errors are reported here, not at Gradescope
     words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
     if keys is not None and (keys / HIDDEN).is_file():
         files[f"{OWN_KEYS}/{HIDDEN}"] = ((keys / HIDDEN).read_bytes(), FILE)
@@ -110,9 +108,9 @@ def gradescope_zip(
 
 
 def _problem(lang: str) -> str:
-    """Return the results for where the grader could not even begin."""
-    ours = say("The grader failed, not your package. Please tell your instructor.")
-    return json.dumps({"score": 0, "output": Translator(lang)(ours)})
+    """Return the results file for the case that the grader cannot start."""
+    text = say("The grader failed, not your package. Please tell your instructor.")
+    return json.dumps({"score": 0, "output": Translator(lang)(text)})
 
 
 def _packed(files: dict[str, tuple[bytes, int]]) -> bytes:
@@ -128,18 +126,18 @@ def _packed(files: dict[str, tuple[bytes, int]]) -> bytes:
 
 
 def _files(root: Path) -> Iterator[tuple[str, tuple[bytes, int]]]:
-    """Yield the project's files by their names in the archive; links are not followed."""
+    """Yield the project's files, with their names in the archive; links are left out."""
     for part in PARTS:
         for path in sorted([root / part, *(root / part).rglob("*")]):
-            inside = path.relative_to(root)
-            if path.is_symlink() or not path.is_file() or set(inside.parts) & set(LEFT_OUT):
+            name = path.relative_to(root)
+            if path.is_symlink() or not path.is_file() or set(name.parts) & set(LEFT_OUT):
                 continue
             program = path.stat().st_mode & 0o100
-            yield inside.as_posix(), (path.read_bytes(), PROGRAM if program else FILE)
+            yield name.as_posix(), (path.read_bytes(), PROGRAM if program else FILE)
 
 
 def _own_assignment(path: Path) -> dict[str, tuple[bytes, int]]:
-    """Return an assignment of the instructor's own and what lies beside it."""
+    """Return the files in the folder of the instructor's own assignment."""
     if not path.is_file():
         raise UsageError(f"there is no assignment {path}")
     beside = [found for found in path.parent.iterdir() if found.is_file()]

@@ -1,8 +1,7 @@
-"""What runs inside Gradescope's container: marks the submission, `results.json` always up to date.
+"""Marks a submission inside Gradescope's container and keeps `results.json` up to date.
 
-Gradescope takes what the file holds when the autograder ends or is cut off: it is there before the
-first check is asked and is replaced as a whole after each. What the student's code did is never
-read from it.
+Gradescope reads the file when the autograder ends or runs out of time. So it is written before the
+first check and replaced atomically after each one. The grader never reads it.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ from grader.verdict.order import Order, make_orders
 RESULTS = "results.json"
 METADATA = "submission_metadata.json"
 CLONED = ("GitHub", "Bitbucket")
-MOST_METADATA = 10_000_000  # bytes; earlier results are in it
+MOST_METADATA = 10_000_000  # bytes; it contains earlier results
 OUR_FAULT = say(
     "The grader failed, not your package. Please tell your instructor: the reason is in the "
     "output that instructors see."
@@ -44,7 +43,7 @@ OUR_FAULT = say(
 
 @dataclass
 class ResultsFile:
-    """A listener that keeps `results.json` up to date while a submission is marked."""
+    """Keeps `results.json` up to date while a submission is marked."""
 
     folder: Path
     order: Order
@@ -52,17 +51,17 @@ class ResultsFile:
     finished: list[CheckResult] = field(default_factory=list)
 
     def __call__(self, event: events.Event) -> None:
-        """Take a finished check in and write the file anew."""
+        """Add a finished check and write the file again."""
         if isinstance(event, events.CheckFinished):
             self.finished.append(event.result)
             self.write(self._so_far())
 
     def start(self) -> None:
-        """Write the file that counts if nothing else ever does."""
+        """Write the file that counts if no check ever finishes."""
         self.write(self._so_far())
 
     def write(self, found: dict[str, Any]) -> None:
-        """Replace the file; it belongs to root, in a folder that others cannot write to."""
+        """Replace the file, which belongs to root, in a folder that others cannot write to."""
         found = {**found, "extra_data": {**found.get("extra_data", {}), **self.extra}}
         self.folder.mkdir(parents=True, exist_ok=True)
         with Folder.open(self.folder) as folder:
@@ -70,19 +69,19 @@ class ResultsFile:
             folder.replace(RESULTS, gradescope.results_json(found).encode("ascii"))
 
     def failed(self) -> None:
-        """Say that the fault is ours, below what was found out before."""
-        found, ours = self._so_far(), Translator(self.order.lang)(OUR_FAULT)
-        self.write({**found, "output": f"{ours}\n{found['output']}"})
+        """Write that the grader failed, together with the results so far."""
+        found, fault = self._so_far(), Translator(self.order.lang)(OUR_FAULT)
+        self.write({**found, "output": f"{fault}\n{found['output']}"})
 
     def _so_far(self) -> dict[str, Any]:
-        """Return the results of the checks that were asked."""
+        """Return the results of the checks that have finished."""
         assignment = self.order.assignment
-        asked = {result.id for result in self.finished}
+        finished = {result.id for result in self.finished}
         report = _empty_report(self.order)
         report = report.model_copy(
             update={"checks": list(self.finished), "score": sum(r.score for r in self.finished)}
         )
-        left = [use for use in assignment.checks if use.id not in asked]
+        left = [use for use in assignment.checks if use.id not in finished]
         names = [use.id if use.visibility == "visible" else UNSEEN for use in left]
         found = gradescope.results(report)
         lang = self.order.lang
@@ -90,7 +89,7 @@ class ResultsFile:
         if not names:
             return {**found, "tests": tests}
         cut_off = say(
-            "Marking was cut off here. These checks were not asked yet: {checks}",
+            "Marking was cut off here. These checks have not run yet: {checks}",
             checks=joined(*dict.fromkeys(names), by=", "),
         )
         output = f"{found['output']}{Translator(lang)(cut_off)}\n"
@@ -106,10 +105,10 @@ def run(
     sandbox: str = "account",
     lang: str | None = None,
 ) -> int:
-    """Mark `<autograder>/submission` and return the exit status.
+    """Mark `<autograder>/submission`; return 0 for a verdict, 3 if the grader failed.
 
-    `lang` is the language of what the student reads (default: the environment's).
-    0 if there is a verdict, 3 if the grader failed; `results/results.json` is there in each case.
+    `results/results.json` is written in each case. `lang` is the language of what the student reads
+    (default: the environment's).
     """
     results = autograder / "results"
     metadata = read_metadata(autograder / METADATA)
@@ -128,7 +127,9 @@ def run(
         click.echo(f"grader: {error}", err=True)
         file.failed()
         return 3
-    except Exception:  # ours: the instructor sees it, the student that it is not theirs
+    except (
+        Exception
+    ):  # a fault of the grader: the instructor sees the trace, the student only OUR_FAULT
         traceback.print_exc(file=sys.stderr)
         file.failed()
         return 3
@@ -137,7 +138,7 @@ def run(
 
 
 def read_metadata(path: Path) -> dict[str, Any]:
-    """Return Gradescope's `submission_metadata.json`; {} where there is none that can be read."""
+    """Return Gradescope's `submission_metadata.json`, {} if there is no readable one."""
     with contextlib.suppress(OSError, ValueError, RecursionError):
         if path.stat().st_size <= MOST_METADATA:
             found = json.loads(path.read_bytes())
@@ -146,7 +147,7 @@ def read_metadata(path: Path) -> dict[str, Any]:
 
 
 def student_name(metadata: dict[str, Any]) -> str | None:
-    """Return the names of those who handed in together, None if the metadata does not say."""
+    """Return the names of the submitters, None if the metadata has none."""
     users = metadata.get("users")
     named = [u.get("name") for u in users if isinstance(u, dict)] if isinstance(users, list) else []
     names = [one_line(name, most=60) for name in named if isinstance(name, str) and name.strip()]
@@ -163,19 +164,19 @@ def order_for(
     keys: Path | None = None,
     lang: str | None = None,
 ) -> Order:
-    """Return what is to be marked, by what Gradescope says of it."""
+    """Return the order to mark Gradescope's submission."""
     submission = autograder / "submission"
     name = student_name(metadata)
     order = make_orders(
         submission, assignment, distro, sandbox, (), name=name, keys=keys, lang=lang
     )[0]
-    # what was uploaded file by file has lost its exec bits on the way, a clone has not
+    # uploaded files have lost their exec bits, a clone has not
     cloned = metadata.get("submission_method") in CLONED
     return replace(order, modes_kept=cloned)
 
 
 def late_points(report: Report, metadata: dict[str, Any], order: Order) -> float:
-    """Return what the assignment's policy takes, by Gradescope's own time stamp."""
+    """Return the points that the policy takes for lateness, by Gradescope's time stamp."""
     try:
         submitted = datetime.fromisoformat(str(metadata.get("created_at")).replace("Z", "+00:00"))
     except ValueError:
@@ -199,7 +200,7 @@ def _write_problem(results: Path, lang: str) -> None:
 
 
 def _empty_report(order: Order) -> Report:
-    """Return the report of a submission of which nothing is known yet."""
+    """Return the report of a submission before its first check."""
     assignment = order.assignment
     return Report.model_validate(
         {

@@ -1,4 +1,4 @@
-"""Gradescope's `submission_metadata.yml`, of which a few lines are wanted and most are results."""
+"""Reads Gradescope's `submission_metadata.yml`, most of which are results that are not needed."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ WHOLE = (":submitters", ":created_at")
 
 
 def read_metadata(content: bytes) -> dict[str, Record]:
-    """Return each submission's record by the name of its folder; ValueError for no such file.
+    """Return each submission's record by the name of its folder; raise ValueError if invalid.
 
-    Results and histories are megabytes of what nobody asks for here: where the file is written as
-    Ruby writes it, they are passed over before the rest is parsed.
+    Results and histories can be megabytes. If the file is laid out as Ruby writes it, they are
+    skipped before the rest is parsed.
     """
     lean = "".join(_lean(content.decode("utf-8", "replace")))
     try:
@@ -29,12 +29,12 @@ def read_metadata(content: bytes) -> dict[str, Record]:
         if all(isinstance(record.get(":submitters"), list) for record in found.values()):
             return found
     except ValueError:
-        pass  # an anchor that was passed over, say
+        pass  # an anchor that was skipped, for example
     return _records(_load(content))
 
 
 def _lean(text: str) -> Iterator[str]:
-    """Yield the lines of the submitters and of the times, and where earlier attempts begin."""
+    """Yield the lines of submitters and times, and the first line of each earlier attempt."""
     key = ""
     for line in text.split("\n"):
         if line.strip() and not line.startswith(" "):
@@ -51,15 +51,15 @@ def _records(loaded: object) -> dict[str, Record]:
     return {
         name: value
         for name, value in loaded.items()
-        # (a name that is a path would lead elsewhere)
+        # (a name with a path would lead out of the folder)
         if isinstance(name, str) and name not in ("", ".", "..") and not set(name) & set("/\0")
         if isinstance(value, dict)
     }
 
 
 def _load(content: bytes) -> object:
-    """Read YAML of plain data; a Ruby object is what it is made of. ValueError if it is none."""
-    import yaml  # noqa: PLC0415 - slow to import, and most classes need none
+    """Parse YAML; a Ruby object becomes its plain data. Raise ValueError if it is not YAML."""
+    import yaml  # noqa: PLC0415 - slow to import, and rarely needed
 
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     loader = type("Loader", (base,), {})
@@ -80,7 +80,7 @@ def _load(content: bytes) -> object:
 
 
 def instant(value: object) -> datetime | None:
-    """Return a time stamp in UTC; one without a zone is UTC, as Rails writes it."""
+    """Return a time stamp in UTC, None if it is not one; without a zone it is UTC, as in Rails."""
     if isinstance(value, dict):  # ActiveSupport::TimeWithZone
         value = value.get("utc")
     if isinstance(value, str):

@@ -1,7 +1,7 @@
-"""Gradescope's "Export Submissions": a folder for each submission, and whose each one is.
+"""Reads Gradescope's "Export Submissions": a folder for each submission, and their submitters.
 
-`submission_metadata.yml` is written by Ruby: keys are symbols (`:submitters:`), and a time may
-come as an object of Rails. A group has one folder and several submitters.
+`submission_metadata.yml` is written by Ruby: keys are symbols (`:submitters:`), and a time may be a
+Rails object. A group has one folder and several submitters.
 """
 
 from __future__ import annotations
@@ -15,28 +15,28 @@ from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.batch.model import HandedIn, Student
 from grader.batch.systems.gradescope.metadata import Record, instant, read_metadata
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 METADATA = "submission_metadata.yml"
 NAMED = re.compile(r"submission_\d+")
 LARGEST = 64 * MEGABYTE
-UNKNOWN = "not in submission_metadata.yml: its number stands for the student"
-NO_FOLDER = say("it is in submission_metadata.yml, and its folder is not in the export")
+UNKNOWN = "not in submission_metadata.yml: its number was used as the student's name"
+NO_FOLDER = say("it is in submission_metadata.yml, but its folder is not in the export")
 GROUP = "handed in together: each of them gets the verdict"
-NO_METADATA = "submission_metadata.yml is not there: nobody's name, and no times"
+NO_METADATA = "submission_metadata.yml is missing: no names and no times of submission"
 
 
 def recognise(layout: Layout) -> bool:
-    """Whether there is the metadata, or every folder is called submission_123."""
+    """Whether the metadata is there, or every folder is named like submission_123."""
     folders = [item.name for item in layout.items if item.kind == "folder"]
     named = bool(folders) and all(NAMED.fullmatch(name) for name in folders)
     return layout.has(METADATA, "file") or named
 
 
 def read(layout: Layout, reading: Reading) -> Read:
-    """Return every submitter of every submission."""
+    """Return each submission once for each submitter."""
     metadata = _metadata(layout, reading)
     found: list[HandedIn] = []
     rest = []
@@ -51,28 +51,30 @@ def read(layout: Layout, reading: Reading) -> Read:
         found += _submission(layout.path, item, metadata.get(item.name), bool(metadata))
     for name, record in metadata.items():
         if name not in there:
-            gone = Item(name, "folder", NO_FOLDER)
+            gone = FolderItem(name, "folder", NO_FOLDER)
             found += _submission(layout.path, gone, record, known=True)
-    return Read(_keys_apart(found), rest)
+    return Read(_with_unique_keys(found), rest)
 
 
 def _metadata(layout: Layout, reading: Reading) -> Mapping[str, Record]:
     if not layout.has(METADATA, "file"):
-        reading.notes.say(NO_METADATA)
+        reading.notes.add(NO_METADATA)
         return {}
     content = read_bytes(layout.path / METADATA, LARGEST)
     if isinstance(content, Unread):
-        reading.notes.say(f"{METADATA} is not used: {content.reason}")
+        reading.notes.add(f"{METADATA} is not used: {content.reason}")
         return {}
     try:
         return read_metadata(content)
     except (ValueError, RecursionError) as error:
         why = shown(" ".join(str(error).split()))
-        reading.notes.say(f"{METADATA} is not used, as it is damaged: {why}")
+        reading.notes.add(f"{METADATA} is not used because it is damaged: {why}")
         return {}
 
 
-def _submission(path: Path, item: Item, record: Record | None, known: bool) -> Iterator[HandedIn]:
+def _submission(
+    path: Path, item: FolderItem, record: Record | None, known: bool
+) -> Iterator[HandedIn]:
     place = path / item.name
     students = _submitters(item.name, record or {})
     notes: tuple[str, ...] = () if record is not None or not known else (UNKNOWN,)
@@ -80,7 +82,7 @@ def _submission(path: Path, item: Item, record: Record | None, known: bool) -> I
         notes += (f"{GROUP}: {', '.join(student.name for student in students)}",)
     earlier = _earlier(item.name, record or {})
     if earlier:
-        notes += (f"the last of {earlier + 1} attempts: the export has no others",)
+        notes += (f"the last of {earlier + 1} attempts: the export has only this one",)
     submitted = instant((record or {}).get(":created_at"))
     for student in students:
         yield HandedIn(student, place, submitted=submitted, notes=notes, problem=item.problem)
@@ -92,14 +94,18 @@ def _submitters(folder: str, record: Record) -> list[Student]:
     found = []
     for person in people:
         name, sid, email = (_text(person.get(key)) for key in (":name", ":sid", ":email"))
-        key = sid or email or (f"{plain(folder)} {name}" if len(people) > 1 else plain(folder))
+        key = (
+            sid
+            or email
+            or (f"{printable(folder)} {name}" if len(people) > 1 else printable(folder))
+        )
         found.append(Student(key=key, name=name or key, email=email, id_number=sid))
-    return found or [Student(key=plain(folder), name=plain(folder))]
+    return found or [Student(key=printable(folder), name=printable(folder))]
 
 
 def _text(value: object) -> str:
-    """Return a scalar as text: a student's number may have been read as a number."""
-    return plain(str(value).strip()) if isinstance(value, str | int) else ""
+    """Return a scalar as text: YAML reads a student's number as an integer."""
+    return printable(str(value).strip()) if isinstance(value, str | int) else ""
 
 
 def _earlier(folder: str, record: Record) -> int:
@@ -110,15 +116,15 @@ def _earlier(folder: str, record: Record) -> int:
     return sum(str(one.get(":id", "")) != own for one in entries)
 
 
-def _keys_apart(found: list[HandedIn]) -> list[HandedIn]:
-    """Give students of one key (a number that was mistyped, say) one each, and say so."""
+def _with_unique_keys(found: list[HandedIn]) -> list[HandedIn]:
+    """Give different students with the same key (a mistyped number) one each, with a note."""
     people: dict[str, set[tuple[str, str]]] = {}
     for one in found:
         people.setdefault(one.student.key, set()).add((one.student.name, one.student.email))
-    return [one if len(people[one.student.key]) == 1 else _apart(one) for one in found]
+    return [one if len(people[one.student.key]) == 1 else _with_own_key(one) for one in found]
 
 
-def _apart(one: HandedIn) -> HandedIn:
+def _with_own_key(one: HandedIn) -> HandedIn:
     student = one.student
     note = f"several students have the number {student.key}"
     key = f"{student.key} {student.email or student.name}"

@@ -1,7 +1,7 @@
-"""Gradescope's `results.json` (autograder_samples/docs/specs.md) of one report.
+"""Gradescope's `results.json` (autograder_samples/docs/specs.md) for one report.
 
-A test with the visibility `hidden` or `after_due_date` is shown by Gradescope to whom it may be
-shown; what is said above the tests and in the others names none of them.
+Gradescope decides who sees a test with the visibility `hidden` or `after_due_date`; the text above
+the tests and the other tests never name it.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines, one_line, points
 from grader.batch.check_text import check_text
-from grader.batch.model import Entry, Override
-from grader.batch.points import Mark, in_points, marks, rounded, single, steps
+from grader.batch.model import GradebookEntry, Override
+from grader.batch.points import Mark, adjustments, in_points, marks, rounded, single
 from grader.report.model import Report
 
 MOST = 200  # characters of a name
@@ -24,7 +24,7 @@ MOST = 200  # characters of a name
 def results(
     report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
 ) -> dict[str, Any]:
-    """Return the results of a report; `penalty` are the points taken for lateness."""
+    """Return the results for a report; `penalty` are the points taken for lateness."""
     entry = single(report, penalty=penalty, overrides=overrides)
     return {
         "score": entry.final or 0.0,
@@ -41,12 +41,12 @@ def results(
 
 
 def results_json(found: dict[str, Any]) -> str:
-    r"""Return results as text: ASCII, `\n` at each line's end."""
+    r"""Return results as ASCII text with `\n` line ends."""
     return json.dumps(found, indent=1, allow_nan=False) + "\n"
 
 
 def problem(text: str, *, total: float = 0, lang: str = SOURCE) -> dict[str, Any]:
-    """Return results that say why there are none; the student's text is `text`."""
+    """Return results without points that show `text` to the student."""
     translate = Translator(lang)
     output = "\n".join(first_lines(translate(text), lines=20))
     found: dict[str, Any] = {"score": 0.0, "output": output, "output_format": "text"}
@@ -68,12 +68,12 @@ def _test(mark: Mark, report: Report) -> dict[str, Any]:
         "visibility": check.visibility,
         "extra_data": {"check": check.id, "status": check.status},
     }
-    if mark.points is not None:  # what nobody knows is neither passed nor failed
+    if mark.points is not None:  # without it the check is neither passed nor failed
         test["status"] = "passed" if mark.passed else "failed"
     return test
 
 
-def _output(entry: Entry, report: Report) -> str:
+def _output(entry: GradebookEntry, report: Report) -> str:
     final, most = points(entry.final or 0), points(report.max_score)
     lines: list[str] = [say("{points} of {most} points", points=final, most=most)]
     if report.status == "error":
@@ -81,7 +81,7 @@ def _output(entry: Entry, report: Report) -> str:
     open_ = sum(mark.check.max_score for mark in marks(entry) if mark.points is None)
     if open_:
         lines.append(say("{points} could be neither given nor taken.", points=in_points(open_)))
-    lines += [step.told for step in steps(entry)]
+    lines += [adjustment.text for adjustment in adjustments(entry)]
     lines += [line for note in report.submission.notes for line in first_lines(note, lines=3)]
     if report.observed.command:
         command = one_line(report.observed.command, most=1_000)
@@ -91,7 +91,7 @@ def _output(entry: Entry, report: Report) -> str:
 
 
 def _extra(report: Report) -> dict[str, Any]:
-    """Return by what the report can be found again; Gradescope keeps it with the submission."""
+    """Return what identifies the report; Gradescope stores it with the submission."""
     return {
         "report": {
             "schema": report.schema_,

@@ -1,10 +1,10 @@
-"""Moodle's "Download all submissions", unpacked: a folder or a file for each student or team.
+"""Reads Moodle's "Download all submissions": a folder or a file for each student or team.
 
 By mod/assign/classes/downloader.php: `<name>_<id>_assignsubmission_<plugin>/…` ("Download
-submissions in folders"), older ones with a `_` at the end, or
-`<name>_<id>_assignsubmission_<plugin>_<file>`. An underscore in the name has become a blank, so
-that the first `_<id>_` is Moodle's own, whatever a student calls his file. `<id>` is the number in
-`Participant 123` of the grading worksheet, or the team's; the default team has none.
+submissions in folders"), with a `_` at the end in older versions, or
+`<name>_<id>_assignsubmission_<plugin>_<file>`. Underscores in the name become spaces, so the first
+`_<id>_` is Moodle's own, whatever a student calls a file. `<id>` is the number in `Participant 123`
+of the grading worksheet, or the team's; the default team has none.
 """
 
 from __future__ import annotations
@@ -15,41 +15,41 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import say
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import Item, Layout, Read, Reading
-from grader.batch.systems.words import plain
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
+from grader.batch.systems.notes import printable
 
 NAMED = re.compile(
     r"(?P<name>.*?)(?:_(?P<id>\d+))?_assignsubmission_(?P<plugin>[a-z]+)(?:_(?P<file>.*))?",
     re.DOTALL,
 )
 NO_TIMES = (
-    "Moodle's download does not tell when something was handed in (the times in the zip are those "
-    "of the download): nothing counts as late by it"
+    "Moodle's download does not contain the times of submission (the times in the zip are those of "
+    "the download): nothing counts as late"
 )
-ONLINE_TEXT = "left out, as text that was typed into Moodle"
-ONLY_TEXT = say("only text was handed in, typed into Moodle: there is no file to mark")
-NO_ID = "Moodle's number is not in the name: the name stands for it"
-TWICE = "more than one folder of this student, taken as attempts in the order of their names"
+ONLINE_TEXT = "left out: text typed into Moodle"
+ONLY_TEXT = say("the submission is only text typed into Moodle: there is no file to mark")
+NO_ID = "Moodle's number is not in the name: the name was used instead"
+TWICE = "more than one folder of this student, used as attempts in the order of their names"
 
 
 @dataclass(frozen=True)
 class Part:
-    """One folder or file of a student's; `file` is the student's own name for it, "" for folders."""
+    """One folder or file of a student; `file` is the student's name for it, "" for a folder."""
 
-    item: Item
+    item: FolderItem
     plugin: str
     file: str
 
 
 def recognise(layout: Layout) -> bool:
-    """Whether at least half of what could be submissions is named as Moodle names it."""
-    ours = sum(NAMED.fullmatch(item.name) is not None for item in layout.items)
-    others = sum(NAMED.fullmatch(item.name) is None for item in layout.submissions())
-    return ours > 0 and ours >= others
+    """Whether at least half of the possible submissions have Moodle's names."""
+    named = sum(NAMED.fullmatch(item.name) is not None for item in layout.items)
+    unnamed = sum(NAMED.fullmatch(item.name) is None for item in layout.submissions())
+    return named > 0 and named >= unnamed
 
 
 def read(layout: Layout, reading: Reading) -> Read:
-    """Return each student's or team's files."""
+    """Return each student's or team's submission."""
     parts: dict[tuple[str, str], list[Part]] = {}
     rest = []
     for item in layout.items:
@@ -57,16 +57,16 @@ def read(layout: Layout, reading: Reading) -> Read:
         if match is None:
             rest.append(item)
             continue
-        name, number = plain(match["name"]), match["id"] or ""
+        name, number = printable(match["name"]), match["id"] or ""
         file = (match["file"] or "") if item.kind != "folder" else ""
         parts.setdefault((number or name, name), []).append(Part(item, match["plugin"], file))
-    reading.notes.say(NO_TIMES)
+    reading.notes.add(NO_TIMES)
     people = Counter(key for key, _ in parts)
-    # a blind marker sees one name (`Participant` in his language) and many numbers
+    # blind marking: one name (`Participant` in the site's language) and many numbers
     blind = len(parts) > 1 and len({name for _, name in parts}) == 1
     found: list[HandedIn] = []
     for (key, name), group in parts.items():
-        # two names under one number are no download of Moodle's: they are kept apart
+        # two names with one number are not from one download of Moodle: they stay separate
         own = key if people[key] == 1 else f"{key} {name}"
         numbered = blind or name.casefold() == "participant"
         student = Student(key=own, name=f"{name} {key}" if numbered else name or key)
@@ -82,7 +82,7 @@ def _student(
     if not files:
         path = layout.path / texts[0].item.name
         return [HandedIn(student, path, problem=texts[0].item.problem or ONLY_TEXT)]
-    notes = tuple(f"{ONLINE_TEXT}: {plain(part.item.name)}" for part in texts)
+    notes = tuple(f"{ONLINE_TEXT}: {printable(part.item.name)}" for part in texts)
     if not student.key.isdecimal():
         notes += (NO_ID,)
     folders = [part for part in files if part.item.kind == "folder"]
@@ -98,7 +98,7 @@ def _student(
         for part in folders
     ]
     if loose:
-        found.append(_flat(student, layout, reading, loose, notes))
+        found.append(_loose_files(student, layout, reading, loose, notes))
     if len(found) == 1:
         return found
     return [
@@ -106,11 +106,11 @@ def _student(
     ]
 
 
-def _flat(
+def _loose_files(
     student: Student, layout: Layout, reading: Reading, parts: list[Part], notes: tuple[str, ...]
 ) -> HandedIn:
     good = [part for part in parts if not part.item.problem]
-    problems = tuple(f"{plain(p.item.name)}: {p.item.problem}" for p in parts if p.item.problem)
+    problems = tuple(f"{printable(p.item.name)}: {p.item.problem}" for p in parts if p.item.problem)
     if not good:
         path = layout.path / parts[0].item.name
         return HandedIn(student, path, notes=notes, problem=parts[0].item.problem)

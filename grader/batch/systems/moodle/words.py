@@ -1,9 +1,9 @@
-"""What Moodle calls the columns of its grading worksheet in other languages, and the status in it.
+"""The names of the columns and states in Moodle's grading worksheet, in many languages.
 
 From Moodle's language packs: `recordid`, `hiddenuser`, `maxgrade`, `status`, `submissionteam`,
 `lastmodifiedsubmission` and `submissionstatus_…` of mod_assign, `grade` of the core, the name of
-assignfeedback_comments. A worksheet in a language that is not here is understood by its content, or
-its columns are named by the caller.
+assignfeedback_comments. A worksheet in another language is recognised by its content, or the caller
+names its columns.
 """
 
 from __future__ import annotations
@@ -150,7 +150,7 @@ SUBMITTED_ON = frozenset(
         *("최종 수정(제출)", "최종 수정 (제출)", "마지막 수정 (제출)", "마지막 수정(제출)"),
     }
 )
-# how the status begins; lateness and `Graded` come after it
+# the beginning of the status; lateness and `Graded` follow
 SUBMITTED = (
     *("submitted", "채점을 위해 제출", "제출 완료", "제출됨", "제출함", "zur bewertung abgegeben"),
     *("remis pour évaluation", "enviado para", "entregado para", "submetido para"),
@@ -184,9 +184,9 @@ MAXIMUM = re.compile(r"max|máx|massim|maks|höchst|högst|enimm|najv|макс|�
 
 
 def says_submitted(status: str, submitted_on: str) -> bool:
-    """Return whether Moodle has a submission: by its status, else by the time of the submission.
+    """Return whether Moodle has a submission, by its status, or else by the time of submission.
 
-    In a language whose words are not here only the time tells: Moodle writes `-` for none.
+    In an unknown language only the time decides; Moodle writes `-` for none.
     """
     begin = status.casefold().strip()
     if begin.startswith(SUBMITTED):

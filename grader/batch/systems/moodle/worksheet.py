@@ -1,8 +1,8 @@
-"""Moodle's offline grading worksheet: the teacher's own file with grades and feedback filled in.
+"""Moodle's offline grading worksheet: fills grades and feedback into the instructor's own file.
 
-Its reader (mod/assign/feedback/offline/importgradeslib.php) finds columns by their names in the
-site's language and the student by the number in `Participant 123`; it skips grades above the
-maximum without a word, so they are refused here.
+Moodle's import (mod/assign/feedback/offline/importgradeslib.php) finds columns by their names in
+the site's language and students by the number in `Participant 123`. It silently skips grades above
+the maximum, so they are refused here.
 """
 
 from __future__ import annotations
@@ -15,26 +15,26 @@ from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.lowered import Lowered, is_without_verdict, lowered
-from grader.batch.match import Match, match_more, ways_of_people
-from grader.batch.model import ClassResult, Comment, Elsewhere, Entry, Student, System
+from grader.batch.match import Match, match_more, rules_for_people
+from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student, System
 from grader.batch.roster import Roster, roster_of
 from grader.batch.roster_columns import columns_of
 from grader.batch.sheet import Filled, Sheet
 from grader.batch.systems.moodle.words import FEEDBACK, GRADE, IDENTIFIER, MAXIMUM
 
-PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word (in any script), then the number
+PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word in any script, then the number
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 NAME = "the Moodle worksheet"
 REMEDY = (
     "In Moodle: assignment, View all submissions, Grading action, Download grading worksheet "
     "(the assignment needs 'Offline grading worksheet' among its feedback types)."
 )
-NO_FEEDBACK = "the worksheet has no column of feedback comments: only grades go in"
+NO_FEEDBACK = "the worksheet has no column of feedback comments: only grades are filled in"
 
 
 @dataclass(frozen=True)
-class Columns:
-    """Where things stand; None for a column that is not there."""
+class WorksheetColumns:
+    """The indexes of the columns, None if there is no such column."""
 
     identifier: int
     grade: int
@@ -44,22 +44,22 @@ class Columns:
 
 @dataclass(frozen=True)
 class Worksheet:
-    """A worksheet that was understood: what is filled in, and whose line each row is."""
+    """A worksheet: its columns, and the student of each row."""
 
     sheet: Sheet
-    columns: Columns
+    columns: WorksheetColumns
     roster: Roster
     notes: tuple[str, ...] = ()
 
     def match(self, students: Sequence[Student], system: System) -> Match:
-        """Return the line of each student, by key."""
+        """Return the roster line of each student, by key."""
         found = Match()
-        ways = ways_of_people(system, students, self.roster)
-        match_more(found, ways, students, self.roster)
+        rules = rules_for_people(system, students, self.roster)
+        match_more(found, rules, students, self.roster)
         return found
 
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
-        """Return of whom Moodle knows a submission or a grade, by key, and why."""
+        """Return the students whose submission or grade is in Moodle, by key."""
         rows = self.match(students, system).rows
         found = {key: self.roster.lines[row].evidence for key, row in rows.items()}
         return {key: Elsewhere(reason) for key, reason in found.items() if reason}
@@ -73,10 +73,10 @@ class Worksheet:
         return [one for one in found if one is not None]
 
     def filled(self, result: ClassResult, comment: Comment) -> Filled:
-        """Return the worksheet with Grade and Feedback filled in for who has a final result.
+        """Return the worksheet with grade and feedback of every student with a final grade.
 
-        A cell is never filled in for a missing submission if Moodle knows one, or a grade.
-        UsageError for a grade above the maximum.
+        No cell changes for a student without a submission here if Moodle has a submission or a
+        grade. Raises UsageError for a grade above the maximum.
         """
         sheet, columns = self.sheet, self.columns
         match = self._match(result)
@@ -96,8 +96,8 @@ class Worksheet:
     def _match(self, result: ClassResult) -> Match:
         return self.match([entry.student for entry in result.entries], result.system)
 
-    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, Entry]]:
-        """Yield the rows whose cells get a grade, and whose they are."""
+    def _filled_in(self, result: ClassResult, match: Match) -> Iterator[tuple[int, GradebookEntry]]:
+        """Yield the rows that get a grade, with their entries."""
         for entry in result.entries:
             index = match.rows.get(entry.student.key)
             if index is None or entry.final is None:
@@ -117,9 +117,9 @@ def read_worksheet(
 ) -> Worksheet:
     """Read a worksheet and find its columns.
 
-    `grade_column` and `feedback_column` name these columns where their language is not known here;
-    `max_score` is the most that a student of the class can get. UsageError for a file that is no
-    worksheet, that is damaged, or that allows fewer points.
+    `grade_column` and `feedback_column` name these columns if their language is unknown;
+    `max_score` is the assignment's maximum. Raises UsageError if the file is not a worksheet, is
+    damaged, or allows fewer points.
     """
     sheet = Sheet(content, name=NAME)
     columns = _columns(sheet, grade_column, feedback_column)
@@ -128,26 +128,26 @@ def read_worksheet(
     if max_score is not None:
         for line in roster.lines:
             if _above(sheet, line.row, columns, max_score):
-                raise _too_many(f"the class is worth {cells.number(max_score)}", max_score)
+                raise _too_many(f"the assignment is worth {cells.number(max_score)}", max_score)
     notes = (sheet.note, "" if columns.feedback is not None else NO_FEEDBACK)
     return Worksheet(sheet, columns, roster, tuple(note for note in notes if note))
 
 
-def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> Columns:
+def _columns(sheet: Sheet, grade_column: str, feedback_column: str) -> WorksheetColumns:
     header = sheet.header
     identifier = _identifier(sheet)
     grade = _named(header, grade_column) if grade_column else _one_of(header, GRADE)
     if grade is None:
         raise UsageError(
-            f"{NAME} has no column of grades that is known here; its columns: {_listed(header)}",
+            f"no column of grades was recognised in {NAME}; its columns: {_listed(header)}",
             remedy="Name the column: --grade-column 'its name' (make: GRADE_COLUMN='its name').",
         )
     feedback = _named(header, feedback_column) if feedback_column else _feedback(header)
-    return Columns(identifier, grade, _maximum(sheet, grade), feedback)
+    return WorksheetColumns(identifier, grade, _maximum(sheet, grade), feedback)
 
 
 def _identifier(sheet: Sheet) -> int:
-    """Return the column of `Participant 123`: one word, and a number of its own in each row."""
+    """Return the column of `Participant 123`: the same word, and a different number in each row."""
     header = sheet.header
     fit = [index for index in range(len(header)) if _is_identifier(sheet.column(index))]
     by_name = [index for index in fit if header[index].casefold() in IDENTIFIER]
@@ -191,7 +191,7 @@ def _feedback(header: list[str]) -> int | None:
 
 
 def _maximum(sheet: Sheet, grade: int) -> int | None:
-    """Return the column of the maximum: by its name, else the grade's neighbour of one number."""
+    """Return the column of the maximum: by name, or after the grade if all numbers are equal."""
     fit = [i for i, name in enumerate(sheet.header) if MAXIMUM.search(name.casefold())]
     fit = [index for index in fit if index != grade] or [grade + 1]
     values = set(sheet.column(fit[0]))
@@ -200,15 +200,15 @@ def _maximum(sheet: Sheet, grade: int) -> int | None:
 
 
 def _warnings(result: ClassResult, match: Match) -> Iterator[str]:
-    """Yield who has no row, and who was found by the name alone."""
+    """Yield a warning for each student without a row or found by name only."""
     for entry in result.entries:
         if entry.student.key not in match.rows:
             yield f"{_who(entry)} is not in the worksheet: nothing was filled in"
         elif entry.student.key in match.by_name:
-            yield f"{_who(entry)} was found in the worksheet by the name alone"
+            yield f"{_who(entry)} was found in the worksheet by name only"
 
 
-def _need_cells(sheet: Sheet, columns: Columns, roster: Roster) -> None:
+def _need_cells(sheet: Sheet, columns: WorksheetColumns, roster: Roster) -> None:
     for line in roster.lines:
         for column in (columns.grade, *_only(columns.feedback)):
             if not sheet.has_cell(line.row, column):
@@ -219,8 +219,8 @@ def _need_cells(sheet: Sheet, columns: Columns, roster: Roster) -> None:
                 )
 
 
-def _above(sheet: Sheet, row: int, columns: Columns, points: float | None) -> bool:
-    """Whether a row allows fewer points than these."""
+def _above(sheet: Sheet, row: int, columns: WorksheetColumns, points: float | None) -> bool:
+    """Whether `points` exceed the maximum of a row."""
     if columns.maximum is None or points is None:
         return False
     most = sheet.value(row, columns.maximum).replace(",", ".")
@@ -230,7 +230,7 @@ def _above(sheet: Sheet, row: int, columns: Columns, points: float | None) -> bo
 def _too_many(what: str, max_score: float) -> UsageError:
     return UsageError(
         f"more points than {NAME} allows: {what}",
-        remedy="Set the assignment's maximum grade in Moodle to the points of the class "
+        remedy="Set the assignment's maximum grade in Moodle to the assignment's points "
         f"({cells.number(max_score)}), then download the worksheet again.",
     )
 
@@ -239,7 +239,7 @@ def _only(column: int | None) -> tuple[int, ...]:
     return () if column is None else (column,)
 
 
-def _who(entry: Entry) -> str:
+def _who(entry: GradebookEntry) -> str:
     return one_line(entry.student.name or entry.student.key, most=100)
 
 

@@ -1,7 +1,7 @@
 """PrairieLearn's `/grade/results/results.json` (docs/externalGrading.md).
 
-What cannot be read is not gradable: the student loses no attempt. The file may have 1 MB at most;
-what is too long is cut step by step, points never.
+An unreadable submission is not gradable, so the student loses no attempt. The file may have at most
+1 MB: texts are shortened step by step until it fits; points are always complete.
 """
 
 from __future__ import annotations
@@ -14,31 +14,31 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, last_lines, one_line, points, shorten
 from grader.batch.check_text import check_text
-from grader.batch.model import Entry
-from grader.batch.points import Mark, marks, rounded, steps
+from grader.batch.model import GradebookEntry
+from grader.batch.points import Mark, adjustments, marks, rounded
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 
 MOST_BYTES = 1_000_000
-# lines of each text of a check, lines of what was printed, characters of each check: what fits first
-ROOM = ((12, 400, 100_000), (12, 60, 8_000), (6, 20, 2_000), (2, 0, 300), (1, 0, 0))
+# from generous to strict, the first that fits is used: check_lines, log_lines, check_characters
+TEXT_LIMITS = ((12, 400, 100_000), (12, 60, 8_000), (6, 20, 2_000), (2, 0, 300), (1, 0, 0))
 MOST_NAME = 200
 
 
 @dataclass(frozen=True)
-class Room:
-    """How much of each text there is room for."""
+class TextLimits:
+    """The lines of each text of a check, lines of the output, and characters of each check."""
 
     check_lines: int
     log_lines: int
     check_characters: int
 
 
-def results(entry: Entry, *, show_hidden: bool = False) -> dict[str, Any]:
-    """Return the results of an entry; all tests have points. Hidden checks have no name or text."""
-    for room in ROOM:
-        found = _results(entry, Room(*room), show_hidden=show_hidden)
-        if len(results_json(found)) <= MOST_BYTES:  # it is ASCII
+def results(entry: GradebookEntry, *, show_hidden: bool = False) -> dict[str, Any]:
+    """Return the results of an entry; hidden checks have points but no name or text."""
+    for limits in TEXT_LIMITS:
+        found = _results(entry, TextLimits(*limits), show_hidden=show_hidden)
+        if len(results_json(found)) <= MOST_BYTES:  # ASCII: characters are bytes
             break
     return found
 
@@ -48,7 +48,7 @@ def results_json(found: dict[str, Any]) -> str:
     return json.dumps(found, allow_nan=False) + "\n"
 
 
-def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
+def _results(entry: GradebookEntry, limits: TextLimits, *, show_hidden: bool) -> dict[str, Any]:
     report = entry.report
     if report is None or entry.status in ("ungradable", "error") or entry.final is None:
         return _ungradable(entry)
@@ -58,26 +58,26 @@ def _results(entry: Entry, room: Room, *, show_hidden: bool) -> dict[str, Any]:
         "gradable": True,
         "score": rounded(score),
         "message": _message(entry),
-        "output": _output(report, room.log_lines, Translator(entry.lang)),
+        "output": _output(report, limits.log_lines, Translator(entry.lang)),
         "images": [],
         "tests": [
-            _test(mark, report, room, show=show_hidden or mark.check.visibility == "visible")
+            _test(mark, report, limits, show=show_hidden or mark.check.visibility == "visible")
             for mark in marks(entry)
         ],
     }
 
 
-def _ungradable(entry: Entry) -> dict[str, Any]:
+def _ungradable(entry: GradebookEntry) -> dict[str, Any]:
     message = entry.report.message if entry.report is not None else ""
     why = entry.problem or message or say("The submission could not be graded.")
-    told = "\n".join(first_lines(Translator(entry.lang)(why), lines=10))
-    return {"gradable": False, "format_errors": [told], "message": told, "tests": []}
+    text = "\n".join(first_lines(Translator(entry.lang)(why), lines=10))
+    return {"gradable": False, "format_errors": [text], "message": text, "tests": []}
 
 
-def _message(entry: Entry) -> str:
+def _message(entry: GradebookEntry) -> str:
     final, most = points(entry.final or 0), points(entry.max_score)
     lines = [say("{points} of {most} points", points=final, most=most)]
-    lines += [step.told for step in steps(entry)]
+    lines += [adjustment.text for adjustment in adjustments(entry)]
     return "\n".join(Translator(entry.lang)(line) for line in lines)
 
 
@@ -95,7 +95,7 @@ def _output(report: Report, lines: int, translate: Translator) -> str:
     return "\n".join(found)
 
 
-def _test(mark: Mark, report: Report, room: Room, *, show: bool) -> dict[str, Any]:
+def _test(mark: Mark, report: Report, limits: TextLimits, *, show: bool) -> dict[str, Any]:
     check, translate = mark.check, Translator(report.lang)
     test: dict[str, Any] = {
         "name": one_line(check.id, most=60) if show else translate(UNSEEN),
@@ -108,6 +108,8 @@ def _test(mark: Mark, report: Report, room: Room, *, show: bool) -> dict[str, An
     elif mark.correction and show:
         test["message"] = translate(mark.correction)
     if show:
-        text = check_text(mark, report, lines=room.check_lines)
-        test["output"] = shorten(text, most=room.check_characters) if room.check_characters else ""
+        text = check_text(mark, report, lines=limits.check_lines)
+        test["output"] = (
+            shorten(text, most=limits.check_characters) if limits.check_characters else ""
+        )
     return test

@@ -1,4 +1,4 @@
-"""The control of a class run: does everything work that a verdict needs, but for the submission?"""
+"""Tests without any submission whether everything works that a verdict needs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from grader.sandbox.choose import open_sandbox
 
 
 def prove(job: Job) -> None:
-    """Open the job's sandbox and try it; SurroundingsError says what does not work."""
+    """Open the job's sandbox and try it; raise SurroundingsError for what does not work."""
     sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, notify=unheard)
     try:
         try_out(sandbox)
@@ -24,9 +24,9 @@ def prove(job: Job) -> None:
 
 
 def try_out(sandbox: Sandbox) -> None:
-    """Do in an open sandbox what comes before and beside a submission's own code.
+    """Do in an open sandbox everything that marking does except run the submission's code.
 
-    An empty workspace is laid out, colcon is looked for, and the probe has to look at the graph.
+    Lays out an empty workspace, looks for colcon, and asks the probe for the ROS graph.
     """
     nothing = io.BytesIO()
     tarfile.open(fileobj=nothing, mode="w").close()

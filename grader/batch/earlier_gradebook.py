@@ -1,4 +1,4 @@
-"""The gradebook that an earlier run wrote: what is in it is not lost when it is written again."""
+"""The gradebook of an earlier run: its grades must not get lost when it is written again."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from grader.batch.lowered import Lowered, as_number, lowered
 from grader.batch.model import ClassResult, Elsewhere, Student
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
-NAME = "the gradebook that is there already"
+NAME = "the existing gradebook"
 LARGEST = 100 * MEGABYTE
-UNSHARED = ("email", "username", "id_number")  # columns of what nobody shares
+UNSHARED = ("email", "username", "id_number")  # columns that are unique to a student
 IDENTITY = ("name", *UNSHARED)
-NO_VERDICT = ("missing", "pending")  # a final grade beside these is no verdict's
+NO_VERDICT = ("missing", "pending")  # states whose final grade is not from a verdict
 
 
 @dataclass(frozen=True)
-class Before:
-    """The rows with a final grade, by the student's key."""
+class EarlierGradebook:
+    """The gradebook's rows with a final grade, by the student's key."""
 
     rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     def elsewhere(self, student: Student) -> Elsewhere | None:
-        """Return the grade that a student has already, None if there is none."""
+        """Return the grade that a student already has, None if there is none."""
         row = self.rows.get(cells.text(student.key)) or self._same(student)
         if row is None:
             return None
@@ -38,43 +38,43 @@ class Before:
         return Elsewhere(reason, as_number(row["final"]))
 
     def _same(self, student: Student) -> Mapping[str, str] | None:
-        """Return the one row with something of a student's that nobody shares, None if not one."""
-        own = _marks(_fields(student))
+        """Return the only row with a student's unique data (else name), None if it is not one."""
+        all_own = _identifiers(_fields(student))
         for names in (UNSHARED, ("name",)):
-            own_marks = {mark for mark in own if mark[0] in names}
-            fit = [row for row in self.rows.values() if own_marks & _marks(row)]
+            own = {identifier for identifier in all_own if identifier[0] in names}
+            fit = [row for row in self.rows.values() if own & _identifiers(row)]
             if fit:
                 return fit[0] if len(fit) == 1 else None
         return None
 
     def lowered(self, result: ClassResult) -> list[Lowered]:
-        """Return the grades that would go down or away."""
+        """Return the grades that would go down or be removed."""
         entries = {cells.text(entry.student.key): entry for entry in result.entries}
         found = [
             lowered(entry, self.rows[key]["final"], NAME)
             for key, entry in entries.items()
             if key in self.rows and entry.status != "pending"
         ]
-        known = {mark for entry in result.entries for mark in _marks(_fields(entry.student))}
+        known = {one for entry in result.entries for one in _identifiers(_fields(entry.student))}
         gone = [
             Lowered(key, one_line(row.get("name") or key, most=60), NAME, row["final"], "")
             for key, row in self.rows.items()
-            if key not in entries and not known & _marks(row)
+            if key not in entries and not known & _identifiers(row)
         ]
         return [*(one for one in found if one is not None), *gone]
 
 
-def read_before(path: Path) -> Before:
-    """Read the gradebook of an earlier run; nothing if there is none, or none that can be read."""
+def read_earlier_gradebook(path: Path) -> EarlierGradebook:
+    """Read the gradebook of an earlier run; it is empty if there is no readable one."""
     content = read_bytes(path, LARGEST)
     if isinstance(content, Unread):
-        return Before()
+        return EarlierGradebook()
     try:
         text = decoded(content, str(path)).text
         rows = list(csv.DictReader(io.StringIO(text, newline="")))
     except (UsageError, csv.Error):
-        return Before()
-    return Before(
+        return EarlierGradebook()
+    return EarlierGradebook(
         {
             row["key"]: {name: value for name, value in row.items() if isinstance(value, str)}
             for row in rows
@@ -87,6 +87,6 @@ def _fields(student: Student) -> dict[str, str]:
     return {name: cells.text(str(getattr(student, name))) for name in IDENTITY}
 
 
-def _marks(row: Mapping[str, str]) -> set[tuple[str, str]]:
-    """Return what tells that a student of another key is the same one."""
+def _identifiers(row: Mapping[str, str]) -> set[tuple[str, str]]:
+    """Return the pairs of column and value that identify a student under another key."""
     return {(name, row[name].casefold()) for name in IDENTITY if row.get(name)}

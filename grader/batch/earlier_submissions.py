@@ -1,4 +1,4 @@
-"""Students of the roster without a submission, found again in the ledger: they handed in before."""
+"""Finds students of the roster without a submission in the ledger: they handed in earlier."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from grader.batch.ledger import Ledger
 from grader.batch.model import Student
 
 
-class HandedInBefore:
-    """Who has earlier attempts in the ledger, under which key.
+class EarlierSubmissions:
+    """The keys under which students have earlier attempts in the ledger.
 
-    A roster's key need not be the one that the submission gave: that may have been a folder's name.
+    The roster may give a student another key than the submission did (a folder's name, say).
     """
 
     def __init__(
@@ -22,23 +22,23 @@ class HandedInBefore:
         present: Collection[str],
         earlier: Collection[str],
     ) -> None:
-        """`present` are the keys of those who have a submission now, `earlier` of those who had."""
+        """`present`: keys with a submission now; `earlier`: keys with one in the ledger."""
         self._earlier = earlier
         self._keys: dict[tuple[str, str], set[str]] = {}
         for student in ledger.students(assignment):
             if student.key in earlier and student.key not in present:
-                for mark in _marks(student):
-                    self._keys.setdefault(mark, set()).add(student.key)
+                for identifier in _identifiers(student):
+                    self._keys.setdefault(identifier, set()).add(student.key)
 
-    def as_known(self, student: Student) -> Student:
+    def with_known_key(self, student: Student) -> Student:
         """Return the student with the key of the earlier attempts, if exactly one key fits."""
         if student.key in self._earlier:
             return student
-        keys = {key for mark in _marks(student) for key in self._keys.get(mark, ())}
+        keys = {key for one in _identifiers(student) for key in self._keys.get(one, ())}
         return replace(student, key=keys.pop()) if len(keys) == 1 else student
 
 
-def _marks(student: Student) -> list[tuple[str, str]]:
+def _identifiers(student: Student) -> list[tuple[str, str]]:
     values = {
         "id number": student.id_number,
         "email": student.email,

@@ -1,4 +1,4 @@
-"""Names of files as texts that can be shown, stored and compared, and the notes that name them."""
+"""Notes for the instructor, and file names as printable text."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from collections.abc import Iterable
 from grader.base.shown import shown
 
 MOST_SHOWN = 50
-TURNING = "\u202a\u202b\u202d\u202e\u2066\u2067\u2068\u2069"
+DIRECTION = "\u202a\u202b\u202d\u202e\u2066\u2067\u2068\u2069"
 
 
-def plain(name: str) -> str:
-    """Return a file's name as text that every program takes; no two names become the same.
+def printable(name: str) -> str:
+    """Return a file name as printable text; different names stay different.
 
-    Controls, direction overrides and bytes that are not UTF-8 (PEP 383) are spelled out, and so is
-    the backslash that does it.
+    Control characters, direction overrides, bytes that are not UTF-8 (PEP 383) and backslashes are
+    escaped.
     """
     if name.isascii() and name.isprintable() and "\\" not in name:
         return name
-    return "".join(_spelled(c) for c in name)
+    return "".join(_escaped(c) for c in name)
 
 
-def _spelled(character: str) -> str:
+def _escaped(character: str) -> str:
     category = unicodedata.category(character)
     if character == "\\":
         return "\\\\"
-    if category in ("Cc", "Cs", "Zl", "Zp", "Cn") or character in TURNING:
+    if category in ("Cc", "Cs", "Zl", "Zp", "Cn") or character in DIRECTION:
         return (
             f"\\u{ord(character):04x}" if ord(character) < 0x10000 else f"\\U{ord(character):08x}"
         )
@@ -34,20 +34,20 @@ def _spelled(character: str) -> str:
 
 
 class Notes:
-    """What an instructor should know of a class, each thing once; names under their reason."""
+    """Notes about a class for the instructor, each one once; names are listed by reason."""
 
     def __init__(self) -> None:
         self._lines: dict[str, list[str] | None] = {}
 
-    def say(self, line: str) -> None:
-        """Note a sentence."""
+    def add(self, line: str) -> None:
+        """Add a sentence."""
         self._lines.setdefault(line, None)
 
-    def name(self, reason: str, names: Iterable[str]) -> None:
-        """Note names of files (as they are on the disk) under a reason."""
+    def add_names(self, reason: str, names: Iterable[str]) -> None:
+        """Add file names (as on the disk) to the note of a reason."""
         known = self._lines.setdefault(reason, [])
         if known is not None:
-            known.extend(shown(plain(name)) for name in names)
+            known.extend(shown(printable(name)) for name in names)
 
     def lines(self) -> tuple[str, ...]:
         """Return all notes, one line each."""

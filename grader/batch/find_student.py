@@ -1,4 +1,4 @@
-"""A student by any of the words that people use: key, number, name, email or user name."""
+"""Finds a student by key, id number, name, email address or user name."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ MOST_NAMED = 5
 
 
 def find_student(word: str, students: Sequence[Student]) -> Student:
-    """Return the one student whom `word` names.
+    """Return the one student whom `word` identifies.
 
-    Raises UsageError where nobody or more than one is meant, with whom it could be.
+    Raises UsageError if it is nobody or more than one student, with the possible ones.
     """
     for words in (_exact, _loose):
         found = [student for student in students if word.strip() in words(student)]
@@ -24,10 +24,14 @@ def find_student(word: str, students: Sequence[Student]) -> Student:
             return found[0]
         if found:
             keys = ", ".join(f"{s.key} ({s.name})" for s in found[:MOST_NAMED])
-            raise UsageError(f"'{word}' is more than one student: {keys}")
+            raise UsageError(f"'{word}' fits more than one student: {keys}")
     known = {name: student for student in students for name in _loose(student) if name}
     close = difflib.get_close_matches(word, known, n=1)
-    hint = f"Did you mean '{close[0]}'?" if close else "The gradebook's first column has the keys."
+    hint = (
+        f"Did you mean '{close[0]}'?"
+        if close
+        else "The first column of gradebook.csv has the keys."
+    )
     raise UsageError(f"there is no student '{word}'", remedy=hint)
 
 

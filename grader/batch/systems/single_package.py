@@ -1,4 +1,4 @@
-"""One submission where a whole class was expected, and a class where one submission was."""
+"""Tells a class folder from one student's package or workspace."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import os
 import re
 from pathlib import Path
 
-from grader.batch.systems.layout import Item, Layout
+from grader.batch.systems.layout import FolderItem, Layout
 from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.artefacts import COLCON
 from grader.package.intake.reading import Unread, read_bytes
 
-DEEPEST = 3  # how far below a student's folder a package is looked for
+DEEPEST = 3  # levels below a student's folder in which a package is searched
 MOST_NAMES = 500
 NAME = re.compile(rb"<name>\s*([^<\s]{1,200})\s*</name>")
 LARGEST_MANIFEST = 1_000_000
 
 
 def one_package(layout: Layout) -> str:
-    """Return what a folder is in words if it is one package or one workspace, else ""."""
+    """Return "one package" or "one workspace" if a folder is that, else ""."""
     if layout.has("package.xml", "file"):
         return "one package"
     items = layout.submissions()
@@ -32,9 +32,9 @@ def one_package(layout: Layout) -> str:
 
 
 def is_class(layout: Layout) -> bool:
-    """Whether a folder is a class' and not one student's: most of what is in it is a submission.
+    """Whether a folder is a class, not one student's: most of its items are submissions.
 
-    Packages that lie side by side in folders of their own names are one student's.
+    Packages side by side, each in a folder of its own name, are one student's.
     """
     items = layout.submissions()
     if one_package(layout) or len(items) < 2 or layout.has("setup.py", "file"):
@@ -44,7 +44,7 @@ def is_class(layout: Layout) -> bool:
     return 2 * len(submissions) >= len(items) and len(packages) < len(submissions)
 
 
-def _is_submission(path: Path, item: Item) -> bool:
+def _is_submission(path: Path, item: FolderItem) -> bool:
     return item.kind == "archive" or (not item.problem and _holds_package(path / item.name))
 
 
@@ -66,7 +66,7 @@ def _holds_package(folder: Path) -> bool:
     return False
 
 
-def _is_named_like_its_package(path: Path, item: Item) -> bool:
+def _is_named_like_its_package(path: Path, item: FolderItem) -> bool:
     if item.kind != "folder" or item.problem:
         return False
     manifest = read_bytes(path / item.name / "package.xml", LARGEST_MANIFEST)

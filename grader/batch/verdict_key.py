@@ -1,8 +1,8 @@
-"""What decides a verdict, as one hash: equal keys, equal verdicts.
+"""The key of a verdict: a hash of everything that decides it, so equal keys mean equal verdicts.
 
-It is the submission (contents and exec bits), the assignment, the distro and the ROS that it is
-marked with, the limits, the language of the report, and the grader's own source with its
-translations: a version number is forgotten too easily.
+Hashed are the submission (contents and exec bits), the assignment, the distro and its ROS, the
+limits, the report's language, and the grader's own source with its translations (not its version
+number, which is easily left unchanged).
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from grader.course.assignment import Assignment
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
 
-NOT_MARKING = ("batch", "publish", "keys")  # folders that only hand verdicts on
+NOT_MARKING = ("batch", "publish", "keys")  # folders that do not affect a verdict
 SOURCES = (".py", ".toml", ".json", ".yaml", ".txt", ".bash", ".in", ".j2", ".css", ".js", ".mo")
 
 
 @functools.cache
 def source_digest(folder: Path = PACKAGE, leave_out: tuple[str, ...] = ()) -> str:
-    """Return the hash of a folder's sources, but for the subfolders that are to be left out."""
+    """Return the hash of a folder's sources, without the subfolders in `leave_out`."""
     digest = hashlib.sha256()
     for path in sorted(folder.rglob("*")):
         place = path.relative_to(folder)
@@ -35,7 +35,7 @@ def source_digest(folder: Path = PACKAGE, leave_out: tuple[str, ...] = ()) -> st
 
 
 def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits, *, lang: str) -> str:
-    """Return the hash of everything that decides a verdict, but for the submission."""
+    """Return the hash of everything that decides a verdict except the submission."""
     made_of = [ros.distro.name, ros.kind, ros.versions]
     source = source_digest(PACKAGE, NOT_MARKING)
     parts = [assignment.sha256, made_of, asdict(limits), lang, source]
@@ -43,5 +43,5 @@ def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits, *, lang: 
 
 
 def verdict_key(submission: str, surroundings: str) -> str:
-    """Return the key of a submission's hash in given surroundings."""
+    """Return the verdict key for a submission's hash and a `surroundings_key`."""
     return hashlib.sha256(f"{submission} {surroundings}".encode()).hexdigest()

@@ -1,4 +1,4 @@
-"""A submission as one line of JSON and back: whatever its names and contents are."""
+"""Submissions as one line of JSON, whatever bytes are in their names and contents."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from grader.package.intake.model import Candidate, SourceFile, Submission
 TUPLES = ("notes", "hints", "node_files", "links_out")
 
 
-def to_text(submission: Submission) -> str:
-    """Return a submission as JSON on one line, in ASCII (names that are no UTF-8 are kept)."""
+def submission_json(submission: Submission) -> str:
+    """Return a submission as JSON on one line of ASCII; names that are not UTF-8 survive."""
     return json.dumps(asdict(submission), default=_simple)
 
 
-def from_text(text: str) -> Submission:
-    """Return the submission that `to_text` wrote. Raises ValueError for anything else."""
+def submission_from_json(text: str) -> Submission:
+    """Return the submission that `submission_json` wrote; raise ValueError for anything else."""
     found = json.loads(text)
     names = {field.name for field in fields(Submission)}
     if not isinstance(found, dict) or set(found) != names:
-        raise ValueError("this is no submission")
+        raise ValueError("not a submission")
     values: dict[str, Any] = {**found, "path": Path(found["path"])}
     values.update({name: tuple(found[name]) for name in TUPLES})
     values["candidates"] = tuple(Candidate(**entry) for entry in found["candidates"])
@@ -38,4 +38,4 @@ def _simple(value: object) -> str:
         return base64.b64encode(value).decode("ascii")
     if isinstance(value, Path):
         return str(value)
-    raise TypeError(f"no form in JSON for {type(value)}")
+    raise TypeError(f"cannot be written as JSON: {type(value)}")

@@ -1,4 +1,4 @@
-"""Files of one student that lie among other people's, copied into a folder of their own."""
+"""Copies one student's loose files into a folder of their own."""
 
 from __future__ import annotations
 
@@ -14,33 +14,33 @@ from grader.base.shown import shown
 from grader.package.intake.archive_limits import ArchiveLimits
 from grader.package.intake.reading import Unread, open_file
 
-MOST_FILES = 1_000  # of one student; the rest is not copied
+MOST_FILES = 1_000  # of one student; the rest are not copied
 
 
 class Gatherer:
-    """Makes folders below `root`; the same files give the same folder, made once."""
+    """Creates folders below `root`; the same files give the same folder."""
 
     def __init__(self, root: Path) -> None:
         self._root = root
 
     def __call__(self, files: Iterable[tuple[Path, str]]) -> Path:
-        """Return a folder with copies of files, each under the name that is given for it.
+        """Return a folder with copies of the files, each under its given name.
 
-        What is larger than anything that would be looked at is left out. SurroundingsError if the
-        folder cannot be made.
+        Files too large to be marked are left out. Raises SurroundingsError if the folder cannot be
+        created.
         """
-        wanted = _named_apart(list(files)[:MOST_FILES])
+        wanted = _with_unique_names(list(files)[:MOST_FILES])
         try:
             target = self._root / f"files-{_digest(wanted)}"
-            return target if target.is_dir() else self._made(target, wanted)
+            return target if target.is_dir() else self._copied(target, wanted)
         except OSError as error:
             raise SurroundingsError(
-                f"a student's files cannot be put into {shown(str(self._root))}: {error.strerror}",
-                remedy="Make room there, or choose another folder with --out.",
+                f"a student's files cannot be copied into {shown(str(self._root))}: {error.strerror}",
+                remedy="Free some space, or choose another folder with --out.",
             ) from None
 
-    def _made(self, target: Path, files: list[tuple[Path, str]]) -> Path:
-        """Copy beside the target, and give it the name when all of it is there."""
+    def _copied(self, target: Path, files: list[tuple[Path, str]]) -> Path:
+        """Copy into a temporary folder, and rename it to the target when it is complete."""
         self._root.mkdir(parents=True, exist_ok=True, mode=0o700)
         building = Path(tempfile.mkdtemp(prefix=".files-", dir=self._root))
         try:
@@ -49,12 +49,12 @@ class Gatherer:
             building.rename(target)
         except OSError:
             shutil.rmtree(building, ignore_errors=True)
-            if not target.is_dir():  # (if it is, somebody else was faster)
+            if not target.is_dir():  # (if it is, another process was faster)
                 raise
         return target
 
 
-def _named_apart(files: list[tuple[Path, str]]) -> list[tuple[Path, str]]:
+def _with_unique_names(files: list[tuple[Path, str]]) -> list[tuple[Path, str]]:
     taken: set[str] = set()
     named = []
     for path, wanted in files:

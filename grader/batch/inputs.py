@@ -1,6 +1,6 @@
-"""What is known before anything is marked: the teacher's files, the gradebook, and the class.
+"""Reads the instructor's files, the earlier gradebook and the class before anything is marked.
 
-Whatever can be found wrong with them is told here, while it costs nothing.
+Every error in them is reported here, before time is spent on marking.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from pathlib import Path
 from grader.base.plain_text import one_line
 from grader.batch.accept import counted, refuse_poor_join
 from grader.batch.discover import discover
-from grader.batch.gradebook_before import Before, read_before
+from grader.batch.earlier_gradebook import EarlierGradebook, read_earlier_gradebook
 from grader.batch.model import ClassFolder
-from grader.batch.sheets import OpenSheets, Sheets, open_sheets
+from grader.batch.sheets import OpenSheets, SheetOptions, open_sheets
 from grader.course.assignment import Assignment
 
 UNPACKED = "unpacked"
@@ -22,31 +22,31 @@ GRADEBOOK = "gradebook.csv"
 
 
 @dataclass(frozen=True)
-class Beforehand:
-    """The class with its files; `before` is the gradebook of an earlier run."""
+class ClassInputs:
+    """The class, the instructor's files, and the gradebook of an earlier run."""
 
     folder: ClassFolder
     sheets: OpenSheets
-    before: Before
+    gradebook: EarlierGradebook
 
 
-def look_beforehand(
+def read_inputs(
     path: Path,
     assignment: Assignment,
-    sheets: Sheets,
+    sheets: SheetOptions,
     out: Path,
     *,
     system: str,
     roster: Path | None,
     accepts: Collection[str],
     notify: Callable[[str], None],
-) -> Beforehand:
-    """Read everything; UsageError for what cannot be used, and for a class that hardly fits.
+) -> ClassInputs:
+    """Read everything; raise UsageError if a file cannot be used or the class does not fit.
 
-    If no roster was named, the worksheet is the roster, else Canvas' gradebook.
+    Without `roster` the worksheet is the roster, or else Canvas' gradebook.
     """
     opened = open_sheets(sheets, assignment)
-    before = read_before(out / GRADEBOOK)
+    gradebook = read_earlier_gradebook(out / GRADEBOOK)
     for note in opened.notes:
         notify(f"  {one_line(note)}")
     rosters = [roster] if roster else opened.rosters
@@ -57,18 +57,20 @@ def look_beforehand(
         unpack=out / UNPACKED,
     )
     _say_found(found, notify)
-    folder = _with_elsewhere(found, opened, before)
+    folder = _with_elsewhere(found, opened, gradebook)
     students = {one.student.key: one.student for one in folder.handed_in}
     covered = list(opened.covered(list(students.values()), folder.system))
     refuse_poor_join(folder, covered, assignment.policy, accepts)
-    return Beforehand(folder, opened, before)
+    return ClassInputs(folder, opened, gradebook)
 
 
-def _with_elsewhere(folder: ClassFolder, opened: OpenSheets, before: Before) -> ClassFolder:
-    """Return the class with what the files and the gradebook know of those who are missing."""
+def _with_elsewhere(
+    folder: ClassFolder, opened: OpenSheets, gradebook: EarlierGradebook
+) -> ClassFolder:
+    """Return the class with what the files and the gradebook say about missing students."""
     elsewhere = {**opened.elsewhere(folder.missing, folder.system), **folder.elsewhere}
     for student in folder.missing:
-        had = before.elsewhere(student)
+        had = gradebook.elsewhere(student)
         if had is not None:
             elsewhere[student.key] = replace(elsewhere.get(student.key, had), final=had.final)
     return replace(folder, elsewhere=elsewhere)
