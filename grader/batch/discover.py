@@ -10,23 +10,23 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.batch.join import join
-from grader.batch.model import ClassFolder, HandedIn, System
+from grader.batch.model import ClassFolder, HandedIn
 from grader.batch.roster import Roster, read_roster
 from grader.batch.systems import plain
 from grader.batch.systems.exec_bits import no_exec_bits
 from grader.batch.systems.gather import Gatherer
 from grader.batch.systems.known import (
-    LAYOUTS,
     NAMED_BY_HAND,
-    READERS,
-    WORDS,
     check_system,
     is_named_as_in,
+    layouts,
+    reader_of,
     recognised,
 )
 from grader.batch.systems.layout import Layout, Reading, look_at, seen
 from grader.batch.systems.notes import Notes, printable
 from grader.batch.systems.single_package import is_class, one_package
+from grader.batch.systems.system import System
 from grader.batch.unpack import Unpacked, unpack_class
 from grader.batch.unpack_members import NOT_UNPACKED
 from grader.package.intake.given import resolved
@@ -62,14 +62,14 @@ def discover(
     unpacked = Unpacked(request.path)
     if not request.path.is_dir():
         unpacked = unpack_class(request.path, request.unpack)
-    layout, found_system, handed_in = _read(request, unpacked, notes)
+    layout, system_found, handed_in = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
-    handed_in = _with_modes(found_system, handed_in, unpacked, notes)
-    joined = join(found_system, _numbered(handed_in), students)
+    handed_in = _with_modes(system_found, handed_in, unpacked, notes)
+    joined = join(system_found.name, _numbered(handed_in), students)
     for reason, names in layout.left_out.items():
         notes.add_names(reason, names)
     return ClassFolder(
-        system=found_system,
+        system=system_found.name,
         path=request.path,
         # numbered again: a member of a group may also have handed in alone
         handed_in=tuple(_numbered(joined.handed_in)),
@@ -102,20 +102,20 @@ def _read(
     if found is None:
         raise UsageError(
             f"{shown(str(request.path))} has no submissions of a class: {seen(layout)}",
-            remedy=LAYOUTS,
+            remedy=layouts(),
         )
     reading = Reading(notes, Gatherer(request.unpack))
-    read = READERS[found].read(layout, reading)
+    read = reader_of(found).read(layout, reading)
     handed_in = [*read.handed_in]
     if not handed_in:
         raise UsageError(
-            f"{shown(str(request.path))} is not {WORDS[found]}: {seen(layout)}", remedy=LAYOUTS
+            f"{shown(str(request.path))} is not {found.download}: {seen(layout)}", remedy=layouts()
         )
     taken = {one.student.key for one in handed_in}
     for one in plain.read_items(layout.path, read.rest, reading):
-        handed_in.append(_beside(one, taken, WORDS[found]))
+        handed_in.append(_beside(one, taken, found.download))
     how = "as requested" if request.system != "auto" else "by its names"
-    notes.add(f"read as {WORDS[found]} ({found}), {how}")
+    notes.add(f"read as {found.download} ({found.name}), {how}")
     return layout, found, handed_in
 
 
@@ -195,7 +195,7 @@ def _with_modes(
     """Return the submissions with `modes_kept` False if the class lost its exec bits."""
     kept = unpacked.modes_recorded
     folders = [one.path for one in handed_in if one.modes_kept and not one.problem]
-    if kept and system != "github_classroom" and no_exec_bits(folders):
+    if kept and not system.keeps_modes and no_exec_bits(folders):
         kept = False
         notes.add(NO_BITS)
     return handed_in if kept else [replace(one, modes_kept=False) for one in handed_in]

@@ -9,13 +9,13 @@ from datetime import datetime
 from grader.base.plain_text import one_line
 from grader.batch.groups import Groups, find_groups, group_column
 from grader.batch.match import Match, fallback_rules, folded, is_same_name, match_more, sure_rules
-from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student, System
+from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student
 from grader.batch.roster import Roster
+from grader.batch.systems.known import SYSTEMS
 
 STRANGER = "not on the roster"
 AMBIGUOUS = "fits more than one line of the roster, or its line fits more than one submission"
 BY_NAME = "found on the roster by name only"
-BY_GROUPS = ("moodle", "folders", "archives")  # systems whose download has a folder for each group
 ALONE_TOO = "also handed in alone: both are attempts"
 
 
@@ -33,7 +33,7 @@ class Joined:
     notes: tuple[str, ...] = ()
 
 
-def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
+def join(system: str, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
     """Match each submission with its student's line of the roster; without a roster, sort by name.
 
     A group's submission becomes one of each member. Students keep the keys of their submissions;
@@ -63,7 +63,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
 
 
 def _with_groups(
-    system: System, students: Sequence[Student], roster: Roster
+    system: str, students: Sequence[Student], roster: Roster
 ) -> tuple[Roster, list[str]]:
     """Return the roster with its group column, and a note if the names of the submissions tell it.
 
@@ -73,10 +73,12 @@ def _with_groups(
     """
     if any(line.group for line in roster.lines):
         found = len(find_groups(students, roster.lines).rows)
-        if system in BY_GROUPS and (roster.kind == "moodle" or 2 * found >= len(students)):
+        if SYSTEMS[system].group_folders and (
+            roster.kind == "moodle" or 2 * found >= len(students)
+        ):
             return roster, []
         return replace(roster, lines=tuple(replace(line, group="") for line in roster.lines)), []
-    column = group_column(students, roster.lines) if system in BY_GROUPS else ""
+    column = group_column(students, roster.lines) if SYSTEMS[system].group_folders else ""
     if not column:
         return roster, []
     lines = tuple(replace(line, group=line.unknown[column]) for line in roster.lines)
@@ -107,8 +109,8 @@ def _joined(
             found[row] = [*_of_group(by_key[key], student, groups.names[key], alone=own), *own]
     for key, attempts in by_key.items():
         if key not in match.rows and not groups.rows.get(key):
-            note = AMBIGUOUS if key in match.ambiguous | groups.ambiguous else STRANGER
-            strangers.append([replace(one, notes=(*one.notes, note)) for one in attempts])
+            reason = AMBIGUOUS if key in match.ambiguous | groups.ambiguous else STRANGER
+            strangers.append([replace(one, notes=(*one.notes, reason)) for one in attempts])
     missing = [
         (row, _with_free_key(line.student, taken))
         for row, line in enumerate(roster.lines)

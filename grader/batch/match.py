@@ -8,8 +8,9 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from grader.batch.model import Student, System
+from grader.batch.model import Student
 from grader.batch.roster import Roster
+from grader.batch.systems.known import SYSTEMS
 
 MOST_PARTS = 5  # of a name that is written as one word
 
@@ -62,41 +63,44 @@ def match_more(
                 match.by_name.add(keys[0])
 
 
-def sure_rules(system: System, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
+def sure_rules(system: str, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
     """Yield the rules that need more than a name, the surest first.
 
-    Moodle's and Canvas' numbers are compared only with a roster of the same system: in another list
-    a small number would be somebody else's.
+    A system's numbers are compared only with a roster of the same system: in another list a small
+    number would be somebody else's.
     """
-    numbered = system in ("moodle", "canvas")
-    if system == roster.kind and numbered:
+    if _has_numbers_of(system, roster):
         yield _by_number(students, roster)
-    if system == "github_classroom":
+    if SYSTEMS[system].usernames:
         yield MatchRule(_username, _username)
         yield MatchRule(_tails, _username)
-    if not numbered:
+    if not SYSTEMS[system].numbered:
         for identifiers in (_id_number, _username, _email):
             yield MatchRule(_all_identifiers, identifiers)
         yield MatchRule(_all_identifiers, _key)
         yield MatchRule(_all_identifiers, _mailbox)
 
 
-def fallback_rules(system: System, roster: Roster) -> Iterator[MatchRule]:
+def fallback_rules(system: str, roster: Roster) -> Iterator[MatchRule]:
     """Yield the last rules to try: by the number of a student without a name, and by name."""
-    if system == roster.kind and system in ("moodle", "canvas"):
+    if _has_numbers_of(system, roster):
         yield MatchRule(_number, _number, fits=_is_nameless)
     yield from NAME_RULES
 
 
 def rules_for_people(
-    system: System, students: Sequence[Student], roster: Roster
+    system: str, students: Sequence[Student], roster: Roster
 ) -> Iterator[MatchRule]:
     """Yield the rules to find the students of a class in a sheet."""
-    if system == roster.kind and system in ("moodle", "canvas"):
+    if _has_numbers_of(system, roster):
         yield _by_number(students, roster)
     for identifiers in (_id_number, _email, _username):
         yield MatchRule(identifiers, identifiers)
     yield from fallback_rules(system, roster)
+
+
+def _has_numbers_of(system: str, roster: Roster) -> bool:
+    return system == roster.kind and SYSTEMS[system].numbered
 
 
 def names_agree(own: Student, line: Student) -> bool:

@@ -15,7 +15,6 @@ from typing import Literal, overload
 
 from grader.report.model import Report
 
-System = Literal["folders", "archives", "moodle", "canvas", "gradescope", "github_classroom"]
 EntryStatus = Literal["graded", "ungradable", "error", "missing", "elsewhere", "pending"]
 
 
@@ -79,7 +78,7 @@ class ClassFolder:
     `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
     """
 
-    system: System
+    system: str
     path: Path
     handed_in: tuple[HandedIn, ...]
     missing: tuple[Student, ...] = ()
@@ -163,7 +162,7 @@ class ClassResult:
 
     title: str
     assignment: str
-    system: System
+    system: str
     entries: tuple[GradebookEntry, ...]
     max_score: float
     distros: tuple[str, ...] = ()

@@ -14,11 +14,10 @@ from grader.base.plain_text import one_line
 from grader.base.shown import shown
 from grader.batch.decoded import AS_CSV, decoded
 from grader.batch.model import Student
-from grader.batch.roster_columns import KNOWN, RosterColumns, RosterKind, columns_of, participant
+from grader.batch.roster_columns import KNOWN, RosterColumns, columns_of, form_of
 from grader.batch.roster_guess import EMAIL
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
-from grader.batch.systems.moodle.words import says_submitted
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 LARGEST = 20 * MEGABYTE
@@ -49,7 +48,7 @@ class Roster:
     """A class' students in the order of the file; `kind`: which system's numbers the keys are."""
 
     lines: tuple[RosterLine, ...]
-    kind: RosterKind
+    kind: str
     name: str = "the roster"
     notes: tuple[str, ...] = ()
 
@@ -111,16 +110,10 @@ def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> 
 
 
 def _evidence(sheet: Sheet, row: int, columns: RosterColumns) -> str:
-    """Return which submission or grade of a student Moodle knows, in words; "" if none."""
-    if columns.kind != "moodle":
-        return ""
-    grade = _cell(sheet, row, columns, "grade")
-    if grade not in ("", "-"):
-        return f"Moodle's worksheet has the grade {one_line(grade, most=20)}"
-    status = _cell(sheet, row, columns, "status")
-    if not says_submitted(status, _cell(sheet, row, columns, "submitted on")):
-        return ""
-    return f"Moodle's worksheet says '{one_line(status, most=80) or 'submitted'}'"
+    """Return which submission or grade of a student the system knows, in words; "" if none."""
+    form = form_of(columns.kind)
+    cells = {field: _cell(sheet, row, columns, field) for field in form.fields()}
+    return form.evidence(cells)
 
 
 def _content(path: Path, name: str) -> bytes:
@@ -158,8 +151,9 @@ def _student(sheet: Sheet, row: int, columns: RosterColumns) -> Student | None:
     if any(sheet.value(row, index).casefold() in NO_STUDENT for index in columns.of("name")):
         return None
     email, username, number = cell("email"), cell("username"), cell("id number")
-    key = participant(cell("key")) if columns.kind == "moodle" else cell("key")
-    if columns.kind == "github_classroom":
+    form = form_of(columns.kind)
+    key = form.number(cell("key"))
+    if form.is_identity:
         identifier, key = key, ""
         email = email or (identifier if "@" in identifier else "")
         number = number or (identifier if identifier != email else "")

@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
-from grader.batch.roster_guess import PARTICIPANT, PEEKED, guessed
-from grader.batch.sheet import Sheet
-from grader.batch.systems.moodle.words import (
-    FEEDBACK,
-    GRADE,
-    IDENTIFIER,
-    MAXIMUM,
-    STATUS,
-    SUBMITTED_ON,
-    TEAM,
-)
+from grader.batch.roster_guess import guessed
+from grader.batch.sheet import Sheet, folded_header
+from grader.batch.systems.known import SYSTEMS
+from grader.batch.systems.moodle import SYSTEM as MOODLE
+from grader.batch.systems.moodle.words import TEAM
+from grader.batch.systems.system import RosterForm
 
-RosterKind = Literal["moodle", "canvas", "gradescope", "github_classroom", "plain"]
+PLAIN = "plain"  # a roster that no system exported
 
 NAMES: Mapping[str, tuple[str, ...]] = {
     "name": (
@@ -57,23 +51,19 @@ NAMES: Mapping[str, tuple[str, ...]] = {
     "group": tuple(sorted(TEAM)),
     "submitted": ("submission timestamp",),  # of Classroom's "Download grades"
 }
-MOODLES: Mapping[str, frozenset[str]] = {
-    "status": STATUS,
-    "submitted on": SUBMITTED_ON,
-    "grade": GRADE,
-}
+PLAIN_FORM = RosterForm(key=lambda _sheet, _header: None)
 KNOWN = tuple(name for names in NAMES.values() for name in names)
 
 
 @dataclass(frozen=True)
 class RosterColumns:
-    """The columns of each field, the best one first, and which system exported them.
+    """The columns of each field, the best one first, and which system exported them (or PLAIN).
 
     `guesses` describes the columns that were recognised by their content, `unknown` are those that
     were not recognised.
     """
 
-    kind: RosterKind
+    kind: str
     fields: Mapping[str, tuple[int, ...]]
     guesses: tuple[str, ...] = ()
     unknown: tuple[int, ...] = ()
@@ -89,18 +79,18 @@ class RosterColumns:
         return any(self.of(field) for field in known)
 
 
-def columns_of(sheet: Sheet, *, participants: int | None = None) -> RosterColumns:
+def columns_of(sheet: Sheet, *, exported: tuple[str, int] | None = None) -> RosterColumns:
     """Return the columns of a sheet, recognised by their names, or else by their content.
 
-    `participants` is the column of Moodle's identifiers, if it is known.
+    `exported` is the system that exported the sheet, and the column of its identifiers, if known.
     """
-    header = [_folded(name) for name in sheet.header]
+    header = [folded_header(name) for name in sheet.header]
     fields = {field: _named(header, names) for field, names in NAMES.items()}
-    if _folded("성") in header:  # `이름` beside it is the given name
+    if folded_header("성") in header:  # `이름` beside it is the given name
         given = _named(header, ("이름",))
         fields["first name"] += given
         fields["name"] = tuple(index for index in fields["name"] if index not in given)
-    kind, key = _kind(sheet, header) if participants is None else ("moodle", participants)
+    kind, key = _kind(sheet, header) if exported is None else exported
     if key is not None:
         fields = {
             field: tuple(index for index in found if index != key)
@@ -110,65 +100,39 @@ def columns_of(sheet: Sheet, *, participants: int | None = None) -> RosterColumn
     unknown = [i for i, name in enumerate(header) if not _is_known(name) and i != key]
     guesses = guessed(sheet, unknown, {field for field, found in fields.items() if found})
     fields |= {field: (index,) for field, index in guesses.items()}
-    if "key" in guesses:
-        kind = "moodle"
-    if kind == "moodle":
-        fields |= _of_moodle(header, fields)
+    if "key" in guesses:  # by its content: `Participant 123`
+        kind = MOODLE.name
+    form = form_of(kind)
+    own = {field: _named(header, tuple(names)) for field, names in form.fields().items()}
+    fields |= {field: columns or fields.get(field, ()) for field, columns in own.items()}
     described = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
     rest = tuple(index for index in unknown if index not in guesses.values())
     return RosterColumns(kind, fields, tuple(described), rest)
 
 
-def _of_moodle(
-    header: list[str], fields: Mapping[str, tuple[int, ...]]
-) -> dict[str, tuple[int, ...]]:
-    """Return the worksheet's columns that say whether Moodle has a submission or a grade."""
-    found = {field: _named(header, tuple(names)) for field, names in MOODLES.items()}
-    return {field: columns or fields.get(field, ()) for field, columns in found.items()}
+def form_of(kind: str) -> RosterForm:
+    """Return how rosters of a kind are read."""
+    system = SYSTEMS.get(kind)
+    return system.roster if system is not None and system.roster is not None else PLAIN_FORM
 
 
 def _named(header: list[str], names: tuple[str, ...]) -> tuple[int, ...]:
-    folded = [_folded(name) for name in names]
+    folded = [folded_header(name) for name in names]
     return tuple(i for name in folded for i, head in enumerate(header) if head == name)
 
 
-def _folded(name: str) -> str:
-    words = name.casefold().replace("_", " ").split()
-    # spaces between Korean words are optional: 이메일 주소, 이메일주소
-    return (" " if name.isascii() else "").join(words)
-
-
-_FOLDED = frozenset(
-    _folded(name)
-    for names in (KNOWN, GRADE, FEEDBACK, IDENTIFIER, STATUS, SUBMITTED_ON)
-    for name in names
-)
+_FOLDED = frozenset(map(folded_header, KNOWN))
 
 
 def _is_known(name: str) -> bool:
-    return name in _FOLDED or MAXIMUM.search(name) is not None
+    forms = (system.roster for system in SYSTEMS.values() if system.roster is not None)
+    return name in _FOLDED or any(form.is_header(name) for form in forms)
 
 
-def _kind(sheet: Sheet, header: list[str]) -> tuple[RosterKind, int | None]:
-    """Return which system exported a sheet, and the column of that system's own number."""
-    identifiers = {_folded(name) for name in IDENTIFIER}
-    for index, name in enumerate(header):
-        values = [value for value in sheet.column(index)[:PEEKED] if value]
-        if name in identifiers and values and all(PARTICIPANT.fullmatch(v) for v in values):
-            # (`student 1`, `student 2` below another header are somebody's own numbers)
-            return "moodle", index
-    split = header[:2] == ["lastname", "firstname"]
-    if (header[:1] == ["student"] or split) and "id" in header and "section" in header:
-        return "canvas", header.index("id")
-    for name in ("identifier", "roster identifier"):  # in the roster, and in the grades
-        if name in header and "github username" in header:
-            return "github_classroom", header.index(name)
-    if "sid" in header and "email" in header:
-        return "gradescope", None
-    return "plain", None
-
-
-def participant(text: str) -> str:
-    """Return the number in Moodle's `Participant 123`, "" if there is none."""
-    match = PARTICIPANT.fullmatch(text)
-    return match[2] if match else ""
+def _kind(sheet: Sheet, header: list[str]) -> tuple[str, int | None]:
+    """Return which system exported a sheet, and the column of that system's own identifier."""
+    for system in SYSTEMS.values():
+        found = system.roster.key(sheet, header) if system.roster is not None else None
+        if found is not None:
+            return system.name, found.column
+    return PLAIN, None

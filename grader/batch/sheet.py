@@ -19,6 +19,13 @@ DECIMAL_COMMA = re.compile(r"\s*-?\d+,\d+\s*")
 DECIMAL_POINT = re.compile(r"\s*-?\d+\.\d+\s*")
 
 
+def folded_header(name: str) -> str:
+    """Return a column's name for comparisons: without capitals, and without blanks in Korean."""
+    words = name.casefold().replace("_", " ").split()
+    # blanks between Korean words are optional: 이메일 주소, 이메일주소
+    return (" " if name.isascii() else "").join(words)
+
+
 @dataclass(frozen=True)
 class CsvCell:
     """A cell's value and its position in the text: `start` to `end`, including quotes."""

@@ -3,100 +3,85 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
-from grader.batch.model import ClassResult, Elsewhere, OnRoster, Student, System
+from grader.batch.model import ClassResult, Elsewhere, OnRoster, Student
+from grader.batch.systems.known import sheet_forms
+from grader.batch.systems.system import OpenSheet
 from grader.course.assignment import Assignment
 
 if TYPE_CHECKING:
     from grader.batch.lowered import Lowered
     from grader.batch.roster import Roster
-    from grader.batch.systems.canvas.write import CanvasGradebook
-    from grader.batch.systems.moodle.worksheet import Worksheet
 
 MOST_INPUT = 50_000_000  # bytes of one file
 
 
 @dataclass(frozen=True)
 class SheetOptions:
-    """The instructor's files that are filled in, and the names of their columns."""
+    """The instructor's files to fill in, by option, and the names of columns, by option."""
 
-    worksheet: Path | None = None
-    canvas: Path | None = None
-    canvas_column: str = ""
-    grade_column: str = ""
-    feedback_column: str = ""
+    files: Mapping[str, Path] = field(default_factory=dict)
+    columns: Mapping[str, str] = field(default_factory=dict)
     show_hidden: bool = False
 
 
 @dataclass(frozen=True)
 class OpenSheets:
-    """The files as read before the marking; `digest` is the hash of their contents."""
+    """The files as read before the marking, by the name of the filled copy.
 
-    worksheet: Worksheet | None = None
-    canvas: CanvasGradebook | None = None
+    `digest` is the hash of their contents.
+    """
+
+    by_output: Mapping[str, OpenSheet] = field(default_factory=dict)
     digest: str = ""
 
     @property
     def rosters(self) -> list[Roster]:
         """The rosters in the files, the more detailed one first."""
-        return [sheet.roster for sheet in self._sheets]
+        return [sheet.roster for sheet in self.by_output.values()]
 
     @property
     def notes(self) -> list[str]:
         """Notes about the files for the instructor."""
-        return [note for sheet in self._sheets for note in sheet.notes]
+        return [note for sheet in self.by_output.values() for note in sheet.notes]
 
-    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
         """Return the students whose submission or grade is in a file, by key."""
         found: dict[str, Elsewhere] = {}
-        for sheet in self._sheets:
+        for sheet in self.by_output.values():
             found |= sheet.elsewhere(students, system)
         return found
 
     def lowered(self, result: ClassResult) -> list[Lowered]:
         """Return the grades in the files that would go down."""
-        return [one for sheet in self._sheets for one in sheet.lowered(result)]
+        return [one for sheet in self.by_output.values() for one in sheet.lowered(result)]
 
-    def covered(self, students: Sequence[Student], system: System) -> Iterator[OnRoster]:
+    def covered(self, students: Sequence[Student], system: str) -> Iterator[OnRoster]:
         """Yield for each file how many of the students have a row in it."""
-        for sheet in self._sheets:
+        for sheet in self.by_output.values():
             rows = sheet.match(students, system).rows
             strangers = tuple(one.name for one in students if one.key not in rows)
             roster = sheet.roster
             yield OnRoster(roster.name, len(students), strangers, len(roster.lines))
 
-    @property
-    def _sheets(self) -> list[Worksheet | CanvasGradebook]:
-        return [sheet for sheet in (self.worksheet, self.canvas) if sheet is not None]
 
-
-def open_sheets(sheets: SheetOptions, assignment: Assignment) -> OpenSheets:
+def open_sheets(options: SheetOptions, assignment: Assignment) -> OpenSheets:
     """Read the files and find their columns; raise UsageError if one cannot be filled in."""
-    # slow to import, and not needed by a class without these files
-    from grader.batch.systems.canvas.write import read_gradebook  # noqa: PLC0415
-    from grader.batch.systems.moodle.worksheet import read_worksheet  # noqa: PLC0415
-
-    contents = [
-        b"" if path is None else _content(path) for path in (sheets.worksheet, sheets.canvas)
-    ]
-    worksheet = canvas = None
-    if sheets.worksheet is not None:
-        worksheet = read_worksheet(
-            contents[0],
-            grade_column=sheets.grade_column,
-            feedback_column=sheets.feedback_column,
-            max_score=assignment.max_score,
-        )
-    if sheets.canvas is not None:
-        names = (assignment.title, assignment.id)
-        canvas = read_gradebook(contents[1], column=sheets.canvas_column, names=names)
-    digest = hashlib.sha256(b"\0".join(hashlib.sha256(c).digest() for c in contents))
-    return OpenSheets(worksheet, canvas, digest.hexdigest())
+    found: dict[str, OpenSheet] = {}
+    digest = hashlib.sha256()
+    for form in sheet_forms():
+        path = options.files.get(form.option)
+        content = b"" if path is None else _content(path)
+        digest.update(hashlib.sha256(content).digest())
+        if path is not None:
+            columns = {name: options.columns.get(name, "") for name in form.columns}
+            found[form.output] = form.read(content, columns, assignment)
+    return OpenSheets(found, digest.hexdigest())
 
 
 def _content(path: Path) -> bytes:

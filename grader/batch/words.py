@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime, timezone
 
 from grader.base.i18n.message import Message, joined, msg, say
-from grader.batch.model import EntryStatus, System
+from grader.batch.model import EntryStatus
 
 MINUTE, HOUR, DAY = 60, 3_600, 86_400  # seconds
 UNITS = (
@@ -22,14 +22,6 @@ STATES: dict[EntryStatus, str] = {
     "missing": say("nothing handed in"),
     "elsewhere": say("submitted elsewhere"),
     "pending": say("not marked yet"),
-}
-SYSTEMS: dict[System, str] = {
-    "folders": "a folder of folders",
-    "archives": "one archive a student",
-    "moodle": "Moodle",
-    "canvas": "Canvas",
-    "gradescope": "Gradescope",
-    "github_classroom": "GitHub Classroom",
 }
 # a sign for each state of a check: colour is never the only difference
 SIGNS = {"passed": "✓", "failed": "✗", "skipped": "–", "inconclusive": "?", "error": "!"}

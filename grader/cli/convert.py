@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,11 +14,14 @@ import click
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.gate import bytes_of
 from grader.base.i18n.translator import chosen_language
+from grader.batch.systems.known import report_forms
 from grader.cli import options
 
 if TYPE_CHECKING:
     from grader.report.model import Report
 
+OF_SYSTEMS = report_forms()
+FORMS = [*OF_SYSTEMS, "junit", "md"]
 _sandbox = click.option(
     "--sandbox",
     default="account",
@@ -92,7 +96,7 @@ def gradescope_zip(
 
 
 @click.command("convert")
-@click.argument("form", type=click.Choice(["gradescope", "github", "prairielearn", "junit", "md"]))
+@click.argument("form", type=click.Choice(FORMS))
 @click.argument("report", type=click.Path(path_type=Path))
 @click.option("--show-hidden", is_flag=True, help="Name the hidden checks.")
 def convert(form: str, report: Path, show_hidden: bool) -> int:
@@ -114,21 +118,18 @@ COMMANDS = (gradescope, gradescope_zip, convert)
 
 def _forms(*, show_hidden: bool) -> dict[str, Callable[[Report], str | bytes]]:
     from grader.batch.points import single  # noqa: PLC0415
-    from grader.batch.systems.github_classroom import write as github  # noqa: PLC0415
-    from grader.batch.systems.gradescope import write as gs  # noqa: PLC0415
-    from grader.batch.systems.prairielearn import write as pl  # noqa: PLC0415
     from grader.publish import junit  # noqa: PLC0415
     from grader.publish.markdown import markdown  # noqa: PLC0415
 
     return {
-        "gradescope": lambda r: gs.results_json(gs.results(r)),
-        "github": lambda r: github.github_output(
-            github.results(single(r), show_hidden=show_hidden)
-        ),
-        "prairielearn": lambda r: pl.results_json(pl.results(single(r), show_hidden=show_hidden)),
+        **{name: partial(_as_in, form, show_hidden) for name, form in OF_SYSTEMS.items()},
         "junit": junit.report_xml,
         "md": lambda r: markdown(single(r), r.assignment.title, show_hidden=show_hidden),
     }
+
+
+def _as_in(form: Callable[[Report, bool], str], show_hidden: bool, report: Report) -> str:
+    return form(report, show_hidden)
 
 
 def _read(path: Path) -> Report:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import click
 
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import errors_in
+from grader.batch.systems.known import READABLE, sheet_forms
 from grader.cli import options
 
 _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
@@ -16,6 +18,16 @@ _ledger = click.option(
     type=click.Path(path_type=Path, dir_okay=False),
     help="The file that stores every verdict (default: ledger.sqlite in the --out folder).",
 )
+
+
+def _sheets(command: Callable[..., int]) -> Callable[..., int]:
+    """Add the options of the systems' files: `--worksheet FILE`, `--grade-column NAME` and so on."""
+    for form in reversed(sheet_forms()):
+        for name, text in reversed(list(form.columns.items())):
+            option = f"--{name.replace('_', '-')}"
+            command = click.option(option, default="", metavar="NAME", help=text)(command)
+        command = click.option(f"--{form.option}", type=_file, help=form.help)(command)
+    return command
 
 
 @click.command("grade-all")
@@ -38,8 +50,7 @@ _ledger = click.option(
     "--system",
     default="auto",
     show_default=True,
-    help="Where the class comes from: moodle, canvas, gradescope, github_classroom, folders or "
-    "archives.",
+    help=f"Where the class comes from: {', '.join(READABLE)}.",
 )
 @click.option(
     "--workers", type=click.IntRange(min=1), help="The number of submissions to mark at once."
@@ -53,11 +64,7 @@ _ledger = click.option(
     metavar="STUDENT",
     help="Mark this student again: key, number, name or email. May be repeated.",
 )
-@click.option("--worksheet", type=_file, help="Moodle's grading worksheet; writes a filled copy.")
-@click.option("--canvas", type=_file, help="Canvas' gradebook CSV; writes a filled copy.")
-@click.option("--canvas-column", default="", help="The column of Canvas' gradebook to fill.")
-@click.option("--grade-column", default="", help="The worksheet's column for grades.")
-@click.option("--feedback-column", default="", help="The worksheet's column for feedback.")
+@_sheets
 @click.option(
     "--accept",
     "accepts",
@@ -85,16 +92,12 @@ def grade_all(
     scheduler: str,
     regrade: bool,
     students: tuple[str, ...],
-    worksheet: Path | None,
-    canvas: Path | None,
-    canvas_column: str,
-    grade_column: str,
-    feedback_column: str,
     accepts: tuple[str, ...],
     show_hidden: bool,
     lang: str | None,
     dry_run: bool,
     quiet: bool,
+    **of_sheets: Path | str | None,
 ) -> int:
     """Mark a class: PATH is the download of the learning management system, a folder or a zip.
 
@@ -117,11 +120,8 @@ def grade_all(
         )
     out = out or Path("reports") / (path.resolve().stem or "class")
     sheets = SheetOptions(
-        worksheet=worksheet,
-        canvas=canvas,
-        canvas_column=canvas_column,
-        grade_column=grade_column,
-        feedback_column=feedback_column,
+        files={name: value for name, value in of_sheets.items() if isinstance(value, Path)},
+        columns={name: value for name, value in of_sheets.items() if isinstance(value, str)},
         show_hidden=show_hidden,
     )
     class_order = run.ClassOrder(

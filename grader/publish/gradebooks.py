@@ -5,16 +5,16 @@ One that cannot be made or written does not keep the others from being written.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 
 from grader.base.folder import Folder
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.sheet import Filled
-from grader.batch.systems.canvas.write import CanvasGradebook, new_gradebook
-from grader.batch.systems.moodle.gradebook_import import moodle_import
-from grader.batch.systems.moodle.worksheet import Worksheet
+from grader.batch.systems.known import SYSTEMS
+from grader.batch.systems.system import Columns, OpenSheet
 from grader.publish.feedback import html_page, short_html
 from grader.publish.gradebook_csv import gradebook_csv
 from grader.publish.junit import class_xml
@@ -25,9 +25,6 @@ from grader.report.files import could_not_write
 
 FEEDBACK = "feedback"
 GRADEBOOK = "gradebook.csv"
-WORKSHEET = "moodle-worksheet.csv"
-MOODLE = "moodle-gradebook.csv"
-CANVAS = "canvas-gradebook.csv"
 JUNIT = "junit.xml"
 
 
@@ -35,18 +32,17 @@ def write_outputs(
     result: ClassResult,
     out: Path,
     *,
-    worksheet: Worksheet | None = None,
-    canvas: CanvasGradebook | None = None,
-    canvas_column: str = "",
+    sheets: Mapping[str, OpenSheet] | None = None,
+    columns: Columns | None = None,
     show_hidden: bool = False,
     notify: Callable[[str], None] | None = None,
 ) -> Written:
     """Write the files of a class below `out` (made if it is not there) and return their paths.
 
-    `worksheet` and `canvas` are the teacher's own files, of which filled copies are made; what
-    could not be filled in is told to `notify`. What fails is in `failures`: UsageError for a teacher's
-    file that cannot be used so, SurroundingsError if the folder cannot be written. The files may
-    reach the disk a while later.
+    `sheets` are the instructor's files, by the name of the filled copy, and `columns` the columns
+    that the instructor named. `notify` receives what could not be filled in. Errors are in `failures`:
+    UsageError for a file of the instructor's that cannot be filled in, SurroundingsError if the
+    folder cannot be written. The files may reach the disk a while later.
     """
     written = Written()
     comment = partial(short_html, show_hidden=show_hidden)
@@ -54,14 +50,12 @@ def write_outputs(
         GRADEBOOK: lambda: Filled(gradebook_csv(result, bom=True)),
         JUNIT: lambda: Filled(class_xml(result)),
     }
-    if worksheet is not None:
-        made[WORKSHEET] = lambda: worksheet.filled(result, comment)
-    if result.system == "moodle":
-        made[MOODLE] = lambda: moodle_import(result, comment)
-    if canvas is not None:
-        made[CANVAS] = lambda: canvas.filled(result)
-    elif result.system == "canvas":
-        made[CANVAS] = lambda: Filled(new_gradebook(result, title=canvas_column))
+    for name, sheet in (sheets or {}).items():
+        made[name] = partial(sheet.filled, result, comment)
+    new = SYSTEMS[result.system].gradebook
+    if new is not None and new.output not in made:
+        names = defaultdict(str, columns or {})
+        made[new.output] = partial(new.write, result, comment, names)
     for name, make in made.items():
         with written.going_on():
             _write(out, "", name, make(), written, notify)

@@ -91,9 +91,8 @@ class Outputs:
         written = write_outputs(
             result,
             self.out,
-            worksheet=self.known.sheets.worksheet,
-            canvas=self.known.sheets.canvas,
-            canvas_column=self.sheets.canvas_column,
+            sheets=self.known.sheets.by_output,
+            columns=self.sheets.columns,
             show_hidden=self.sheets.show_hidden,
             notify=notify,
         )

@@ -22,4 +22,4 @@ def fill_worksheet(
 
 def fill_gradebook(content: bytes, result: ClassResult, *, column: str = "") -> Filled:
     names = (result.title, result.assignment)
-    return read_gradebook(content, column=column, names=names).filled(result)
+    return read_gradebook(content, column=column, names=names).filled(result, comment)

@@ -32,8 +32,12 @@ def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) 
     written = write_outputs(
         dataclasses.replace(mixed, title="Hello time"),
         out,
-        worksheet=read_worksheet(english(*range(23))),
-        canvas=read_gradebook(export(POSSIBLE, *(student(n) for n in range(24))), column="4711"),
+        sheets={
+            "moodle-worksheet.csv": read_worksheet(english(*range(23))),
+            "canvas-gradebook.csv": read_gradebook(
+                export(POSSIBLE, *(student(n) for n in range(24))), column="4711"
+            ),
+        },
         notify=said.append,
     ).files
     assert set(written) == files(out)
@@ -66,7 +70,7 @@ def test_the_others_are_written_if_one_output_is_refused(
     mixed: ClassResult, tmp_path: Path
 ) -> None:
     worksheet = read_worksheet(english(*range(24), maximum="10.00"))
-    refused = write_outputs(mixed, tmp_path / "some", worksheet=worksheet)
+    refused = write_outputs(mixed, tmp_path / "some", sheets={"moodle-worksheet.csv": worksheet})
     assert [type(failure) for failure in refused.failures] == [UsageError]
     whole = write_outputs(mixed, tmp_path / "all")
     assert not whole.failures

@@ -1,79 +1,113 @@
-"""The systems that are known, and which of them a class' folder comes from."""
+"""All systems, found by the folders beside this module, and the one that a class' folder is from."""
 
 from __future__ import annotations
 
-import difflib
-from typing import Protocol, cast, get_args
+import pkgutil
+from collections.abc import Mapping
+from importlib import import_module
+from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
 from grader.base.shown import shown
-from grader.batch.model import System
-from grader.batch.systems import plain
-from grader.batch.systems.canvas import read as canvas
-from grader.batch.systems.github_classroom import read as github_classroom
-from grader.batch.systems.gradescope import read as gradescope
-from grader.batch.systems.layout import Layout, Read, Reading
-from grader.batch.systems.moodle import read as moodle
+from grader.batch import systems
+from grader.batch.systems.system import Reader, ReportForm, SheetForm, System
+
+if TYPE_CHECKING:
+    from grader.batch.systems.layout import Layout
 
 
-class Reader(Protocol):
-    """What each system's module has."""
+def _plain() -> Reader:
+    from grader.batch.systems import plain  # noqa: PLC0415 - not needed for --help
 
-    def recognise(self, layout: Layout) -> bool:
-        """Whether a folder looks like this system's."""
-
-    def read(self, layout: Layout, reading: Reading) -> Read:
-        """Return what was handed in, and what does not look like this system's."""
+    return plain
 
 
-READERS: dict[System, Reader] = {
-    "gradescope": gradescope,
-    "moodle": moodle,
-    "canvas": canvas,
-    "github_classroom": github_classroom,
-    "folders": plain,
-    "archives": plain,
-}
-WORDS: dict[System, str] = {
-    "gradescope": "Gradescope's export",
-    "moodle": "Moodle's download of all submissions",
-    "canvas": "Canvas' download of all submissions",
-    "github_classroom": "clones of GitHub Classroom's repositories",
-    "folders": "a folder for each student, called after him or her",
-    "archives": "an archive for each student, called after him or her",
-}
-LAYOUTS = "Known are: " + "; ".join(f"{words} ({name})" for name, words in WORDS.items()) + "."
-SYSTEMS: tuple[System, ...] = get_args(System)
-NAMED_BY_HAND = ("folders", "archives")
+# without a system: named by the students or the instructor
+FOLDERS = System(
+    name="folders",
+    title="a folder of folders",
+    download="a folder for each student, named after the student",
+    reader=_plain,
+    group_folders=True,
+)
+ARCHIVES = System(
+    name="archives",
+    title="one archive for each student",
+    download="an archive for each student, named after the student",
+    reader=_plain,
+    group_folders=True,
+)
+
+
+def _found() -> list[System]:
+    """Return the record of each package beside this module, those with a high priority first."""
+    packages = (module.name for module in pkgutil.iter_modules(systems.__path__) if module.ispkg)
+    records = [import_module(f"{systems.__name__}.{name}").SYSTEM for name in sorted(packages)]
+    return sorted(records, key=lambda system: -system.priority)
+
+
+SYSTEMS: Mapping[str, System] = MappingProxyType(
+    {system.name: system for system in (*_found(), FOLDERS, ARCHIVES)}
+)
+READABLE: Mapping[str, System] = MappingProxyType(
+    {name: system for name, system in SYSTEMS.items() if system.download}
+)
+NAMED_BY_HAND = (FOLDERS.name, ARCHIVES.name)
+
+
+def layouts() -> str:
+    """Return what `grade-all` can read, as a sentence."""
+    known = "; ".join(f"{system.download} ({name})" for name, system in READABLE.items())
+    return f"Known are: {known}."
+
+
+def sheet_forms() -> list[SheetForm]:
+    """Return the forms of all systems' files, the one with the most detailed roster first."""
+    forms = [system.sheet for system in SYSTEMS.values() if system.sheet is not None]
+    return sorted(forms, key=lambda form: not form.is_detailed)
+
+
+def report_forms() -> dict[str, ReportForm]:
+    """Return what writes a report in another system's form, by the word for `grader convert`."""
+    return {word: form for system in SYSTEMS.values() for word, form in system.reports.items()}
+
+
+def reader_of(system: System) -> Reader:
+    """Return what reads a system's download."""
+    assert system.reader is not None
+    return system.reader()
 
 
 def check_system(name: str) -> None:
-    """Raise UsageError (with a "did you mean") if there is no system of that name."""
-    if name == "auto" or name in SYSTEMS:
+    """Raise UsageError (with a "did you mean") if no system has that name."""
+    import difflib  # noqa: PLC0415 - not needed for --help
+
+    if name == "auto" or name in READABLE:
         return
-    close = difflib.get_close_matches(name.lower(), SYSTEMS, n=1)
+    close = difflib.get_close_matches(name.lower(), READABLE, n=1)
     hint = f"did you mean '{close[0]}'? " if close else ""
-    known = ", ".join(("auto", *SYSTEMS))
-    raise UsageError(f"no course system '{shown(name)}'", remedy=f"{hint}Known: {known}.")
+    known = ", ".join(("auto", *READABLE))
+    raise UsageError(f"no system '{shown(name)}'", remedy=f"{hint}Known: {known}.")
 
 
 def is_named_as_in(system: str, layout: Layout) -> bool:
-    """Whether a folder's names are those of the system (of any, for "auto") and nobody's own."""
+    """Whether a folder has the names of the system (of any, for "auto")."""
     return any(
-        reader.recognise(layout)
-        for name, reader in READERS.items()
+        reader_of(record).recognise(layout)
+        for name, record in READABLE.items()
         if name not in NAMED_BY_HAND and system in ("auto", name)
     )
 
 
 def recognised(system: str, layout: Layout) -> System | None:
-    """Return the system that a layout is of, or the one that was asked for."""
+    """Return the system that a folder is from, or the one that was asked for; None if none fits."""
     if system != "auto":
-        return cast("System", system)
-    for name, reader in READERS.items():
-        if reader.recognise(layout):
-            if name not in NAMED_BY_HAND:
-                return name
+        return READABLE[system]
+    for record in READABLE.values():
+        if reader_of(record).recognise(layout):
+            if record.name not in NAMED_BY_HAND:
+                return record
             archives = all(item.kind == "archive" for item in layout.submissions())
-            return "archives" if archives else "folders"
+            return ARCHIVES if archives else FOLDERS
     return None

@@ -1,1 +1,73 @@
 """Canvas: its download and its gradebook."""
+
+# the modules are imported when needed: --help must not pay for them
+# ruff: noqa: PLC0415
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from grader.batch.systems.system import (
+    Columns,
+    NewGradebook,
+    OpenSheet,
+    Reader,
+    RosterForm,
+    RosterKey,
+    SheetForm,
+    System,
+)
+
+if TYPE_CHECKING:
+    from grader.batch.model import ClassResult, Comment
+    from grader.batch.sheet import Filled, Sheet
+    from grader.course.assignment import Assignment
+
+OUTPUT = "canvas-gradebook.csv"
+
+
+def _reader() -> Reader:
+    from grader.batch.systems.canvas import read
+
+    return read
+
+
+def _roster_key(_sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
+    split = header[:2] == ["lastname", "firstname"]
+    if (header[:1] == ["student"] or split) and "id" in header and "section" in header:
+        return RosterKey(header.index("id"))
+    return None
+
+
+def _gradebook(content: bytes, columns: Columns, assignment: Assignment) -> OpenSheet:
+    from grader.batch.systems.canvas.write import read_gradebook
+
+    names = (assignment.title, assignment.id)
+    return read_gradebook(content, column=columns["canvas_column"], names=names)
+
+
+def _new_gradebook(result: ClassResult, _comment: Comment, columns: Columns) -> Filled:
+    from grader.batch.sheet import Filled
+    from grader.batch.systems.canvas.write import new_gradebook
+
+    return Filled(new_gradebook(result, title=columns["canvas_column"]))
+
+
+SYSTEM = System(
+    name="canvas",
+    title="Canvas",
+    priority=2,
+    download="Canvas' download of all submissions",
+    reader=_reader,
+    numbered=True,
+    roster=RosterForm(key=_roster_key),
+    sheet=SheetForm(
+        option="canvas",
+        help="Canvas' gradebook CSV; writes a filled copy.",
+        columns={"canvas_column": "The column of Canvas' gradebook to fill."},
+        output=OUTPUT,
+        read=_gradebook,
+    ),
+    gradebook=NewGradebook(output=OUTPUT, write=_new_gradebook),
+)

@@ -19,7 +19,7 @@ from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.lowered import NONE, Lowered, as_number, is_without_verdict, lowered
 from grader.batch.match import Match, MatchRule, match_more, rules_for_people
-from grader.batch.model import ClassResult, Elsewhere, GradebookEntry, Student, System
+from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student
 from grader.batch.roster import Roster, roster_of
 from grader.batch.sheet import Filled, Sheet
 
@@ -43,7 +43,7 @@ class CanvasGradebook:
     roster: Roster
     notes: tuple[str, ...] = ()
 
-    def match(self, students: Sequence[Student], system: System) -> Match:
+    def match(self, students: Sequence[Student], system: str) -> Match:
         """Return the roster line of each student, by key."""
         found = Match()
         rules = list(rules_for_people(system, students, self.roster))
@@ -52,7 +52,7 @@ class CanvasGradebook:
         match_more(found, rules, students, self.roster)
         return found
 
-    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
         """Return the students with a grade in Canvas, or excused, by key."""
         found = {}
         for key, index in self.match(students, system).rows.items():
@@ -70,12 +70,13 @@ class CanvasGradebook:
         )
         return [one for one in found if one is not None]
 
-    def filled(self, result: ClassResult) -> Filled:
+    def filled(self, result: ClassResult, comment: Comment) -> Filled:
         """Return the instructor's export with the assignment's column filled in.
 
         A cell does not change if the student has no final grade, if it has EX or N/A, or if it has
         a grade and the student has no submission here.
         """
+        del comment  # Canvas imports none
         match = self._match(result)
         warnings = [*_points_warning(self.sheet, self.column, result), *_warnings(result, match)]
         comma = self.sheet.decimal_comma(self.column)

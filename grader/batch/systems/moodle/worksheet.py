@@ -16,7 +16,7 @@ from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.lowered import Lowered, is_without_verdict, lowered
 from grader.batch.match import Match, match_more, rules_for_people
-from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student, System
+from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student
 from grader.batch.roster import Roster, roster_of
 from grader.batch.roster_columns import columns_of
 from grader.batch.sheet import Filled, Sheet
@@ -51,14 +51,14 @@ class Worksheet:
     roster: Roster
     notes: tuple[str, ...] = ()
 
-    def match(self, students: Sequence[Student], system: System) -> Match:
+    def match(self, students: Sequence[Student], system: str) -> Match:
         """Return the roster line of each student, by key."""
         found = Match()
         rules = rules_for_people(system, students, self.roster)
         match_more(found, rules, students, self.roster)
         return found
 
-    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
         """Return the students whose submission or grade is in Moodle, by key."""
         rows = self.match(students, system).rows
         found = {key: self.roster.lines[row].evidence for key, row in rows.items()}
@@ -123,7 +123,7 @@ def read_worksheet(
     """
     sheet = Sheet(content, name=NAME)
     columns = _columns(sheet, grade_column, feedback_column)
-    roster = roster_of(sheet, NAME, columns_of(sheet, participants=columns.identifier))
+    roster = roster_of(sheet, NAME, columns_of(sheet, exported=("moodle", columns.identifier)))
     _need_cells(sheet, columns, roster)
     if max_score is not None:
         for line in roster.lines:
