@@ -29,9 +29,9 @@ def test_an_entry_says_why_and_what_to_do_and_where_to_read_on() -> None:
     done = explain("setup.missing_comma")
     assert done.returncode == 0
     for said in (
-        "no comma between them",
-        "Python joins two texts",
-        "Put a comma after",
+        "the comma between them is missing",
+        "Python joins two adjacent strings",
+        "Add a comma after",
         "https://",
     ):
         assert said in done.stdout
