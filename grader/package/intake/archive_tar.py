@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import bz2
 import gzip
-import io
 import lzma
 import tarfile
 import tempfile
@@ -16,38 +15,26 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.package.intake.archive_kind import HEAD, Packing, is_tar
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_member import CHUNK, Member
+from grader.package.intake.archive_member import CHUNK, LimitedFile, Member
 from grader.package.intake.archive_problems import ArchiveError, corrupt, unsupported
 
 IN_MEMORY = 8_000_000  # bytes; larger unpacked data goes to an unnamed file on disk
 XZ_MEMORY = 100_000_000  # bytes; xz -9 needs 65 MB
 
 
-class _Guarded(io.RawIOBase):
+class _HeaderLimit(LimitedFile):
     """A file of which only the allowed bytes can be read: a hostile header asks for gigabytes."""
 
     def __init__(self, file: IO[bytes], what: str) -> None:
-        self._file = file
+        super().__init__(file)
         self._what = what
         self.allowed = 0
-
-    def seekable(self) -> bool:
-        return True
-
-    def readable(self) -> bool:
-        return True
-
-    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
-        return self._file.seek(offset, whence)
-
-    def tell(self) -> int:
-        return self._file.tell()
 
     def read(self, size: int = -1) -> bytes:
         if not 0 <= size <= self.allowed:
             raise ArchiveError(corrupt(self._what, say("one of its headers is too long")))
         self.allowed -= size
-        return self._file.read(size)
+        return self.file.read(size)
 
 
 def read_tar(file: IO[bytes], packing: Packing, what: str, spent: Spent) -> Iterator[Member]:
@@ -103,7 +90,7 @@ def _unpacked(file: IO[bytes], packing: Packing) -> Iterator[bytes]:
 
 
 def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
-    guarded = _Guarded(file, what)
+    guarded = _HeaderLimit(file, what)
     guarded.allowed = spent.limits.header
     headers = spent.limits.headers
     with tarfile.open(
@@ -133,7 +120,7 @@ def _check_end(file: IO[bytes], offset: int, what: str) -> None:
         raise ArchiveError(corrupt(what, say("the data after its last readable file is invalid")))
 
 
-def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) -> Member:
+def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _HeaderLimit) -> Member:
     def chunks() -> Iterator[bytes]:
         guarded.allowed = info.size + CHUNK
         file = archive.extractfile(info)
