@@ -155,6 +155,11 @@ def test_a_package_that_colcon_is_told_to_ignore_is_marked_with_a_hint(tmp_path:
         (["p/Package.xml"], "package.manifest_renamed", "p/Package.xml"),
         (["p/setup.py.txt"], "package.manifest_renamed", "p/setup.py.txt"),
         (["my.zip"], "package.archive_inside", "my.zip"),
+        (["my.tar.gz", "my.xz"], "package.archive_inside", "my."),
+        (["my.gz"], "package.archive_inside", "my.gz"),
+        (["my.bz2"], "package.archive_inside", "my.bz2"),
+        (["my.txz"], "package.archive_inside", "my.txz"),
+        (["my.tbz"], "package.archive_inside", "my.tbz"),
         (["build/COLCON_IGNORE", "log/x"], "package.only_build", "build/"),
     ],
 )

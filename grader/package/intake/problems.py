@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.shown import shown
+from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.tree import MADE_BY_TOOLS, Tree
 
-ARCHIVE = re.compile(r".*\.(?:zip|tar|tgz|tar\.\w{2,3}|7z|rar)", re.IGNORECASE)
 NEAR_NAME = re.compile(r"package\.xml\.\w{1,10}|setup\.py\.\w{1,10}|package\.xml|setup\.py", re.I)
 ONLY_YOURS = msg("Hand in only what you wrote: no recordings, data sets or virtual environments.")
 NOT_THE_LINK = msg("Hand in the folder that the link leads to, not the link.")
@@ -77,7 +77,7 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
                 wanted=wanted,
             ),
         )
-    archives = [path for path, name in names.items() if ARCHIVE.fullmatch(name)]
+    archives = [path for path, name in names.items() if is_named_archive(name)]
     if archives and len(files) == len(archives):
         return Problem(
             "package.archive_inside",
