@@ -39,11 +39,11 @@ def test_a_path_through_a_link_is_the_folder_that_it_leads_to(tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("make_it", "words"),
     [
-        (lambda p: None, "there is no folder"),
+        (lambda p: None, "there is no file or folder"),
         (lambda p: p.write_text("x"), "neither a folder nor an archive"),
         (os.mkfifo, "neither a folder nor a file"),
         (lambda p: p.symlink_to(p), "cannot be read"),
-        (lambda p: p.symlink_to("gone"), "there is no folder"),
+        (lambda p: p.symlink_to("gone"), "there is no file or folder"),
     ],
 )
 def test_a_path_that_is_no_folder_is_wrong_usage(

@@ -28,7 +28,7 @@ def resolved(path: Path) -> Path:
         if stat.S_ISDIR(kind) or stat.S_ISREG(kind):
             return path.resolve()
     except FileNotFoundError:
-        raise UsageError(say("there is no folder {name}", name=name)) from None
+        raise UsageError(say("there is no file or folder {name}", name=name)) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         unread = say("{name} cannot be read: {reason}", name=name, reason=str(reason))
