@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import Message
 
 from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take, write
 
@@ -63,8 +64,9 @@ def test_a_folder_that_cannot_be_read_is_wrong_usage(
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(os, "scandir", refuse)
-    with pytest.raises(UsageError, match="Permission denied"):
+    with pytest.raises(UsageError, match="Permission denied") as caught:
         take(tmp_path)
+    assert isinstance(caught.value.message, Message)  # it can be translated
     with pytest.raises(UsageError, match="null"):
         take(Path("a\0b"))
     with pytest.raises(UsageError, match="File name too long"):

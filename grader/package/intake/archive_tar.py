@@ -62,8 +62,12 @@ def _write(unpacked: tempfile.SpooledTemporaryFile[bytes], chunk: bytes) -> None
         unpacked.write(chunk)
     except OSError as error:
         raise SurroundingsError(
-            f"there is no space to unpack an archive in {tempfile.gettempdir()}: {error.strerror}",
-            remedy="Free some space there, or set TMPDIR to another folder.",
+            say(
+                "there is no space to unpack an archive in {folder}: {reason}",
+                folder=tempfile.gettempdir(),
+                reason=error.strerror or str(error),
+            ),
+            remedy=say("Free some space there, or set TMPDIR to another folder."),
         ) from None
 
 
@@ -83,7 +87,7 @@ def _unpacked(file: IO[bytes], packing: Packing) -> Iterator[bytes]:
             if decoder.needs_input and not more:
                 more = file.read(CHUNK)
                 if not more:
-                    raise EOFError("it ends in the middle")
+                    raise EOFError(say("it ends in the middle"))
             yield decoder.decompress(more, max_length=CHUNK)
             more = b""
         more = (decoder.unused_data or file.read(CHUNK)).lstrip(b"\0")
@@ -129,7 +133,7 @@ def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _HeaderLim
             left -= len(chunk)
             yield chunk
         if left:
-            raise EOFError("it ends in the middle of a file")
+            raise EOFError(say("it ends in the middle of a file"))
 
     mode = info.mode & 0o7777
     if info.isdir():
