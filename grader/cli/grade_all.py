@@ -117,7 +117,7 @@ def grade_all(
         feedback_column=feedback_column,
         show_hidden=show_hidden,
     )
-    asked = run.ClassOrder(
+    asked = run.ClassOptions(
         order=orders[0],
         out=out,
         ledger=ledger or out / LEDGER,

@@ -57,7 +57,7 @@ def validate(
             f"it is not said where the solution of {order.assignment.id} is",
             remedy="Name the instructor's folder of the assignment with --keys (make: KEYS=…).",
         )
-    wish = command.Wish(
+    options = command.ValidationOptions(
         order=order,
         keys=folder,
         starter=command.starter_of(file),
@@ -65,7 +65,7 @@ def validate(
         workers=workers or 0,
         only=only,
     )
-    found = command.validate(wish, say=lambda text: click.echo(text, err=True))
+    found = command.validate(options, say=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))
     click.echo()
     click.echo(matrix.summary(found))

@@ -1,6 +1,6 @@
-"""All files of a class, each written as a whole and for its owner only.
+"""The files of a class (gradebook, sheets, feedback), readable by their owner only.
 
-One that cannot be made or written does not keep the others from being written.
+Each is written as a whole. If one cannot be made or written, the others are written anyway.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ def write_outputs(
     show_hidden: bool = False,
     say: Callable[[str], None] | None = None,
 ) -> Written:
-    """Write the files of a class below `out` (made if it is not there) and return their paths.
+    """Write the files of a class below `out` (created if missing) and return their paths.
 
-    `worksheet` and `canvas` are the teacher's own files, of which filled copies are made; what
-    could not be filled in is told to `say`. What fails is in `failures`: UsageError for a teacher's
-    file that cannot be used so, SurroundingsError if the folder cannot be written. The files may
-    reach the disk a while later.
+    `worksheet` and `canvas` are the instructor's own files, of which filled copies are written;
+    `say` is called with a warning for each entry that could not be filled in. Errors are collected
+    in `failures`: UsageError for an instructor's file that cannot be used, SurroundingsError if
+    the folder cannot be written. The files are not synced to disk.
     """
     written = Written()
     comment = partial(short_html, show_hidden=show_hidden)
@@ -63,10 +63,10 @@ def write_outputs(
     elif result.system == "canvas":
         made[CANVAS] = lambda: Filled(new_gradebook(result, title=canvas_column))
     for name, make in made.items():
-        with written.going_on():
+        with written.collecting_errors():
             _write(out, "", name, make(), written, say)
     for name, page in _feedback(result, show_hidden=show_hidden):
-        with written.going_on():
+        with written.collecting_errors():
             _write(out, FEEDBACK, name, Filled(page()), written, say)
     return written
 
@@ -74,9 +74,9 @@ def write_outputs(
 def _feedback(
     result: ClassResult, *, show_hidden: bool
 ) -> Iterator[tuple[str, Callable[[], bytes]]]:
-    """Yield each student's two files, by name; two students never share one.
+    """Yield the names and contents of each student's two files; two students never share one.
 
-    Who handed in elsewhere gets none: there is nothing to tell, and nothing that was missed.
+    A student who submitted elsewhere gets none, unless an instructor corrected their points.
     """
     title = result.title or result.assignment
     pages = page_names(entry.student.key for entry in result.entries)
@@ -101,7 +101,7 @@ def _write(
     written: Written,
     say: Callable[[str], None] | None,
 ) -> None:
-    """Write one file into `out`, or into a folder of ours in it."""
+    """Write one file into `out`, or into a folder in it."""
     try:
         out.mkdir(mode=0o700, parents=True, exist_ok=True)
         with Folder.open(out, durable=False) as outer:

@@ -26,7 +26,7 @@ def markdown(entry: Entry, title: str, *, show_hidden: bool) -> str:
     lines += [f"**{_plain(headline(entry))}**", ""]
     if entry.problem:
         lines += [_plain(translate(entry.problem)), ""]
-    lines += [f"- {_plain(line)}" for line in view.reckoning]
+    lines += [f"- {_plain(line)}" for line in view.calculation]
     if view.checks:
         head = translate(say("Checks"))
         lines += ["", f"## {_plain(head)}", ""]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import joined, say
 from grader.base.plain_text import first_lines, last_lines, one_line, points
-from grader.report.page import Row
+from grader.report.page import CheckRow
 
 if TYPE_CHECKING:
     from grader.report.model import CheckResult, Evidence
@@ -33,11 +33,11 @@ UNSEEN = say("a hidden check")
 BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
 
 
-def row(check: CheckResult) -> Row:
+def row(check: CheckResult) -> CheckRow:
     """Return the check's row of the table; unknown points are a dash."""
     mark, style = MARKS[check.status]
     open_ = check.status in ("inconclusive", "error")
-    return Row(
+    return CheckRow(
         mark=mark,
         style=style,
         name=one_line(check.id, most=60),

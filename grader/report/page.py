@@ -23,7 +23,7 @@ QUOTED, CONTINUED = "  | ", "  |   "
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class CheckRow:
     """A row of the table of checks; each cell is safe to show."""
 
     mark: str
@@ -116,7 +116,7 @@ class Page:
             for number, piece in enumerate(pieces):
                 self._verbatim(Text(f"{CONTINUED if number else QUOTED}{piece}"))
 
-    def table(self, rows: Sequence[Row]) -> None:
+    def table(self, rows: Sequence[CheckRow]) -> None:
         """Write the rows in columns; on a narrow page the text is below the name."""
         table = Table.grid(padding=(0, 2, 0, 0), expand=False)
         table.add_column(no_wrap=True)

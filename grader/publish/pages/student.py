@@ -11,9 +11,9 @@ from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines
 from grader.batch.model import Entry, Override
 from grader.batch.words import instant
+from grader.publish.pages.calculation import calculation
 from grader.publish.pages.charts import Timeline, timeline
 from grader.publish.pages.overview import shown
-from grader.publish.pages.points_table import reckoning
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
@@ -56,7 +56,7 @@ class StudentView:
     entry: Entry
     checks: tuple[CheckView, ...]
     hidden: int
-    reckoning: tuple[str, ...]
+    calculation: tuple[str, ...]
     facts: tuple[tuple[str, str], ...]
     details: tuple[tuple[str, str], ...]
     timeline: Timeline | None
@@ -83,7 +83,7 @@ def student_view(entry: Entry, *, show_hidden: bool, lang: str = SOURCE) -> Stud
         entry=entry,
         checks=tuple(_check(check, entry, visible, translate) for check in checks),
         hidden=len(report.checks) - len(checks) if report else 0,
-        reckoning=tuple(translate(line) for line in reckoning(entry, visible)),
+        calculation=tuple(translate(line) for line in calculation(entry, visible)),
         facts=tuple((translate(name), translate(value)) for name, value in _facts(entry) if value),
         details=tuple((n, v) for n, v in _details(report) if v) if report else (),
         timeline=timeline(report.observed) if report else None,

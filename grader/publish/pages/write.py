@@ -104,7 +104,7 @@ def _remove_old(folder: Folder, kept: set[str]) -> None:
 
 
 @dataclass(frozen=True)
-class Row:
+class StudentRow:
     """A student's row; `find` holds texts that the search matches beside the visible ones."""
 
     entry: Entry
@@ -179,13 +179,13 @@ def _identical(result: ClassResult) -> list[list[Entry]]:
     return [group for group in groups if len(group) > 1]
 
 
-def _row(entry: Entry, *, show_hidden: bool) -> Row:
+def _row(entry: Entry, *, show_hidden: bool) -> StudentRow:
     student = entry.student
     checks = overview.shown(entry, show_hidden=show_hidden)
     mistakes = [mistake.id for check in checks for mistake in check.mistakes]
     attempt = f"{entry.attempt} of {entry.attempts}" if entry.attempts > 1 else "1"
     unseen = (student.key, student.email, student.username, *mistakes)
-    return Row(
+    return StudentRow(
         entry=entry,
         number=_number(entry),
         attempt=attempt if entry.report else "",
