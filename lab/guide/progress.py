@@ -167,7 +167,7 @@ def _entry_point(place: Place) -> str:
     except (PythonFault, SetupCfgFault) as fault:
         return say("setup.py or setup.cfg cannot be read: {reason}", reason=fault.text)
     entries = found.group("console_scripts") + config.group("console_scripts")
-    if not found.told and (place.package / "setup.py").is_file():
+    if not found.complete and (place.package / "setup.py").is_file():
         return ""  # (only the build can tell)
     mine = [entry for entry in entries if entry.name == wanted.executable]
     if not mine:

@@ -108,7 +108,7 @@ def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
             if info is None:
                 break
             archive.members = []  # type: ignore[attr-defined] # it would keep them all
-            # a negative size makes tarfile read the same header for ever (CVE-2025-8194)
+            # a negative size makes tarfile read the same header forever (CVE-2025-8194)
             if info.offset <= before or info.size < 0 or archive.offset <= info.offset:
                 raise ArchiveError(corrupt(what, say("its headers form a loop")))
             before = info.offset

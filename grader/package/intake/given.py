@@ -60,7 +60,7 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
                 say("{name} is neither a folder nor an archive", name=shown(str(path))),
                 remedy=say("Give the folder that contains the package, or a zip or tar of it."),
             )
-        spent.archive(path.name, os.fstat(file.fileno()).st_size, handed_in=True)
+        spent.archive(path.name, os.fstat(file.fileno()).st_size, outermost=True)
         file.seek(0)
         return read_archive(file, kind, path.name, spent)
 

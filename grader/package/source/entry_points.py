@@ -40,11 +40,11 @@ class Entry:
 
 @dataclass
 class EntryPoints:
-    """The groups; `told` is False if some entries are known only by running setup.py."""
+    """The groups; `complete` is False if some entries are known only by running setup.py."""
 
     groups: dict[str, list[Entry]] = field(default_factory=dict)
     lines: dict[str, int] = field(default_factory=dict)
-    told: bool = True
+    complete: bool = True
 
     def group(self, name: str) -> list[Entry]:
         """Return the entries of a group; empty if there is none of that name."""
@@ -64,11 +64,11 @@ def from_setup_py(setup: SetupPy) -> EntryPoints:
             if isinstance(key, Text):
                 _add(found, found._open(key.value, key.line), entries)
             else:
-                found.told = False
+                found.complete = False
     elif isinstance(value, Text):
         _add_ini(found, value)
     elif value is not None:
-        found.told = False
+        found.complete = False
     return found
 
 
@@ -93,9 +93,9 @@ def _add(found: EntryPoints, entries: list[Entry], value: Value) -> None:
             if isinstance(item, Text):
                 entries.append(Entry(item.value.strip(), "setup.py", item.line, item.pieces))
             else:
-                found.told = False
+                found.complete = False
     else:
-        found.told = False
+        found.complete = False
 
 
 def _add_ini(found: EntryPoints, value: Text) -> None:

@@ -17,19 +17,19 @@ MOST_COMMENTS = 200
 
 @dataclass(frozen=True)
 class SetupPy:
-    """The arguments of the one call of setup(); `told` is False if only running it would give them.
+    """The arguments of the call of setup(); `known` is False if only running it would give them.
 
     `line` is the line of the call, `comments` the comment lines (number, text).
     """
 
     arguments: Table
-    told: bool
+    known: bool
     line: int | None
     comments: tuple[tuple[int, str], ...] = ()
 
     def argument(self, name: str) -> Value | None:
         """Return an argument's value; None if it is not given, Computed if it is unknown."""
-        if not self.told:
+        if not self.known:
             return Computed(self.line or 1)
         found = self.arguments.get(name)
         if found is None and not self.arguments.complete:
@@ -61,11 +61,11 @@ def _arguments(file: PythonFile) -> SetupPy:
     )[:MOST_COMMENTS]
     nothing = Table((), 1)
     if not calls or not isinstance(calls[0], ast.Call):
-        return SetupPy(nothing, told=False, line=None, comments=comments)
+        return SetupPy(nothing, known=False, line=None, comments=comments)
     call = calls[0]
     plain = len(calls) == 1 and call in _always_run(file.tree) and not _defines_setup(file.tree)
     if not plain or call.args:
-        return SetupPy(nothing, told=False, line=call.lineno, comments=comments)
+        return SetupPy(nothing, known=False, line=call.lineno, comments=comments)
     evaluator = Evaluator(file.tree, file.text)
     pairs: list[tuple[Value, Value]] = []
     for keyword in call.keywords:
@@ -77,7 +77,7 @@ def _arguments(file: PythonFile) -> SetupPy:
         else:
             pairs.append((Computed(keyword.value.lineno), value))
     table = Table(tuple(pairs), call.lineno)
-    return SetupPy(table, told=True, line=call.lineno, comments=comments)
+    return SetupPy(table, known=True, line=call.lineno, comments=comments)
 
 
 def literal_name(found: bytes) -> str | None:

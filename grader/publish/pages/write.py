@@ -117,7 +117,7 @@ class StudentRow:
 def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> bytes:
     entries = result.entries
     scores = overview.scores(result)
-    asked = {
+    groups = {
         "unsure": overview.unsure(result, show_hidden=show_hidden),
         "identical": _identical(result),
         **{
@@ -130,8 +130,8 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
         script=True,
         about=_about(result),
         cards=_cards(entries),
-        attention=any(asked.values()),
-        **asked,
+        attention=any(groups.values()),
+        **groups,
         scores=scores,
         histogram=histogram(scores.bins) if scores else None,
         checks=overview.checks(result, show_hidden=show_hidden),

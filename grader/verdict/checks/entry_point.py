@@ -37,7 +37,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if file is None or file.unreadable:
         raise _no_setup_py(file.reason if file else "")
     setup = setup_py_of(evidence)
-    if setup is None or not setup.told:
+    if setup is None or not setup.known:
         return None
     points = _points(evidence, setup)
     if points is None:
@@ -51,7 +51,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if len(named) > 1:
         raise entry_faults.duplicate(evidence, named)
     if not named:
-        if not points.told:
+        if not points.complete:
             return None
         raise entry_faults.missing(evidence, points, setup)
     entry = named[0]
