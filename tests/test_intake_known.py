@@ -182,6 +182,9 @@ def test_the_index_is_read_as_git_wrote_it(checkout: Path) -> None:
         ("[core]\n\tfilemode = true\n", False),
         ("[other]\n\tfilemode = false\n", False),
         ("[core]\n", False),
+        ("[core]\n\tfilemode = true\n\tfilemode = false\n", True),
+        ("[core]\n\tfilemode = false\n[user]\n[core]\n\tfilemode = true\n", False),
+        ("[core]\n\tfilemode = false\n[other]\n\tfilemode = true\n", True),
     ],
 )
 def test_gits_configuration_is_read_as_text(tmp_path: Path, text: str, ignored: bool) -> None:

@@ -166,7 +166,7 @@ def test_a_class_is_marked_through_make(tmp_path: Path) -> None:
         *("grade-all", f"SUBMISSIONS={folder}", f"OUT={out}", "SANDBOX=bubblewrap", "REGRADE=1")
     )
     assert status == 0, err
-    assert "Marked again: 1, of which 1 as before." in said
+    assert "Marked again: 1, 1 of them with the same result." in said
 
 
 def test_a_variable_of_the_environment_works_as_well(tmp_path: Path) -> None:

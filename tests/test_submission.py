@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import Message
 
 from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take, write
 
@@ -39,11 +40,11 @@ def test_a_path_through_a_link_is_the_folder_that_it_leads_to(tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("make_it", "words"),
     [
-        (lambda p: None, "there is no folder"),
+        (lambda p: None, "there is no file or folder"),
         (lambda p: p.write_text("x"), "neither a folder nor an archive"),
         (os.mkfifo, "neither a folder nor a file"),
         (lambda p: p.symlink_to(p), "cannot be read"),
-        (lambda p: p.symlink_to("gone"), "there is no folder"),
+        (lambda p: p.symlink_to("gone"), "there is no file or folder"),
     ],
 )
 def test_a_path_that_is_no_folder_is_wrong_usage(
@@ -63,8 +64,9 @@ def test_a_folder_that_cannot_be_read_is_wrong_usage(
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(os, "scandir", refuse)
-    with pytest.raises(UsageError, match="Permission denied"):
+    with pytest.raises(UsageError, match="Permission denied") as caught:
         take(tmp_path)
+    assert isinstance(caught.value.message, Message)  # it can be translated
     with pytest.raises(UsageError, match="null"):
         take(Path("a\0b"))
     with pytest.raises(UsageError, match="File name too long"):
@@ -155,6 +157,11 @@ def test_a_package_that_colcon_is_told_to_ignore_is_marked_with_a_hint(tmp_path:
         (["p/Package.xml"], "package.manifest_renamed", "p/Package.xml"),
         (["p/setup.py.txt"], "package.manifest_renamed", "p/setup.py.txt"),
         (["my.zip"], "package.archive_inside", "my.zip"),
+        (["my.tar.gz", "my.xz"], "package.archive_inside", "my."),
+        (["my.gz"], "package.archive_inside", "my.gz"),
+        (["my.bz2"], "package.archive_inside", "my.bz2"),
+        (["my.txz"], "package.archive_inside", "my.txz"),
+        (["my.tbz"], "package.archive_inside", "my.tbz"),
         (["build/COLCON_IGNORE", "log/x"], "package.only_build", "build/"),
     ],
 )

@@ -15,10 +15,10 @@ from grader.base.i18n.message import Message
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.from_terminal import filled
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
-from grader.mistakes.recognise import filled
-from grader.mistakes.wanted import words_of
+from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import CheckResult
 from grader.ros.distro import find_distro
 from grader.run.observer import Event, Watch
@@ -80,7 +80,7 @@ def kinds() -> list[object]:
 
 @pytest.mark.parametrize("kind", kinds())
 def test_an_entry_of_the_catalogue_is_filled_by_the_lesson(kind: Kind, tmp_path: Path) -> None:
-    words = {**words_of(weather.assignment(tmp_path)), "distro": "kilted"}
+    words = {**placeholder_values(weather.assignment(tmp_path)), "distro": "kilted"}
     templates = [kind.title, kind.why, kind.fix, *kind.whys.values(), *kind.fixes.values()]
     for lang in LANGUAGES:
         for template in templates:

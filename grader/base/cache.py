@@ -1,4 +1,4 @@
-"""The grader's cache, in which a folder is made once: completely or not at all."""
+"""The grader's cache. A folder in it is made once: completely or not at all."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def cache_root() -> Path:
 
 @contextmanager
 def locked(path: Path, *, notify: Notify) -> Iterator[None]:
-    """Hold an exclusive lock on `path` (the kernel releases it however the holder ends)."""
+    """Hold an exclusive lock on `path` (the kernel releases it even if the process is killed)."""
     with path.open("a") as handle:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -87,9 +87,9 @@ def make_once(folder: Path, make: Callable[[Path], None], *, notify: Notify) -> 
 
 
 def discard(folder: Path, *, unless: Callable[[Path], bool], notify: Notify) -> None:
-    """Take a damaged folder out of the cache, unless it is not that (any more).
+    """Remove a damaged folder from the cache; `unless` returns whether it is intact after all.
 
-    Who still uses its files keeps them until the next `make_once` clears them away. Raises
+    Programs that still use its files keep them until the next `make_once` deletes them. Raises
     SurroundingsError if the cache cannot be written.
     """
     try:
@@ -108,5 +108,5 @@ def _lock_of(folder: Path) -> Path:
 
 
 def _unfinished(folder: Path) -> str:
-    """Return how the names of the folders begin that the next `make_once` clears away."""
+    """Return the prefix of the names of folders that the next `make_once` deletes."""
     return f".{folder.name}.making-"

@@ -1,9 +1,9 @@
-"""The gate: every text on its way to a terminal passes here, so that none from outside steers it.
+"""A gate before the terminal, so that untrusted text cannot control it.
 
-A command runs behind it (`gated_output`): standard output and standard error are gates, and what is
-printed on them, also by a library, by a warning or in a traceback, is made visible and is not
-endless. Only what our own renderers have made goes past it (`behind`), with its styles; its text
-passed the gate in their console (`grader.base.gated_console`).
+While a command runs (`gated_output`), standard output and standard error are gates: whatever is
+printed on them, also by a library, a warning or a traceback, has its control characters escaped
+and its length bounded. Only pages of our own renderers bypass the gate (`behind`), because of their
+styles; their text is escaped in their console (`grader.base.gated_console`).
 """
 
 from __future__ import annotations
@@ -18,36 +18,36 @@ from grader.base.plain_text import bounded, encodable
 
 
 class Gate(io.TextIOBase):
-    """A text stream on which nothing is written but visible text, newlines and blanks.
+    """A text stream to which only visible text, newlines and spaces are written.
 
-    It has no `buffer`: who has bytes for a program to read asks for `bytes_of`.
+    It has no `buffer`: to write bytes for another program, use `bytes_of`.
     """
 
     def __init__(self, behind: TextIO) -> None:
         self.behind = behind
 
     def write(self, text: str) -> int:
-        """Write the text as it may be shown; return how many characters of it were taken: all."""
+        """Write the text, escaped and bounded; return the number of its characters."""
         self.behind.write(encodable(bounded(text), self.encoding))
         return len(text)
 
     def flush(self) -> None:
-        """Hand on what was written."""
+        """Flush the stream behind the gate."""
         self.behind.flush()
 
     def close(self) -> None:
-        """Leave the stream as it is: it is not ours to close."""
+        """Do nothing: the stream behind the gate belongs to the caller."""
 
     def writable(self) -> bool:
-        """It is there to be written to."""
+        """Return True."""
         return True
 
     def fileno(self) -> int:
-        """Return the stream's descriptor."""
+        """Return the stream's file descriptor."""
         return self.behind.fileno()
 
     def isatty(self) -> bool:
-        """Whether a terminal is behind it."""
+        """Whether the stream behind the gate is a terminal."""
         return self.behind.isatty()
 
     @property
@@ -57,22 +57,22 @@ class Gate(io.TextIOBase):
 
 
 def gate(file: TextIO) -> TextIO:
-    """Return a stream's gate: itself if it is one."""
+    """Return a gate before a stream; the stream itself if it is a gate."""
     return file if isinstance(file, Gate) else cast("TextIO", Gate(file))
 
 
 def behind(file: TextIO) -> TextIO:
-    """Return the stream behind a gate, for pages and consoles of our own making and nothing else."""
+    """Return the stream behind a gate; only for pages and consoles of our own renderers."""
     return file.behind if isinstance(file, Gate) else file
 
 
 def bytes_of(file: TextIO) -> BinaryIO:
-    """Return the stream for what another program reads, byte for byte; no terminal may be there."""
+    """Return the stream for bytes that another program reads; it must not be a terminal."""
     return behind(file).buffer
 
 
 def show(page: str, file: TextIO) -> None:
-    """Write a page that our own renderers made: its styles reach the terminal."""
+    """Write a page of our own renderers, with its styles."""
     out = behind(file)
     out.write(encodable(page, out.encoding))
     out.flush()
@@ -80,7 +80,7 @@ def show(page: str, file: TextIO) -> None:
 
 @contextlib.contextmanager
 def gated_output() -> Iterator[None]:
-    """Put a gate before standard output and standard error while this lasts."""
+    """Put gates before standard output and standard error while the block runs."""
     kept = sys.stdout, sys.stderr
     sys.stdout, sys.stderr = gate(kept[0]), gate(kept[1])
     try:

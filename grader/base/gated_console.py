@@ -1,6 +1,6 @@
-"""The console of all that is printed with styles: its text passes the gate, the styles are ours.
+"""The console for output with styles: it escapes untrusted text and keeps our styles.
 
-(rich takes a few control characters out of a text, but no escape sequences and no bidi overrides.)
+(rich removes a few control characters from a text, but no escape sequences and bidi overrides.)
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from grader.base.plain_text import visible
 
 
 class GatedConsole(Console):
-    """A console on `file`, with markup and emoji codes as plain text unless they are asked for."""
+    """A console on `file`; markup and emoji codes are plain text unless the options enable them."""
 
     def __init__(self, file: TextIO, **options: Any) -> None:
         plain: dict[str, Any] = {"markup": False, "emoji": False, "highlight": False}
@@ -25,6 +25,6 @@ class GatedConsole(Console):
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> Iterable[Segment]:
-        """Render an object into segments; all but rich's own control codes is made visible."""
+        """Render an object into segments, with everything escaped except rich's own control codes."""
         for segment in super().render(renderable, options):
             yield segment if segment.control else segment._replace(text=visible(segment.text))

@@ -7,8 +7,13 @@ characters are escaped as in a Python string: `\x1b`, `\u202e`, `\xa0`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from grader.base.i18n.message import say
+
 TAB = 4  # columns
 MOST_LINES, LONGEST_LINE = 5_000, 5_000  # of a text, and characters: nobody reads more
+Translate = Callable[[str], str]
 
 
 def visible(text: str) -> str:
@@ -34,21 +39,27 @@ def one_line(text: str, *, most: int = 300) -> str:
     return visible(shorten(text, most=most)).replace("\n", "\\n")
 
 
-def first_lines(text: str, *, lines: int, most: int = 500) -> list[str]:
-    """Return at most `lines` lines of at most `most` characters; the middle is left out."""
+def first_lines(text: str, *, lines: int, most: int = 500, translate: Translate = str) -> list[str]:
+    """Return at most `lines` lines of at most `most` characters; the middle is left out.
+
+    `translate` translates the words that take the place of what is left out.
+    """
     found = _split(text)
     if len(found) > lines:
         head = (lines + 1) // 2
         tail = lines - head
-        left_out = f"[... {len(found) - lines:,} lines left out ...]"
+        left_out = translate(_lines_left_out(len(found) - lines))
         found = [*found[:head], left_out, *(found[-tail:] if tail else [])]
-    return [visible(shorten(line, most=most)) for line in found]
+    return [visible(shorten(line, most=most, translate=translate)) for line in found]
 
 
-def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], int]:
+def last_lines(
+    text: str, *, lines: int, most: int = 500, translate: Translate = str
+) -> tuple[list[str], int]:
     """Return the last `lines` lines of at most `most` characters, and how many there are in all.
 
-    If Python's last traceback begins shortly before them, all of it is kept.
+    If Python's last traceback begins shortly before them, all of it is kept. `translate` as for
+    `first_lines`.
     """
     found = _split(text)
     start = max(len(found) - lines, 0)
@@ -56,7 +67,8 @@ def last_lines(text: str, *, lines: int, most: int = 500) -> tuple[list[str], in
         if found[number].lstrip().startswith("Traceback (most recent call last)"):
             start = min(start, number)
             break
-    return [visible(shorten(line, most=most)) for line in found[start:]], len(found)
+    shown = [visible(shorten(line, most=most, translate=translate)) for line in found[start:]]
+    return shown, len(found)
 
 
 def bounded(text: str) -> str:
@@ -69,7 +81,7 @@ def bounded(text: str) -> str:
     lines = text.replace("\r\n", "\n").split("\n")
     if len(lines) > MOST_LINES:
         half = MOST_LINES // 2
-        left_out = f"[... {len(lines) - 2 * half:,} lines left out ...]"
+        left_out = _lines_left_out(len(lines) - 2 * half)
         lines = [*lines[:half], left_out, *lines[-half:]]
     return "\n".join(visible(shorten(line, most=LONGEST_LINE)) for line in lines)
 
@@ -89,9 +101,15 @@ def _split(text: str) -> list[str]:
     return text.replace("\r\n", "\n").strip("\n").rstrip().split("\n")
 
 
-def shorten(text: str, *, most: int) -> str:
+def shorten(text: str, *, most: int, translate: Translate = str) -> str:
     """Return `text`, cut in the middle to about `most` characters."""
     if len(text) <= most:
         return text
     half = most // 2
-    return f"{text[:half]}[... {len(text) - 2 * half:,} characters left out ...]{text[-half:]}"
+    count = f"{len(text) - 2 * half:,}"
+    left_out = translate(say("[... {count} characters left out ...]", count=count))
+    return f"{text[:half]}{left_out}{text[-half:]}"
+
+
+def _lines_left_out(count: int) -> str:
+    return say("[... {count} lines left out ...]", count=f"{count:,}")

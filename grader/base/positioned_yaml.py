@@ -75,7 +75,7 @@ def read_yaml(path: Path) -> Document:
 
 def _read(path: Path) -> bytes:
     try:
-        # a named pipe would wait for a writer for ever
+        # a named pipe would wait forever for a writer
         handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         with os.fdopen(handle, "rb") as file:
             if not stat.S_ISREG(os.fstat(handle).st_mode):

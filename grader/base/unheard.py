@@ -1,8 +1,8 @@
-"""The listener where nobody listens."""
+"""A listener that ignores everything."""
 
 from __future__ import annotations
 
 
 def unheard(what: object) -> None:
-    """Take a text or an event, and do nothing with it."""
+    """Ignore a text or an event."""
     del what

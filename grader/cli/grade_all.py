@@ -124,7 +124,7 @@ def grade_all(
         columns={name: value for name, value in of_sheets.items() if isinstance(value, str)},
         show_hidden=show_hidden,
     )
-    class_order = run.ClassOrder(
+    class_options = run.ClassOptions(
         order=orders[0],
         out=out,
         ledger=ledger or out / LEDGER,
@@ -138,7 +138,7 @@ def grade_all(
         accepts=accepted(accepts),
         quiet=quiet,
     )
-    return run.grade_all(class_order, dry_run=dry_run)
+    return run.grade_all(class_options, dry_run=dry_run)
 
 
 @click.command("override")

@@ -61,7 +61,7 @@ def validate(
             f"no folder is given for the solution of {order.assignment.id}",
             remedy="Give the instructor's folder of the assignment with --keys (make: KEYS=…).",
         )
-    wish = command.Wish(
+    options = command.ValidationOptions(
         order=order,
         keys=folder,
         starter=command.starter_of(file),
@@ -69,7 +69,7 @@ def validate(
         workers=workers or 0,
         only=only,
     )
-    found = command.validate(wish, notify=lambda text: click.echo(text, err=True))
+    found = command.validate(options, notify=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))
     click.echo()
     click.echo(matrix.summary(found))

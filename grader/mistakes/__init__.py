@@ -1,1 +1,1 @@
-"""The catalogue of what beginners get wrong, and how each kind is recognised."""
+"""The catalogue of beginners' mistakes, and how each kind is recognised and fixed."""

@@ -1,4 +1,4 @@
-"""All entries of the catalogue, root causes before what they cause."""
+"""All entries of the catalogue, root causes before their consequences."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from grader.mistakes import (
-    building,
-    entries,
-    files,
-    handed_in,
+    build,
+    entry_points,
+    node_callbacks,
+    node_file,
+    node_start,
     package,
-    running,
-    starting,
+    run,
+    submission,
     terminal,
-    ticking,
 )
 from grader.mistakes.kind import Kind
 
-# the order is the rank: of several mistakes that are recognised, the first is the root
+# the order is the rank: of several recognised mistakes, the first is the root cause
 CATALOGUE: Mapping[str, Kind] = MappingProxyType(
     {
         kind.id: kind
         for module in (
-            handed_in,
+            submission,
             package,
-            files,
-            building,
-            entries,
-            starting,
-            ticking,
-            running,
+            node_file,
+            build,
+            entry_points,
+            node_start,
+            node_callbacks,
+            run,
             terminal,
         )
         for kind in module.KINDS

@@ -1,4 +1,4 @@
-"""`grader explain`: an entry of the catalogue, or the mistakes in a terminal's output."""
+"""`grader explain`: prints an entry of the catalogue, or the mistakes in a terminal's output."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from grader.base.shown import shown
 from grader.base.stream import takes_styles, width_of
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.from_terminal import filled, seen_in
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
-from grader.mistakes.recognise import filled, seen_in
-from grader.mistakes.wanted import EXAMPLE, words_of
+from grader.mistakes.placeholders import EXAMPLE, placeholder_values
 from grader.report.page import Page
 from grader.ros.distro import Distro
 
 MOST_BYTES = 1_000_000
-MOST_ROOTS = 3  # mistakes explained at once; more than that nobody reads
+MOST_ROOTS = 3  # mistakes explained at once; nobody reads more
 
 
 @dataclass(frozen=True)
 class Reader:
-    """For whom it is: the language, the distro whose documentation is linked, and the lesson.
+    """The reader: their language, the distro whose documentation is linked, and their lesson.
 
-    Without a lesson the texts show the names of what only a lesson tells, such as <period>.
+    Without a lesson, the texts show names such as <period> for values that only a lesson has.
     """
 
     lang: str
@@ -39,19 +39,19 @@ class Reader:
 
     @property
     def words(self) -> dict[str, Value]:
-        """What the texts take from the lesson and the distro."""
-        known = EXAMPLE if self.assignment is None else words_of(self.assignment)
+        """The values that the lesson and the distro give to placeholders."""
+        known = EXAMPLE if self.assignment is None else placeholder_values(self.assignment)
         return {**known, "distro": self.distro.name}
 
 
 def print_entry(mistake: str, *, file: TextIO, reader: Reader) -> None:
-    """Print one entry; UsageError, with the nearest id, if there is none."""
+    """Print one entry; UsageError, which suggests the nearest id, if it does not exist."""
     kind = CATALOGUE.get(mistake)
     if kind is None:
         slugs = {name.partition(".")[2]: name for name in CATALOGUE}
         close = slugs.get(mistake) or nearest(mistake, CATALOGUE)
         none = say("there is no mistake '{id}' in the catalogue", id=shown(mistake))
-        remedy = say("`grader explain` alone lists them all.")
+        remedy = say("Run `grader explain` without an id to list them all.")
         with errors_in(reader.lang):
             raise UsageError(none + meant(close), remedy=remedy)
     page = _page(file, reader)
@@ -60,11 +60,11 @@ def print_entry(mistake: str, *, file: TextIO, reader: Reader) -> None:
 
 
 def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
-    """Print the entries that a text shows, root first; return whether there are any."""
+    """Print the entries of the mistakes in a text, root causes first; return whether there are any."""
     page = _page(file, reader)
     found = seen_in(text)
     if not found:
-        page.line(say("No mistake of the catalogue shows in this text."))
+        page.line(say("This text shows no mistake of the catalogue."))
     for number, seen in enumerate(found[:MOST_ROOTS]):
         if number:
             page.gap()

@@ -1,19 +1,19 @@
-"""Why a count is wrong, as the callback's source shows it."""
+"""Recognise the mistake behind a wrong count in the callback's source."""
 
 from __future__ import annotations
 
 import ast
 from dataclasses import dataclass
 
-from grader.mistakes.kind import Finding
-from grader.mistakes.suspect import Suspect
-from grader.mistakes.wanted import logged_counter
+from grader.mistakes.kind import RecognisedMistake
+from grader.mistakes.placeholders import logged_counter
+from grader.mistakes.symptoms import Suspect
 from grader.package.source.node import dotted
 
 
 @dataclass(frozen=True)
 class Counter:
-    """What the callback does to its counter: the name, and the lines that change it."""
+    """The counter of a callback: its name, and the statements that change it."""
 
     name: str
     added: list[ast.AugAssign]
@@ -39,15 +39,15 @@ def _counter(suspect: Suspect) -> Counter | None:
     )
 
 
-def _plus_reversed(suspect: Suspect, counter: Counter) -> Finding | None:
+def _plus_reversed(suspect: Suspect, counter: Counter) -> RecognisedMistake | None:
     for node in counter.set:
         if isinstance(node.value, ast.UnaryOp) and isinstance(node.value.op, ast.UAdd):
             return suspect.finding("plus_reversed", node.lineno, name=counter.name)
     return None
 
 
-def constant(suspect: Suspect) -> Finding | None:
-    """Look for why the number stays the same."""
+def constant(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why the number stays the same."""
     counter = _counter(suspect)
     if counter is None:
         return None
@@ -63,8 +63,8 @@ def constant(suspect: Suspect) -> Finding | None:
     return suspect.finding("counter_not_increased", counter.logged, name=counter.name)
 
 
-def wrong_step(suspect: Suspect) -> Finding | None:
-    """Look for why the count goes up by another number."""
+def wrong_step(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why the count increases by a different number."""
     counter = _counter(suspect)
     if counter is None:
         return None
@@ -83,8 +83,8 @@ def wrong_step(suspect: Suspect) -> Finding | None:
     return None
 
 
-def wrong_start(suspect: Suspect) -> Finding | None:
-    """Look for why the first number is another one."""
+def wrong_start(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why the first number is different."""
     counter = _counter(suspect)
     if counter is None:
         return None

@@ -1,7 +1,7 @@
-"""Why a node does not start, stay or tick, as its source shows it; the symptom is known already.
+"""Recognise the mistake behind a known symptom of a run in the node's source.
 
-Each function is asked for one symptom and returns the mistake in the source behind it, or None:
-what only looks like a mistake is not looked for.
+Each function is for one symptom. It returns the mistake that causes it, or None; it does not
+report code that only looks like a mistake.
 """
 
 from __future__ import annotations
@@ -10,21 +10,21 @@ import ast
 from collections.abc import Callable
 
 from grader.mistakes.from_counter import constant, wrong_start, wrong_step
-from grader.mistakes.kind import Finding
-from grader.mistakes.suspect import Suspect
+from grader.mistakes.kind import RecognisedMistake
+from grader.mistakes.symptoms import Suspect
 from grader.package.source.node import NodeSource, calls_in, dotted
 
 SLEEPS = ("time.sleep", "sleep")
 WAITS = ("input", *SLEEPS)
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
-LONG = 100.0  # seconds; a longer period was meant to be milliseconds
+LONG = 100.0  # seconds; a longer period was meant in milliseconds
 
 
-Look = Callable[[Suspect], Finding | None]
+Recognise = Callable[[Suspect], RecognisedMistake | None]
 
 
-def no_spin(suspect: Suspect) -> Finding | None:
-    """Look for why a program ends at once."""
+def no_spin(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why a program ends immediately."""
     source = suspect.source
     found = _no_node(suspect)
     if found is not None:
@@ -43,7 +43,7 @@ def no_spin(suspect: Suspect) -> Finding | None:
     return suspect.finding("spin_missing", suspect.line_of_function)
 
 
-def _no_node(suspect: Suspect) -> Finding | None:
+def _no_node(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     if not source.uses_ros:
         return suspect.finding("no_ros", 1)
@@ -53,8 +53,8 @@ def _no_node(suspect: Suspect) -> Finding | None:
     return None
 
 
-def no_node(suspect: Suspect) -> Finding | None:
-    """Look for why a program runs and makes no node."""
+def no_node(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why a program runs but creates no node."""
     found = _no_node(suspect)
     main, node_class = suspect.function, suspect.source.node_class
     if found is not None or main is None:
@@ -68,8 +68,8 @@ def no_node(suspect: Suspect) -> Finding | None:
     return None
 
 
-def no_lines(suspect: Suspect) -> Finding | None:
-    """Look for why a node that spins says nothing."""
+def no_lines(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why a node that spins logs nothing."""
     source = suspect.source
     callback = source.callback
     if not source.timers:
@@ -99,8 +99,8 @@ def no_lines(suspect: Suspect) -> Finding | None:
     return suspect.finding("debug_level", debug[0].lineno) if debug else None
 
 
-def twice(suspect: Suspect) -> Finding | None:
-    """Look for why two lines come at a time."""
+def twice(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the reason why two lines come at a time."""
     source = suspect.source
     if len(source.timers) > 1:
         return suspect.finding("two_timers", source.timers[1].line)
@@ -114,7 +114,7 @@ def twice(suspect: Suspect) -> Finding | None:
     return None
 
 
-def printed(suspect: Suspect) -> Finding | None:
+def printed(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the print that writes the line."""
     callback = suspect.source.callback
     part = callback if callback is not None else suspect.source.tree
@@ -122,8 +122,8 @@ def printed(suspect: Suspect) -> Finding | None:
     return suspect.finding("print_used", prints[0].lineno) if prints else None
 
 
-def by_hand(suspect: Suspect) -> Finding | None:
-    """Look for what calls the callback before its time."""
+def by_hand(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the code that calls the callback before the timer does."""
     source = suspect.source
     for timer in source.timers:
         if timer.called:
@@ -137,7 +137,7 @@ def by_hand(suspect: Suspect) -> Finding | None:
 
 
 def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
-    """Return the callback's longest sleep that is written as a number of seconds."""
+    """Return the callback's longest sleep of those with a literal number of seconds."""
     calls = calls_in(source.callback) if source.callback is not None else ()
     found = [
         (call, float(call.args[0].value))
@@ -150,8 +150,8 @@ def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
     return max(found, key=lambda sleep: sleep[1], default=None)
 
 
-def wrong_period(suspect: Suspect) -> Finding | None:
-    """Look for what keeps the lines apart, where the timer's own period is right."""
+def wrong_period(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a sleep that delays the lines although the timer's period is right."""
     slept = longest_sleep(suspect.source)
     timers = [timer.seconds for timer in suspect.source.timers]
     if (
@@ -163,16 +163,16 @@ def wrong_period(suspect: Suspect) -> Finding | None:
     return suspect.finding("sleeps_in_callback", slept[0].lineno, seconds=slept[1])
 
 
-def stops(suspect: Suspect) -> Finding | None:
-    """Look for what ends the ticks."""
+def stops(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the code that stops the timer."""
     for call, name in suspect.source.calls:
         if name.endswith((".cancel", ".destroy_timer")):
             return suspect.finding("timer_cancelled", call.lineno)
     return _never_ends(suspect)
 
 
-def _never_ends(suspect: Suspect) -> Finding | None:
-    """Look for what keeps the callback from returning."""
+def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the code that prevents the callback from returning."""
     callback = suspect.source.callback
     for node in ast.walk(callback) if callback is not None else ():
         if isinstance(node, ast.Call) and dotted(node.func) == "input":
@@ -187,8 +187,8 @@ def _goes_on(loop: ast.While) -> bool:
     return isinstance(loop.test, ast.Constant) and bool(loop.test.value) and not left
 
 
-def ends(suspect: Suspect) -> Finding | None:
-    """Look for what ends the node, where no exception does."""
+def ends(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the code that ends the node without an exception."""
     for node in ast.walk(suspect.source.tree):
         raised = dotted(node.exc) if isinstance(node, ast.Raise) and node.exc else ""
         called = dotted(node.func) if isinstance(node, ast.Call) else ""
@@ -201,7 +201,7 @@ def ends(suspect: Suspect) -> Finding | None:
     return None
 
 
-LOOKS: dict[str, Look] = {
+BY_SYMPTOM: dict[str, Recognise] = {
     "run.exits_at_once": no_spin,
     "run.no_node": no_node,
     "run.no_lines": no_lines,

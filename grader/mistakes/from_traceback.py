@@ -1,4 +1,4 @@
-"""Which mistake an exception in the student's code is: the error, its line, and the source."""
+"""Recognise the mistake behind an exception, from the error, its line and the source."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from dataclasses import replace
 
 from grader.base.nearest import nearest
 from grader.mistakes import from_call
-from grader.mistakes.kind import Finding
-from grader.mistakes.raised import Raised
-from grader.mistakes.wanted import CLASS
+from grader.mistakes.kind import RecognisedMistake
+from grader.mistakes.placeholders import CLASS
+from grader.mistakes.symptoms import Raised
 from grader.package.source.node import LOG_METHODS, dotted
 
 MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
@@ -26,11 +26,11 @@ RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_
 IMPORTS = {"Node": "from rclpy.node import Node", "rclpy": "import rclpy"}
 
 
-Recognise = Callable[[Raised, re.Match[str]], Finding | None]
+Recognise = Callable[[Raised, re.Match[str]], RecognisedMistake | None]
 
 
-def recognise(raised: Raised) -> Finding | None:
-    """Return the mistake behind an exception, or None if it is none that is known."""
+def recognise(raised: Raised) -> RecognisedMistake | None:
+    """Return the mistake behind an exception, or None if it is unknown."""
     for pattern, function in RECOGNISERS:
         match = re.search(pattern, raised.error)
         found = function(raised, match) if match else None
@@ -40,13 +40,13 @@ def recognise(raised: Raised) -> Finding | None:
 
 
 def _always(slug: str) -> Recognise:
-    def found(raised: Raised, match: re.Match[str]) -> Finding:
+    def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return raised.finding(slug, params=match.groupdict(""))
 
     return found
 
 
-def _private(raised: Raised, match: re.Match[str]) -> Finding | None:
+def _private(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     call = raised.source.super_init
     if match["type"] not in {found.name for found in raised.source.classes}:
         return None
@@ -55,7 +55,7 @@ def _private(raised: Raised, match: re.Match[str]) -> Finding | None:
     return raised.finding("super_late", line=call.lineno)
 
 
-def _no_name(raised: Raised, match: re.Match[str]) -> Finding:
+def _no_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     methods = raised.source.methods
     near = nearest("__init__", methods, cutoff=0.7)
@@ -64,31 +64,31 @@ def _no_name(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding("super_without_name")
 
 
-def _not_a_node(raised: Raised, match: re.Match[str]) -> Finding:
+def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     found = raised.source.node_class
     name, line = (found.name, found.lineno) if found else (CLASS, None)
     return raised.finding("not_a_node", line=line, name=name)
 
 
-def _not_initialized(raised: Raised, match: re.Match[str]) -> Finding:
+def _not_initialized(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     inits = [c.lineno for c, n in raised.source.calls if n.rpartition(".")[2] == "init"]
     return raised.finding("init_late" if inits else "init_missing")
 
 
-def _no_module(raised: Raised, match: re.Match[str]) -> Finding:
+def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
     return raised.finding("import_misspelt", name=name, close=close)
 
 
-def _no_name_in_module(raised: Raised, match: re.Match[str]) -> Finding:
+def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     close = nearest(match["name"], (*RCLPY, "Node", "String", "Twist"), cutoff=0.75)
     return raised.finding("import_name", name=match["name"], close=close, module=match["module"])
 
 
-def _undefined(raised: Raised, match: re.Match[str]) -> Finding:
+def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name, source = match["name"], raised.source
     if name == "self":
         return raised.finding("timer_at_class_level")
@@ -100,7 +100,7 @@ def _undefined(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding("name_unknown", name=name, close=close)
 
 
-def _no_main(raised: Raised, match: re.Match[str]) -> Finding | None:
+def _no_main(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     function = raised.assignment.function
     if match["function"] != function:
         return None
@@ -111,20 +111,20 @@ def _no_main(raised: Raised, match: re.Match[str]) -> Finding | None:
     return raised.finding("main_missing")
 
 
-def _main_wants(raised: Raised, match: re.Match[str]) -> Finding | None:
+def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["function"] != raised.assignment.function:
         return None
     main = raised.source.functions.get(raised.assignment.function)
     return raised.finding("main_wants_args", line=main.lineno if main else None)
 
 
-def _attribute(raised: Raised, match: re.Match[str]) -> Finding | None:
+def _attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     kind, name, source = match["type"], match["name"], raised.source
     if kind not in {found.name for found in source.classes}:
         return None
     line = source.line(raised.line)
     if line and f"self.{name}" not in line:
-        return None  # asked of the node from outside: its own methods are what is meant
+        return None  # the attribute is not accessed through self
     for timer in source.timers:
         if timer.method == name:
             return _callback(raised, name)
@@ -136,7 +136,7 @@ def _attribute(raised: Raised, match: re.Match[str]) -> Finding | None:
     return raised.finding("attribute_not_set", name=name, close=close)
 
 
-def _callback(raised: Raised, name: str) -> Finding:
+def _callback(raised: Raised, name: str) -> RecognisedMistake:
     source = raised.source
     init = source.methods.get("__init__")
     for node in ast.walk(init) if init else ():
@@ -147,7 +147,7 @@ def _callback(raised: Raised, name: str) -> Finding:
     return replace(found, words={**found.words, "callback": close or name})
 
 
-def _other_attribute(raised: Raised, match: re.Match[str]) -> Finding:
+def _other_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     known = RCLPY if match["type"] == "rclpy" else (*NODE_METHODS, *LOG_METHODS)
     close = nearest(name, known, cutoff=0.7)
@@ -155,7 +155,7 @@ def _other_attribute(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding(slug, name=name, close=close)
 
 
-def _concatenated(raised: Raised, match: re.Match[str]) -> Finding:
+def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     name = str(raised.words["counter"])
     for node in ast.walk(raised.source.tree):
@@ -166,7 +166,7 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> Finding:
     return raised.finding("str_plus_int", name=name)
 
 
-def _step_is_text(raised: Raised, match: re.Match[str]) -> Finding | None:
+def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     for node in ast.walk(raised.source.tree):
         if isinstance(node, ast.AugAssign) and isinstance(node.value, ast.Constant):

@@ -1,4 +1,4 @@
-"""What in a node's source could be better and keeps nothing from working."""
+"""Advice on a node's source: what could be better, but does not prevent the node from working."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ GUARD = "__main__"
 
 
 def hints(source: NodeSource) -> list[str]:
-    """Return advice on a file that Python can read."""
+    """Return advice on a source file."""
     found: list[str] = []
     for node in ast.walk(source.tree):
         if isinstance(node, ast.Compare) and dotted(node.left) == "__name__":

@@ -1,4 +1,4 @@
-"""What an entry of the catalogue is."""
+"""The data classes of the catalogue: a kind of mistake, and a recognised mistake."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ Stage = Literal[
 class Kind:
     """One kind of mistake. Its texts are templates of `grader.base.i18n.message`.
 
-    `why` says why ROS behaves so, `fix` the change that fixes it; `whys` and `fixes` hold others,
-    by the name of a variant. `link` leads to the documentation. `seen` is a pattern by which the
-    mistake is known in what a terminal shows (its named groups become parameters).
+    `why` explains ROS's behaviour, `fix` says what to do; `whys` and `fixes` have other texts for
+    variants, by the variant's name. `link` is a page of the documentation. `seen` is a pattern
+    that recognises the mistake in a terminal's output (its named groups become parameters).
     """
 
     id: str
@@ -56,7 +56,7 @@ class Kind:
 
     @cached_property
     def pattern(self) -> re.Pattern[str] | None:
-        """The pattern of `seen`; None if a terminal does not show this mistake."""
+        """The compiled `seen`; None if a terminal does not show this mistake."""
         return re.compile(self.seen, re.MULTILINE) if self.seen else None
 
     def rationale(self, values: Mapping[str, Value], variant: str = "") -> Message:
@@ -70,7 +70,7 @@ class Kind:
 
 @dataclass(frozen=True)
 class Family:
-    """Makes the kinds whose ids begin alike, and that one page of the documentation is about."""
+    """Makes kinds whose ids have the same prefix; `link` is their page of the documentation."""
 
     prefix: str
     link: str
@@ -99,10 +99,10 @@ class Family:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Finding:
-    """A mistake that was recognised: its kind, what fills the texts, and the place.
+class RecognisedMistake:
+    """A recognised mistake: the id of its kind, the values of the placeholders, and the place.
 
-    `params` go into the report and are the same in every language; `words` fill the texts only.
+    `params` go into the report and are the same in every language; `words` only fill the texts.
     """
 
     kind: str
@@ -113,5 +113,5 @@ class Finding:
 
     @property
     def mistake(self) -> Mistake:
-        """The mistake as the report has it."""
+        """The mistake in the form of the report."""
         return Mistake(id=self.kind, params=dict(self.params))

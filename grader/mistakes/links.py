@@ -1,6 +1,6 @@
-"""Pages of the ROS 2 documentation (and what it rests on) that entries of the catalogue lead to.
+"""The pages of documentation that entries of the catalogue link to.
 
-Each distro has its own documentation: `{docs}` stands for its address, which `address` fills in.
+Each distro has its own ROS 2 documentation: `address` replaces `{docs}` with its address.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The catalogue: mistakes at the student's own terminal, known by what it shows."""
+"""The catalogue: mistakes at the student's own terminal, recognised by what it shows."""
 
 from __future__ import annotations
 
@@ -6,9 +6,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.kind import Kind
 
-FRESH = msg(
-    "A terminal knows of a workspace only after its setup file was sourced in this very terminal."
-)
+FRESH = msg("A terminal knows a workspace only after you source its setup file in that terminal.")
 
 
 def _lab(
@@ -21,97 +19,101 @@ def _lab(
 
 KINDS = (
     _lab("ros_not_sourced", msg("ROS is not sourced in this terminal"),
-         msg("The ros2 command is found only after ROS's own setup file was sourced in this "
+         msg("The ros2 command is found only after you source ROS's own setup file in this "
              "terminal."),
-         msg("source /opt/ros/{distro}/setup.bash"),
+         msg("Run: source /opt/ros/{distro}/setup.bash"),
          links.ENVIRONMENT, seen=r"ros2: (?:command )?not found"),
     _lab("wrong_folder", msg("The workspace's setup file is not in this folder"),
-         msg("install/ is made by colcon build in the folder in which it was called: it is there "
+         msg("colcon build creates install/ in the folder in which you run it. So install/ exists "
              "only after a build, and only in the workspace's root."),
-         msg("cd ~/ros2_ws, colcon build --symlink-install, then source install/local_setup.bash"),
+         msg("Run cd ~/ros2_ws, then colcon build --symlink-install, then source "
+             "install/local_setup.bash"),
          links.WORKSPACE,
          seen=r"install/(?:local_)?setup\.(?:bash|sh|zsh): No such file or directory"),
-    _lab("setup_executed", msg("The setup file is executed and not sourced"),
+    _lab("setup_executed", msg("The setup file is executed instead of sourced"),
          msg("An executed file changes only its own process; source changes this terminal."),
-         msg("source install/local_setup.bash"), links.WORKSPACE,
+         msg("Run: source install/local_setup.bash"), links.WORKSPACE,
          seen=r"install/(?:local_)?setup\.(?:bash|sh|zsh): Permission denied"),
     _lab("no_rclpy", msg("Python cannot find rclpy"),
-         msg("rclpy is part of ROS: Python sees it only in a terminal in which ROS was sourced, and "
-             "only the system's own Python does (not that of conda, a venv or an editor's button)."),
-         msg("source /opt/ros/{distro}/setup.bash, and start the node with ros2 run."),
+         msg("rclpy is part of ROS. Python finds it only in a terminal in which ROS is sourced, "
+             "and only the system's own Python does (not that of conda, a venv or an editor's "
+             "button)."),
+         msg("Run source /opt/ros/{distro}/setup.bash, and start the node with ros2 run."),
          links.ENVIRONMENT, seen=r"ModuleNotFoundError: No module named 'rclpy'"),
     _lab("overlay_not_sourced", msg("The package is not found in this terminal"), FRESH,
-         msg("cd ~/ros2_ws && source install/local_setup.bash (in every new terminal). If that "
-             "changes nothing: build first, and compare the package's name."),
+         msg("Source the workspace in every new terminal: cd ~/ros2_ws && source "
+             "install/local_setup.bash. If that does not help, build first, and compare the "
+             "package's name."),
          links.WORKSPACE, seen=r"^Package '(?P<package>[^'\n]{1,120})' not found"),
-    _lab("no_executable", msg("The package has no such executable"),
-         msg("ros2 run looks for the name left of the = in setup.py's console_scripts, in what was "
-             "built last. The file's name does not count."),
-         msg("ros2 pkg executables shows the names. Is yours missing: add the entry to "
-             "console_scripts, build again and source again."),
+    _lab("no_executable", msg("The package has no executable with that name"),
+         msg("ros2 run looks for the name to the left of the = in console_scripts in setup.py, as "
+             "it was at the last build. The file's name does not count."),
+         msg("Run ros2 pkg executables to see the names. If yours is missing, add its entry to "
+             "console_scripts, build again and source the workspace again."),
          links.DEVELOPING, seen=r"^No executable found"),
     _lab("stale_script", msg("The installed script is older than setup.py"),
-         msg("The script of an entry that was renamed stays in install/ and finds its entry no "
-             "more."),
+         msg("The script of a renamed entry stays in install/, but no longer finds its entry."),
          msg("Delete the folders build and install of the workspace, and build again."),
          seen=r"^StopIteration$"),
     _lab("old_build", msg("The node still does what it did before the change"),
-         msg("Without --symlink-install colcon copies the files: a change is not seen before the "
-             "next build."),
-         msg("colcon build --symlink-install, after every change of setup.py, too.")),
+         msg("Without --symlink-install, colcon copies the files: a change has no effect until "
+             "the next build."),
+         msg("Run colcon build --symlink-install, also after every change of setup.py.")),
     _lab("nothing_built", msg("colcon found no package"),
-         msg("colcon looks for packages below the folder in which it is called, and leaves out "
-             "what holds a file COLCON_IGNORE."),
-         msg("cd ~/ros2_ws, and see that the package is in src: colcon list"),
+         msg("colcon looks for packages below the folder in which you run it, and skips folders "
+             "with a file COLCON_IGNORE."),
+         msg("Run cd ~/ros2_ws, then colcon list, and check that the package is in src."),
          seen=r"Summary: 0 packages finished"),
-    _lab("build_in_src", msg("colcon build was called in src or in the package"),
-         msg("colcon makes build, install and log where it is called; a second install tree "
+    _lab("build_in_src", msg("colcon build was run in src or in the package"),
+         msg("colcon creates build, install and log where you run it; a second install folder "
              "confuses the terminal."),
          msg("Delete build, install and log there (not src itself), and build in ~/ros2_ws."),
          links.WORKSPACE, seen=r"/src/(?:[^\s/:]{1,100}/){0,3}(?:install|build)/"),
-    _lab("unknown_select", msg("--packages-select names a package that is not there"),
-         msg("colcon leaves out a name that it does not know, and builds nothing."),
+    _lab("unknown_select", msg("--packages-select names a package that does not exist"),
+         msg("colcon ignores a name that it does not know, and builds nothing."),
          msg("Compare '{package}' with the names that colcon list shows."),
          seen=r"ignoring unknown package '(?P<package>[^'\n]{1,120})' in --packages-select"),
     _lab("colcon_arguments", msg("colcon does not know this argument"),
-         msg("Options have dashes and no underscores, and verbs are spelt out."),
-         msg("colcon build --symlink-install"),
+         msg("Options have dashes, not underscores, and verbs are written in full."),
+         msg("Run: colcon build --symlink-install"),
          seen=r"colcon: error: (?:unrecognized arguments: (?P<argument>[^\n]{1,120})"
               r"|argument verb_name: invalid choice[^\n]{0,200})"),
     _lab("build_type_misspelt", msg("ros2 pkg create does not know this build type"),
          msg("There are three build types: ament_python, ament_cmake and cmake."),
-         msg("ros2 pkg create --build-type ament_python <package>"), links.PACKAGE,
+         msg("Run: ros2 pkg create --build-type ament_python <package>"), links.PACKAGE,
          seen=r"argument --build-type: invalid choice: '(?P<build_type>[^'\n]{0,80})'"),
-    _lab("build_type_forgotten", msg("A C++ package was made"),
-         msg("Without --build-type ros2 pkg create makes a package for CMake."),
-         msg("Delete the folder, and: ros2 pkg create --build-type ament_python <package>"),
+    _lab("build_type_forgotten", msg("A C++ package was created"),
+         msg("Without --build-type, ros2 pkg create creates a package for CMake."),
+         msg("Delete the folder, then run: ros2 pkg create --build-type ament_python <package>"),
          links.PACKAGE, seen=r"creating \S{0,200}CMakeLists\.txt"),
-    _lab("package_name", msg("The package's name is not as ROS wants it"),
-         msg("Names of packages have small letters, digits and underscores, and begin with a "
-             "letter; a dash cannot be in the name of a Python module."),
-         msg("Delete the folder and make the package again with a name such as my_package."),
+    _lab("package_name", msg("The package's name breaks ROS's naming rules"),
+         msg("Package names contain only lowercase letters, digits and underscores, and begin with "
+             "a letter. A Python module's name cannot contain a dash."),
+         msg("Delete the folder and create the package again with a name such as my_package."),
          links.PACKAGE_NAMES, seen=r"does not follow (?:the )?naming conventions"),
-    _lab("nested_package", msg("A package lies inside another one"),
-         msg("colcon stops at the first package.xml on its way down: the inner package is never "
-             "built, and nothing is said of it."),
-         msg("Put the packages side by side into src."), links.PACKAGE),
+    _lab("nested_package", msg("A package is inside another package"),
+         msg("colcon stops at the first package.xml on its way down: it never builds the inner "
+             "package, and prints no message about it."),
+         msg("Put the packages side by side in src."), links.PACKAGE),
     _lab("editable", msg("setuptools is too new for colcon"),
          msg("From version 80 on, setuptools has no setup.py develop, which --symlink-install "
-             "needs. It was installed by pip over the system's."),
-         msg("pip uninstall setuptools (the system's stays), or pip install 'setuptools<80'"),
+             "needs. pip installed this version over the system's."),
+         msg("Run pip uninstall setuptools (the system's version stays), or pip install "
+             "'setuptools<80'"),
          seen=r"option --editable not recognized"),
-    _lab("setuptools_warning", msg("A warning of setuptools"),
-         msg("The build has not failed: setuptools tells its own developers of what will change."),
-         msg("Nothing has to be fixed: look at the last line, Summary."),
+    _lab("setuptools_warning", msg("setuptools prints a warning"),
+         msg("The build did not fail: the warning is for developers of setuptools and tells them "
+             "what will change."),
+         msg("You do not have to fix anything. Look at the last line, Summary."),
          seen=r"SetuptoolsDeprecationWarning|EasyInstallDeprecationWarning"),
-    _lab("two_nodes", msg("Two nodes run at once"),
-         msg("A node that still runs in another terminal goes on counting: two counters come one "
-             "between the other."),
-         msg("Press Ctrl+C in the other terminal; ros2 node list shows what still runs."),
+    _lab("two_nodes", msg("Two nodes run at the same time"),
+         msg("A node that still runs in another terminal keeps counting: the lines of two counters "
+             "are mixed."),
+         msg("Press Ctrl+C in the other terminal. ros2 node list shows what still runs."),
          links.NODES, seen=r"nodes in the graph that share an exact name"),
     _lab("owned_by_root", msg("Files of the workspace belong to root"),
-         msg("A program that ran as root (sudo, a container) made them; your editor may not change "
-             "them."),
-         msg("sudo chown -R $USER: ~/ros2_ws, and never colcon build with sudo."),
+         msg("A program that ran as root (sudo, a container) created them; your editor may not "
+             "change them."),
+         msg("Run sudo chown -R $USER: ~/ros2_ws, and never run colcon build with sudo."),
          links.WORKSPACE, seen=r"EACCES: permission denied|PermissionError: \[Errno 13\]"),
 )  # fmt: skip

@@ -6,15 +6,13 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
-from grader.base.errors import UsageError
-from grader.base.shown import shown
 from grader.package.intake.archive_kind import without_ending
 from grader.package.intake.archive_limits import ArchiveLimits, Spent
 from grader.package.intake.archive_nested import look_inside
 from grader.package.intake.archive_problems import ArchiveError
 from grader.package.intake.choose import Choice, choose, find_candidates
 from grader.package.intake.contents import TooLargeError, read_package
-from grader.package.intake.given import digest_of_file, open_place, resolved
+from grader.package.intake.given import cannot_be_read, digest_of_file, open_place, resolved
 from grader.package.intake.model import Candidate, SourceFile, Submission
 from grader.package.intake.naming import sanitise, submission_name
 from grader.package.intake.problems import Problem, too_large
@@ -50,7 +48,7 @@ def take_in(
     except ArchiveError as error:
         return _refused(own, name, error.problem)
     except OSError as error:
-        raise UsageError(f"{shown(str(path))} cannot be read: {error.strerror}") from None
+        raise cannot_be_read(path, error.strerror or str(error)) from None
     candidates = find_candidates(tree)
     choice = choose(tree, candidates, package=package, node_file=node_file)
     if not candidates and unopened is not None:

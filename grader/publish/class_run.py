@@ -1,4 +1,4 @@
-"""`grader grade-all`: from the folder that the course's system gave to what it takes in again."""
+"""`grader grade-all`: mark the submissions of a class and write gradebook, feedback and pages."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ from grader.publish.outputs import INDEX, Outcome, Outputs
 from grader.publish.written import raise_failures
 from grader.verdict.order import Order
 
-MOST_A_CORE = 2  # workers, while cores have nothing to do
+MOST_A_CORE = 2  # workers per core, while the cores are not busy
 
 
 @dataclass(frozen=True, kw_only=True)
-class ClassOrder:
-    """What `grade-all` was asked for; `order` has the assignment, the distro and the sandbox.
+class ClassOptions:
+    """The options of `grade-all`; `order` has the assignment, the distro and the sandbox.
 
-    `accepts` is what the instructor accepts beforehand (see `accept`).
+    `accepts` holds what the instructor accepts in advance (see `accept`).
     """
 
     order: Order
@@ -54,32 +54,32 @@ class ClassOrder:
     quiet: bool = False
 
 
-def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
-    """Mark what is not marked yet, write everything, and return the exit status.
+def grade_all(options: ClassOptions, *, dry_run: bool) -> int:
+    """Mark what is not marked yet, write all outputs, and return the exit status.
 
-    The teacher's files, the roster and what fits them are looked at before anything is marked.
-    Ctrl+C and surroundings that fail end the marking: what was marked is kept and written, then
-    KeyboardInterrupt or SurroundingsError goes on.
+    The instructor's files and the roster are read and checked before anything is marked. If
+    marking ends early (Ctrl+C, or the surroundings fail), everything marked so far is kept and
+    written, and KeyboardInterrupt or SurroundingsError is raised again.
     """
     started = datetime.now(timezone.utc)
-    order = asked.order
+    order = options.order
     known = read_inputs(
         order.path,
         order.assignment,
-        asked.sheets,
-        asked.out,
-        system=asked.system,
-        roster=asked.roster,
-        accepts=asked.accepts,
+        options.sheets,
+        options.out,
+        system=options.system,
+        roster=options.roster,
+        accepts=options.accepts,
         notify=_notify,
     )
     ended: KeyboardInterrupt | SurroundingsError | None = None
-    with Ledger(asked.ledger) as ledger, _marking(asked) as (setting, pool):
-        outputs = Outputs(asked.out, asked.sheets, known, ledger, asked.accepts)
+    with Ledger(options.ledger) as ledger, _marking(options) as (setting, pool):
+        outputs = Outputs(options.out, options.sheets, known, ledger, options.accepts)
         with ClassProgress(sys.stderr) as progress:
             plan = run.make_plan(ledger, known.folder, setting, listener=progress)
-            if asked.regrade or asked.students:
-                chosen = None if asked.regrade else _chosen(asked.students, plan)
+            if options.regrade or options.students:
+                chosen = None if options.regrade else _chosen(options.students, plan)
                 if dry_run:
                     count = len(plan.items if chosen is None else chosen)
                     _notify(f"a regrade would mark {count} again")
@@ -90,7 +90,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
                 for item in plan.todo:
                     _print(one_line(item.handed_in.student.name or item.student))
                 return 0
-            result_now = partial(_result, asked, ledger, known.folder, plan, started)
+            result_now = partial(_result, options, ledger, known.folder, plan, started)
             try:
                 if plan.todo:
                     if outputs.can_lower:
@@ -100,7 +100,7 @@ def grade_all(asked: ClassOrder, *, dry_run: bool) -> int:
                 ended = why
         result = result_now()
         written = outputs.write(result, notify=_notify)
-        _show(result, plan, ledger, asked, written)
+        _show(result, plan, ledger, options, written)
         status = _status(result)
     if ended is not None:
         _say_ended(ended, written)
@@ -116,39 +116,43 @@ def _say_ended(ended: KeyboardInterrupt | SurroundingsError, written: Outcome) -
     for failure in written.failures:
         _notify(str(failure))
     if isinstance(ended, KeyboardInterrupt):
-        _notify("interrupted: what was marked is kept, and the same command goes on from there")
+        _notify("interrupted: the verdicts so far are kept; run the same command again to continue")
 
 
 def _result(
-    asked: ClassOrder, ledger: Ledger, folder: ClassFolder, plan: run.ClassPlan, started: datetime
+    options: ClassOptions,
+    ledger: Ledger,
+    folder: ClassFolder,
+    plan: run.ClassPlan,
+    started: datetime,
 ) -> ClassResult:
-    """Return the result of the class as the ledger has it now."""
+    """Return the result of the class from the ledger's current state."""
     return class_result(
         ledger,
         folder,
         plan.items,
-        asked.order.assignment,
-        distro=asked.order.distro.name,
-        lang=asked.order.lang,
+        options.order.assignment,
+        distro=options.order.distro.name,
+        lang=options.order.lang,
         started=started,
         seconds=(datetime.now(timezone.utc) - started).total_seconds(),
     )
 
 
 @contextlib.contextmanager
-def _marking(asked: ClassOrder) -> Iterator[tuple[run.MarkingSetting, Pool]]:
-    """Open what marks: workers on this machine, or those of a cluster."""
-    order = asked.order
-    if not asked.scheduler:
+def _marking(options: ClassOptions) -> Iterator[tuple[run.MarkingSetting, Pool]]:
+    """Open the workers that mark: on this machine, or on a cluster."""
+    order = options.order
+    if not options.scheduler:
         setting = run.prepare(order, notify=_notify)
         cores = run.cores_here()
-        most = asked.workers or MOST_A_CORE * cores
-        yield setting, LocalPool(setting.job, asked.workers or cores, most=most)
+        most = options.workers or MOST_A_CORE * cores
+        yield setting, LocalPool(setting.job, options.workers or cores, most=most)
         return
     from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
 
     job = Job(order.assignment, order.distro.name, order.sandbox, order.limits, order.lang)
-    with Cluster(asked.scheduler, job, notify=_notify) as cluster:
+    with Cluster(options.scheduler, job, notify=_notify) as cluster:
         setting = run.MarkingSetting(
             assignment=order.assignment,
             distro=order.distro,
@@ -161,7 +165,7 @@ def _marking(asked: ClassOrder) -> Iterator[tuple[run.MarkingSetting, Pool]]:
 
 
 def _chosen(words: Sequence[str], plan: run.ClassPlan) -> list[str]:
-    """Return the keys of the students who are to be marked again."""
+    """Return the keys of the students to mark again."""
     students = {item.student: item.handed_in.student for item in plan.items}
     return [find_student(word, list(students.values())).key for word in words]
 
@@ -172,12 +176,12 @@ def _say_faults(result: ClassResult) -> None:
         who, it = (
             ("1 submission was", "it") if count == 1 else (f"{count} submissions were", "them")
         )
-        _notify(f"{who} not marked: the grader failed on {it}, try by try, and works without {it}")
-        _notify("the reasons are in the gradebook's notes; the same command tries again")
+        _notify(f"{who} not marked: the grader failed on {it} every time, and works without {it}")
+        _notify("the reasons are in the gradebook's notes; run the same command to try again")
 
 
 def _status(result: ClassResult) -> int:
-    """Return the worst of the students; who handed in nothing is no student's fault of marking."""
+    """Return 0 if every submission passed all checks, else 1; missing submissions do not count."""
     marked = [e for e in result.entries if e.status not in ("missing", "elsewhere")]
     return 0 if all(e.report is not None and e.report.all_passed for e in marked) else 1
 
@@ -189,19 +193,23 @@ def _say_plan(plan: run.ClassPlan) -> None:
 
 
 def _show(
-    result: ClassResult, plan: run.ClassPlan, ledger: Ledger, asked: ClassOrder, written: Outcome
+    result: ClassResult,
+    plan: run.ClassPlan,
+    ledger: Ledger,
+    options: ClassOptions,
+    written: Outcome,
 ) -> None:
     out = sys.stdout
     width, styled = width_of(out), takes_styles(out)
     if plan.regrades:
         changes = changes_of(ledger, list(plan.regrades.values()))
         _show_page(regrade_page(changes, width=width, styled=styled))
-    if not asked.quiet:
+    if not options.quiet:
         _show_page(class_page(result, width=width, styled=styled))
     if written.state == "refused":
         return
-    _print(f"page       {asked.out / INDEX}")
-    _print(f"gradebook  {asked.out / GRADEBOOK}")
+    _print(f"page       {options.out / INDEX}")
+    _print(f"gradebook  {options.out / GRADEBOOK}")
     if written.state == "unchanged":
         _notify("nothing has changed since these were written")
 

@@ -1,4 +1,4 @@
-"""The class on a terminal: a line a student, and for a regrade what it has changed."""
+"""The class on a terminal: one line per student, and the changes of a regrade."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ STYLES = {
     "elsewhere": "yellow",
     "pending": "cyan",
 }
-MOST_NAMES = 5  # of what failed, in one line
+MOST_NAMES = 5  # of failed checks, in one line
 
 
 @dataclass(frozen=True)
 class Change:
-    """What a regrade has changed for one student."""
+    """A student's points before and after a regrade, and the checks lost and won by it."""
 
     name: str
     before: float
@@ -36,12 +36,12 @@ class Change:
 
     @property
     def is_one(self) -> bool:
-        """Whether anything did change."""
+        """Whether anything changed."""
         return bool(self.lost or self.won) or self.before != self.after
 
 
 def class_page(result: ClassResult, *, width: int, styled: bool) -> str:
-    """Return the page of a class: who has how many points, and the first reasons."""
+    """Return the page of a class: each student's points, and the first failed checks."""
     page = Page(width=width, styled=styled)
     page.line((one_line(result.title), "bold"))
     page.gap()
@@ -52,16 +52,16 @@ def class_page(result: ClassResult, *, width: int, styled: bool) -> str:
     for group in result.identical:
         names = {entry.student.key: entry.student.name for entry in result.entries}
         who = ", ".join(one_line(names[key] or key, most=40) for key in group)
-        page.line(f"The same once white space and comments are gone: {who}")
+        page.line(f"Identical except for white space and comments: {who}")
     return str(page)
 
 
 def regrade_page(changes: Sequence[Change], *, width: int, styled: bool) -> str:
-    """Return the page of a regrade: before, after, and the checks that went over."""
+    """Return the page of a regrade: points before and after, checks lost and won."""
     page = Page(width=width, styled=styled)
     changed = [change for change in changes if change.is_one]
     same = len(changes) - len(changed)
-    page.line((f"Marked again: {len(changes)}, of which {same} as before.", "bold"))
+    page.line((f"Marked again: {len(changes)}, {same} of them with the same result.", "bold"))
     if changed:
         rows = [
             [
@@ -79,13 +79,13 @@ def regrade_page(changes: Sequence[Change], *, width: int, styled: bool) -> str:
 
 
 def changes_of(ledger: Ledger, regrades: Sequence[Regrade]) -> list[Change]:
-    """Return what the regrades that are done have changed, in their order."""
+    """Return the changes of the regrades that are done, in their order."""
     now = ledger.verdicts()
     found = []
     for regrade in regrades:
         row = now[regrade.student, regrade.key]
         if row.id == regrade.before:
-            continue  # it could not be marked again: the one before stands
+            continue  # it could not be marked again: the earlier verdict stays
         before, after = ledger.report(regrade.before), ledger.report(row.id)
         passed = _passed(before), _passed(after)
         found.append(
@@ -135,9 +135,9 @@ def _totals(entries: Sequence[GradebookEntry]) -> str:
     count = Counter[str](entry.status for entry in entries)
     full = sum(1 for e in entries if e.report is not None and e.report.all_passed)
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
-    words = {"ungradable": "cannot be marked", "missing": "handed in nothing"}
+    words = {"ungradable": "cannot be marked", "missing": "without a submission"}
     words["elsewhere"] = "submitted elsewhere"
-    words["error"] = "not marked, a fault of the grader"
+    words["error"] = "not marked because of a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
     return ", ".join(parts) + "."

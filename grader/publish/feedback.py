@@ -80,7 +80,7 @@ def short_html(entry: GradebookEntry, *, show_hidden: bool) -> str:
     open_ = [one for one in view.checks if one.check.status not in ("passed", "skipped")]
     skipped = sum(one.check.status == "skipped" for one in view.checks)
     translate = Translator(entry.lang)
-    summary = [line for line in (translate(entry.problem), *view.reckoning) if line]
+    summary = [line for line in (translate(entry.problem), *view.calculation) if line]
     lines = [_safe(line) for line in summary]
     lines += [_check(one, translate) for one in open_[:MOST_CHECKS]]
     rest = [_more(len(open_) - MOST_CHECKS), _skipped(skipped), hidden_words(view)]

@@ -1,6 +1,6 @@
-"""All files of a class, each written as a whole and for its owner only.
+"""The files of a class (gradebook, sheets, feedback), readable by their owner only.
 
-One that cannot be made or written does not keep the others from being written.
+Each is written as a whole. If one cannot be made or written, the others are written anyway.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def write_outputs(
     show_hidden: bool = False,
     notify: Callable[[str], None] | None = None,
 ) -> Written:
-    """Write the files of a class below `out` (made if it is not there) and return their paths.
+    """Write the files of a class below `out` (created if missing) and return their paths.
 
     `sheets` are the instructor's files, by the name of the filled copy, and `columns` the columns
     that the instructor named. `notify` receives what could not be filled in. Errors are in `failures`:
@@ -57,10 +57,10 @@ def write_outputs(
         names = defaultdict(str, columns or {})
         made[new.output] = partial(new.write, result, comment, names)
     for name, make in made.items():
-        with written.going_on():
+        with written.collecting_errors():
             _write(out, "", name, make(), written, notify)
     for name, page in _feedback(result, show_hidden=show_hidden):
-        with written.going_on():
+        with written.collecting_errors():
             _write(out, FEEDBACK, name, Filled(page()), written, notify)
     return written
 
@@ -68,9 +68,9 @@ def write_outputs(
 def _feedback(
     result: ClassResult, *, show_hidden: bool
 ) -> Iterator[tuple[str, Callable[[], bytes]]]:
-    """Yield each student's two files, by name; two students never share one.
+    """Yield the names and contents of each student's two files; two students never share one.
 
-    Who handed in elsewhere gets none: there is nothing to tell, and nothing that was missed.
+    A student who submitted elsewhere gets none, unless an instructor corrected their points.
     """
     title = result.title or result.assignment
     pages = page_names(entry.student.key for entry in result.entries)
@@ -95,7 +95,7 @@ def _write(
     written: Written,
     notify: Callable[[str], None] | None,
 ) -> None:
-    """Write one file into `out`, or into a folder of ours in it."""
+    """Write one file into `out`, or into a folder in it."""
     try:
         out.mkdir(mode=0o700, parents=True, exist_ok=True)
         with Folder.open(out, durable=False) as outer:

@@ -147,4 +147,4 @@ def _submission_case(suite: ET.Element, entry: GradebookEntry) -> None:
     text = translate(problem or say("not gradable"))
     tag = "failure" if entry.status == "ungradable" else "error"
     part = ET.SubElement(case, tag, type=entry.status, message=one_line(text))
-    part.text = "\n".join(first_lines(text, lines=20))
+    part.text = "\n".join(first_lines(text, lines=20, translate=translate))

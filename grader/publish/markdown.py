@@ -26,7 +26,7 @@ def markdown(entry: GradebookEntry, title: str, *, show_hidden: bool) -> str:
     lines += [f"**{_plain(headline(entry))}**", ""]
     if entry.problem:
         lines += [_plain(translate(entry.problem)), ""]
-    lines += [f"- {_plain(line)}" for line in view.reckoning]
+    lines += [f"- {_plain(line)}" for line in view.calculation]
     if view.checks:
         head = translate(say("Checks"))
         lines += ["", f"## {_plain(head)}", ""]
@@ -43,14 +43,14 @@ def markdown(entry: GradebookEntry, title: str, *, show_hidden: bool) -> str:
     ):
         if text.strip():
             lines += ["", f"## {_plain(translate(head))}", ""]
-            lines += _fenced(last_lines(text, lines=LOG_LINES)[0])
+            lines += _fenced(last_lines(text, lines=LOG_LINES, translate=translate)[0])
     return "\n".join(lines) + "\n"
 
 
 def _block(one: CheckView, translate: Translator) -> list[str]:
     lines = [f"## {_code(one.check.id)}: {_plain(one.check.title)}"]
     for field in one.fields:
-        text = first_lines(field.text, lines=FIELD_LINES, most=1_000)
+        text = first_lines(field.text, lines=FIELD_LINES, most=1_000, translate=translate)
         if not field.code:
             lines += ["", f"{field.label}: {_plain(field.text)}"]
         elif len(text) > 1:

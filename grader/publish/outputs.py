@@ -1,4 +1,4 @@
-"""All that a class run writes: pages, gradebooks, feedback, reports; only where something changed."""
+"""Everything that a class run writes: pages, gradebooks, feedback, reports. Skipped if nothing changed."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CLASS_FOLDERS = ("students", "feedback", "unpacked")
 
 @dataclass(frozen=True)
 class Outcome:
-    """How the writing went; `failures` are the errors of what could not be written."""
+    """The result of writing; `failures` are the errors of files that could not be written."""
 
     state: Literal["written", "unchanged", "refused"]
     failures: tuple[Exception, ...] = ()
@@ -34,9 +34,9 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Outputs:
-    """Where a class' files go, what was known beforehand, and what the ledger noted of it all.
+    """The outputs of a class: their folder and settings, the instructor's files, and the ledger.
 
-    `accepts` is what the instructor accepts (see `accept`).
+    `accepts` holds what the instructor accepts in advance (see `accept`).
     """
 
     out: Path
@@ -47,16 +47,15 @@ class Outputs:
 
     @property
     def can_lower(self) -> bool:
-        """Whether there are grades yet that could go down."""
+        """Whether there are earlier grades that could be lowered."""
         return bool(self.known.gradebook.rows or self.known.sheets.rosters)
 
     def refuse_lower(
         self, result: ClassResult, *, but: Collection[str] = (), marked: bool = False
     ) -> None:
-        """Raise UsageError if a grade would go down; `but` are students who are not known yet.
+        """Raise UsageError if a grade would be lowered; `but` are students who are not marked yet.
 
-        Who was corrected by hand since everything was written last is no matter: that was the
-        instructor's word already.
+        Students corrected by hand since the last write are ignored: the instructor decided that.
         """
         noted = self._noted().get("at")
         corrected = self.ledger.corrected_since(datetime.fromisoformat(noted)) if noted else set()
@@ -65,7 +64,7 @@ class Outputs:
         refuse_lower(rest, self.accepts, marked=marked)
 
     def write(self, result: ClassResult, *, notify: Callable[[str], None]) -> Outcome:
-        """Write everything that can be written, unless it is there or a grade would go down."""
+        """Write all outputs, unless they are up to date or a grade would be lowered."""
         if self._are_there(result):
             return Outcome("unchanged")
         try:
@@ -81,10 +80,10 @@ class Outputs:
         return all(Path(file).exists() for file in noted["files"])
 
     def _write(self, result: ClassResult, *, notify: Callable[[str], None]) -> list[Exception]:
-        # until all is written it is not known what is there: a run may be killed meanwhile
+        # a run may be killed while it writes: until the end, no files are noted as written
         begun = {name: value for name, value in self._noted().items() if name == "at"}
         self.ledger.note(self._name, json.dumps(begun))
-        # each of these brings a library or templates that an unchanged class does not need
+        # these import libraries and templates that an unchanged class does not need
         from grader.publish.gradebooks import write_outputs  # noqa: PLC0415
         from grader.publish.pages.write import write_site  # noqa: PLC0415
 
@@ -96,12 +95,12 @@ class Outputs:
             show_hidden=self.sheets.show_hidden,
             notify=notify,
         )
-        with written.going_on():
+        with written.collecting_errors():
             written.files.append(write_site(result, self.out))
         for entry in result.entries:
-            with written.going_on():
+            with written.collecting_errors():
                 written.files += _write_report(entry, self.out)
-        os.sync()  # once for all of them: only then is it noted that they are there
+        os.sync()  # once for all files, before they are noted as written
         if not written.failures:
             kept = {
                 "digest": self._digest(result),
@@ -120,7 +119,7 @@ class Outputs:
         return noted
 
     def _digest(self, result: ClassResult) -> str:
-        """Return the hash of all that the files are made of."""
+        """Return the hash of everything that the files depend on."""
         bare = replace(result, entries=(), started=None, seconds=0)
         entries = [asdict(replace(e, report=None)) for e in result.entries]
         sheets = [asdict(self.sheets), self.known.sheets.digest]
@@ -136,6 +135,6 @@ def _write_report(entry: GradebookEntry, out: Path) -> list[Path]:
     if report is None:
         return []
     name = report.submission.name
-    # a student may be called as one of our folders is
+    # a student may have the name of one of our folders
     name = f"{name}-1" if name in CLASS_FOLDERS else name
     return [write_report(report, out, name, durable=False)]

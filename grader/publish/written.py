@@ -1,4 +1,4 @@
-"""What was written, and what could not be: one output that fails does not stop the others."""
+"""The files that were written and the errors of the others: one failure does not stop the rest."""
 
 from __future__ import annotations
 
@@ -12,25 +12,26 @@ from grader.base.errors import GraderError, SurroundingsError, UsageError
 
 @dataclass
 class Written:
-    """The files that are there now, and the errors of those that are not."""
+    """The files that were written, and the errors of those that could not be."""
 
     files: list[Path] = field(default_factory=list)
     failures: list[Exception] = field(default_factory=list)
 
     @contextlib.contextmanager
-    def going_on(self) -> Iterator[None]:
-        """Keep an error of what is written inside, whatever it is, and go on."""
+    def collecting_errors(self) -> Iterator[None]:
+        """Collect any error raised in the block, and continue after it."""
         try:
             yield
-        except Exception as error:  # a fault of ours in one output must not cost the others
+        except Exception as error:  # a bug in one output must not prevent the others
             self.failures.append(error)
 
 
 def raise_failures(failures: Sequence[Exception]) -> None:
-    """Raise what went wrong, all in one error; nothing if there is nothing.
+    """Raise one error for all failures; return if there are none.
 
-    An error of ours comes first, with its traceback. SurroundingsError (exit status 3) if the
-    folder could not be written, else UsageError (2): one of the teacher's files cannot be used.
+    A bug (any other exception than GraderError) is raised first, with its traceback. Otherwise
+    SurroundingsError (exit status 3) if the folder could not be written, else UsageError (2): one
+    of the instructor's files cannot be used.
     """
     for failure in failures:
         if not isinstance(failure, GraderError):
@@ -38,7 +39,7 @@ def raise_failures(failures: Sequence[Exception]) -> None:
     known = [failure for failure in failures if isinstance(failure, GraderError)]
     if not known:
         return
-    told = list(dict.fromkeys(str(failure) for failure in known))
+    messages = list(dict.fromkeys(str(failure) for failure in known))
     ours = any(isinstance(failure, SurroundingsError) for failure in known)
     kind = SurroundingsError if ours else UsageError
-    raise kind("\n".join(told), remedy="All other files were written; the verdicts are kept.")
+    raise kind("\n".join(messages), remedy="All other files were written; the verdicts are kept.")

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import joined, say
 from grader.base.plain_text import first_lines, last_lines, one_line, points
-from grader.report.page import Row
+from grader.report.page import CheckRow
 
 if TYPE_CHECKING:
     from grader.report.model import CheckResult, Evidence
@@ -32,11 +33,11 @@ UNSEEN = say("a hidden check")
 BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
 
 
-def row(check: CheckResult) -> Row:
+def row(check: CheckResult) -> CheckRow:
     """Return the check's row of the table; unknown points are a dash."""
     mark, style = MARKS[check.status]
     open_ = check.status in ("inconclusive", "error")
-    return Row(
+    return CheckRow(
         mark=mark,
         style=style,
         name=one_line(check.id, most=60),
@@ -97,7 +98,9 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
         page.field(say("points"), ours)
     _field(page, say("fix"), check.fix, lines, style="bold")
     if check.patch.strip():
-        page.code(say("change"), first_lines(check.patch, lines=2 * lines))
+        page.code(
+            say("change"), first_lines(check.patch, lines=2 * lines, translate=page.translate)
+        )
     for advice in check.advice:
         _field(page, say("also"), advice, lines)
     if check.consequence_of:
@@ -110,7 +113,9 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
 
 def _found(page: Page, text: str, lines: int) -> None:
     """Write what was found; if it contains a line of marks, keep its columns."""
-    shown = first_lines(text, lines=lines, most=1_000) if text.strip() else []
+    shown: list[str] = []
+    if text.strip():
+        shown = first_lines(text, lines=lines, most=1_000, translate=page.translate)
     marks = any(line.strip() and not line.strip("^ ") for line in shown)
     if marks:
         page.code(say("found"), shown)
@@ -120,25 +125,35 @@ def _found(page: Page, text: str, lines: int) -> None:
 
 def _field(page: Page, label: str, text: str, lines: int, *, style: str = "") -> None:
     if text.strip():
-        page.field(label, first_lines(text, lines=lines, most=1_000), style)
+        shown = first_lines(text, lines=lines, most=1_000, translate=page.translate)
+        page.field(label, shown, style)
 
 
-def evidence_of(check: CheckResult, evidence: Evidence) -> tuple[str, str]:
-    """Return the text that shows why a check failed, and its title; ("", "") if none does."""
+@dataclass(frozen=True)
+class Excerpt:
+    """A text of the report's evidence, or a part of it; `log` is the field that it is from."""
+
+    log: Literal["build_log", "transcript"]
+    title: str
+    text: str
+
+
+def evidence_of(check: CheckResult, evidence: Evidence) -> Excerpt | None:
+    """Return the excerpt that shows why a check failed; None if there is none."""
     stage = check.id.partition(".")[0]
     if check.status != "failed" or stage in ("package", "source"):
-        return "", ""
+        return None
     if stage == "build":
-        return evidence.build_log, say("colcon build printed")
+        return Excerpt("build_log", say("colcon build printed"), evidence.build_log)
     before, pressed, _ = evidence.transcript.partition("\n^C")
     if pressed and check.id in BEFORE_CTRL_C:
-        return before, say("ros2 run printed before Ctrl+C")
-    return evidence.transcript, say("ros2 run printed")
+        return Excerpt("transcript", say("ros2 run printed before Ctrl+C"), before)
+    return Excerpt("transcript", say("ros2 run printed"), evidence.transcript)
 
 
 def quotation(page: Page, text: str, title: str, *, lines: int) -> None:
     """Write the end of a program's output."""
-    shown, count = last_lines(text, lines=lines)
+    shown, count = last_lines(text, lines=lines, translate=page.translate)
     head = say("What {title}:", title=title)
     if len(shown) != count:
         head = say(

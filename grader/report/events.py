@@ -1,7 +1,7 @@
-"""The events of the runner, for listeners (live terminal, ledger, …).
+"""The events of marking, for listeners (live terminal, ledger, …).
 
-The runner calls one `Listener` with each event, in order, in its own thread; a listener returns at
-once and raises nothing. Durations are seconds of wall time.
+Marking calls one `Listener` with each event, in order, in its own thread; a listener returns
+immediately and raises nothing. Durations are seconds of wall time.
 """
 
 from __future__ import annotations

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from grader.base.errors import SurroundingsError
 from grader.base.folder import Folder
+from grader.base.i18n.message import say
 from grader.report.matrix import matrix_of
 from grader.report.model import Report
 
@@ -112,7 +113,9 @@ def _choose(top: Folder, names: Sequence[str], submission: str) -> str:
         if owner is None:
             free.append(name)
     if not free:
-        raise FileExistsError(errno.EEXIST, "every name for it is taken", str(top.path / names[0]))
+        raise FileExistsError(
+            errno.EEXIST, say("every name for it is taken"), str(top.path / names[0])
+        )
     return free[0]
 
 
@@ -153,21 +156,26 @@ def _file_name(name: str) -> str:
     return name
 
 
-def could_not_write(error: OSError, out: Path, *, what: str = "the report") -> SurroundingsError:
-    """Return the error to show if something could not be written below `out`."""
-    where = error.filename if isinstance(error.filename, str) else str(out)
-    reason = error.strerror or str(error)
+def could_not_write(error: OSError, out: Path, *, what: str = "") -> SurroundingsError:
+    """Return the error to show if `what` (default: the report) could not be written below `out`."""
     if error.errno in FULL:
-        remedy = (
+        remedy = say(
             "The disk (or a quota) is full. Free some space, or choose another folder with --out."
         )
     elif error.errno in FORBIDDEN:
-        remedy = "You have no write permission for this folder. Choose another one with --out."
+        remedy = say("You have no write permission for this folder. Choose another one with --out.")
     elif error.errno in IN_THE_WAY:
-        remedy = "A link or file is in the place of a folder. Check and remove it, or choose "
-        remedy += "another folder with --out."
+        remedy = say(
+            "A link or file is in the place of a folder. Check and remove it, or choose another "
+            "folder with --out."
+        )
     else:
-        remedy = "Choose another folder with --out."
-    return SurroundingsError(
-        f"{what} could not be written below {out}: {where}: {reason}", remedy=remedy
+        remedy = say("Choose another folder with --out.")
+    message = say(
+        "{what} could not be written below {out}: {where}: {reason}",
+        what=what or say("the report"),
+        out=str(out),
+        where=error.filename if isinstance(error.filename, str) else str(out),
+        reason=error.strerror or str(error),
     )
+    return SurroundingsError(message, remedy=remedy)

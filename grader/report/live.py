@@ -70,7 +70,7 @@ class LiveProgress:
             self._live = None
 
     def __call__(self, event: Event) -> None:
-        """Handle one event of the runner."""
+        """Handle one event of marking."""
         match event:
             case StageStarted(title=title):
                 self._stage, self._check, self._tick = one_line(title, most=80), "", ""

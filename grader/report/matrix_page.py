@@ -42,7 +42,9 @@ def matrix_page(
         if total.status == "error":
             page.gap()
             page.line((say("Not graded on {distro}: ", distro=one_line(distro)), "bold magenta"))
-            page.line("\n".join(first_lines(total.message, lines=8)), indent=2)
+            page.line(
+                "\n".join(first_lines(total.message, lines=8, translate=page.translate)), indent=2
+            )
     _differences(page, reports, shown)
     _blocks(page, reports, {check.id for check in shown})
     page.gap()

@@ -23,7 +23,7 @@ QUOTED, CONTINUED = "  | ", "  |   "
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class CheckRow:
     """A row of the table of checks; each cell is safe to show."""
 
     mark: str
@@ -42,7 +42,7 @@ class Page:
 
     def __init__(self, *, width: int, styled: bool, translate: Callable[[str], str] = str) -> None:
         self._out = io.StringIO()
-        self._translate = translate
+        self.translate = translate
         self._styled = styled
         self._width = max(20, min(width, WIDEST))
         self._console = GatedConsole(
@@ -81,12 +81,12 @@ class Page:
 
     def _translated(self, part: str | tuple[str, str]) -> str | tuple[str, str]:
         if isinstance(part, str):
-            return self._translate(part)
-        return self._translate(part[0]), part[1]
+            return self.translate(part)
+        return self.translate(part[0]), part[1]
 
     def field(self, label: str, text: str | Sequence[str], style: str = "") -> None:
         """Write `text` (lines, each wrapped at words) next to its label."""
-        lines = self._translate(text).split("\n") if isinstance(text, str) else text
+        lines = self.translate(text).split("\n") if isinstance(text, str) else text
         first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             self._hang(Text(line, style=style), first if number == 0 else rest, rest)
@@ -100,7 +100,7 @@ class Page:
 
     def _lead(self, label: str, lines: Sequence[str]) -> tuple[str, str]:
         """Return the prefixes of the first line and of the others."""
-        label = self._translate(label)
+        label = self.translate(label)
         if not self.narrow:
             width = max(LABEL, cell_len(label) + 4)
             return set_cell_size(f"  {label}", width), " " * width
@@ -116,7 +116,7 @@ class Page:
             for number, piece in enumerate(pieces):
                 self._verbatim(Text(f"{CONTINUED if number else QUOTED}{piece}"))
 
-    def table(self, rows: Sequence[Row]) -> None:
+    def table(self, rows: Sequence[CheckRow]) -> None:
         """Write the rows in columns; on a narrow page the text is below the name."""
         table = Table.grid(padding=(0, 2, 0, 0), expand=False)
         table.add_column(no_wrap=True)
@@ -125,7 +125,7 @@ class Page:
         table.add_column(overflow="fold")
         table.add_column(justify="right", no_wrap=True)
         for row in rows:
-            mark, score = Text(self._translate(row.mark), style=row.style), Text(row.score)
+            mark, score = Text(self.translate(row.mark), style=row.style), Text(row.score)
             if self.narrow:
                 table.add_row(mark, Text(f"{row.name}\n{row.text}"), score)
             else:
@@ -137,7 +137,7 @@ class Page:
 
         Columns that do not fit go into another table below.
         """
-        rows = [[(self._translate(text), style) for text, style in cells] for cells in rows]
+        rows = [[(self.translate(text), style) for text, style in cells] for cells in rows]
         others = [
             max(cell_len(cells[n][0]) for cells in [[(h, "") for h in heads], *rows]) + 2
             for n in range(1, len(heads))

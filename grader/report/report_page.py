@@ -55,7 +55,7 @@ def _head(page: Page, report: Report) -> None:
     page.code(say("in"), [one_line(who.path, most=4_000)])
     page.field(say("ran on"), ran_on(report))
     for note in who.notes:
-        page.field(say("note"), first_lines(note, lines=3))
+        page.field(say("note"), first_lines(note, lines=3, translate=page.translate))
     page.gap()
 
 
@@ -70,7 +70,7 @@ def ran_on(report: Report) -> str:
 
 def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     if report.status == "error":
-        message = "\n".join(first_lines(report.message, lines=8))
+        message = "\n".join(first_lines(report.message, lines=8, translate=page.translate))
         page.line((say("Not graded: "), "bold magenta"), message)
         page.line(say("This is a fault of the grader or its machine, not of the submission."))
         page.gap()
@@ -81,7 +81,9 @@ def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     open_ = say(", {points} inconclusive", points=points(report.inconclusive))
     page.line((total + (open_ if report.inconclusive else ""), "bold"), _counts(checks))
     if report.status == "graded" and report.message.strip():
-        page.line("\n".join(first_lines(report.message, lines=8)), indent=2)
+        page.line(
+            "\n".join(first_lines(report.message, lines=8, translate=page.translate)), indent=2
+        )
     hidden = len(report.checks) - len(checks)
     if hidden:
         page.line(hidden_checks(hidden))
@@ -112,10 +114,10 @@ def _blocks(
             continue
         page.gap()
         block(page, check, lines=lines)
-        text, title = evidence_of(check, report.evidence)
-        if text.strip() and title not in quoted:
-            quoted.add(title)
-            quotation(page, text, title, lines=lines)
+        found = evidence_of(check, report.evidence)
+        if found is not None and found.text.strip() and found.title not in quoted:
+            quoted.add(found.title)
+            quotation(page, found.text, found.title, lines=lines)
     return frozenset(quoted)
 
 
@@ -147,7 +149,7 @@ def _advice(page: Page, checks: Sequence[CheckResult]) -> None:
     page.line((say("Advice"), "bold"), say(" (these checks passed, no points are lost)"))
     for check in passed:
         for advice in check.advice:
-            text = "\n".join(first_lines(advice, lines=6))
+            text = "\n".join(first_lines(advice, lines=6, translate=page.translate))
             page.line((one_line(check.id, most=60), "cyan"), f": {text}", indent=2)
 
 

@@ -27,7 +27,7 @@ DESCRIPTIONS = {
         "score": "The points given: the sum over the checks.",
         "max_score": "The points available: the sum over the checks.",
         "lang": "The language of all texts. Ids, statuses and params do not depend on it.",
-        "attempts": "How often the submission was marked for this verdict: again only if our own side failed.",
+        "attempts": "How often the submission was marked for this verdict: more than once only if the grader failed.",
         "checks": "The checks in the order in which they ran.",
         "started": "When the grading began (ISO 8601).",
     },

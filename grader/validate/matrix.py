@@ -13,7 +13,7 @@ MOST_NAME = 52  # characters of a mutant's name in the table
 
 
 @dataclass(frozen=True)
-class Row:
+class MutantResult:
     """A mutant and the result of marking it."""
 
     mutant: Mutant
@@ -64,7 +64,7 @@ class Matrix:
     assignment: str
     checks: tuple[str, ...]
     max_score: float
-    rows: tuple[Row, ...]
+    rows: tuple[MutantResult, ...]
     left_out: int
     solution: Marked | None = None
     starter: Marked | None = None
@@ -174,7 +174,7 @@ def _wanting(marked: Marked) -> str:
     return marked.problem or ", ".join((*marked.failed, *marked.unknown))
 
 
-def _json_row(row: Row) -> dict[str, object]:
+def _json_row(row: MutantResult) -> dict[str, object]:
     return {
         "mutant": row.mutant.name,
         "named": row.mutant.named,
@@ -188,7 +188,7 @@ def _json_row(row: Row) -> dict[str, object]:
     }
 
 
-def _sign(row: Row, check: str) -> str:
+def _sign(row: MutantResult, check: str) -> str:
     status = row.marked.status.get(check)
     if status is None:
         return ""

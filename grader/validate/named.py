@@ -56,7 +56,7 @@ class Explained:
 
 
 @dataclass(frozen=True)
-class Written:
+class MutantsFile:
     """The content of mutants.yaml."""
 
     mutants: tuple[Mutant, ...] = ()
@@ -77,7 +77,7 @@ class Written:
         return {entry.mutant: entry.why for entry in self.equivalent}
 
 
-def read_mutants(path: Path, *, checks: Iterable[str], mistakes: Iterable[str]) -> Written:
+def read_mutants(path: Path, *, checks: Iterable[str], mistakes: Iterable[str]) -> MutantsFile:
     """Read mutants.yaml.
 
     Raises AssignmentError, whose message reads `file:line: what is wrong`.
@@ -93,7 +93,7 @@ class _Reader:
         self._checks = checks
         self._mistakes = mistakes
 
-    def read(self) -> Written:
+    def read(self) -> MutantsFile:
         content = self._mapping((), self._document.content, ("schema", "mutants", "equivalent"))
         if content.get("schema") != 1:
             raise self._document.error(("schema",), "schema must be 1")
@@ -111,7 +111,7 @@ class _Reader:
                 text = f"'{entry.mutant}' is explained twice"
                 raise self._document.error(("equivalent", n, "mutant"), text)
             whys[entry.mutant] = entry
-        return Written(tuple(mutants.values()), tuple(whys.values()))
+        return MutantsFile(tuple(mutants.values()), tuple(whys.values()))
 
     def _explained(self, loc: Loc, item: Any) -> Explained:
         fields = self._mapping(loc, item, EXPLAINED)

@@ -13,9 +13,9 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.package.submission import Submission
 from grader.validate.automatic import generate
 from grader.validate.marking import Marked, mark_all, mark_files, submit, submit_path
-from grader.validate.matrix import Matrix, Row, as_json
+from grader.validate.matrix import Matrix, MutantResult, as_json
 from grader.validate.mutant import Mutant
-from grader.validate.named import MUTANTS, Written, read_mutants
+from grader.validate.named import MUTANTS, MutantsFile, read_mutants
 from grader.validate.tree import Tree, digest, read_tree
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import Order
@@ -25,7 +25,7 @@ SOLUTION, STARTER = "the solution", "the starter"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wish:
+class ValidationOptions:
     """What to validate: `order` defines how to mark (its path is ignored).
 
     `keys` holds the solution and mutants.yaml, `starter` what students begin with (None: nothing).
@@ -41,23 +41,23 @@ class Wish:
     only: str = "*"
 
 
-def validate(wish: Wish, notify: Callable[[str], None]) -> Matrix:
+def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matrix:
     """Mark the solution, the starter and the mutants; `notify` receives lines of progress.
 
     Raises UsageError (AssignmentError for a fault in the files), SurroundingsError.
     """
     begin = time.monotonic()
-    assignment = wish.order.assignment
-    original = _solution(wish)
-    mutants = collect(wish, original)
-    chosen = [m for m in mutants if fnmatch.fnmatchcase(m.name, wish.only)]
+    assignment = options.order.assignment
+    original = _solution(options)
+    mutants = collect(options, original)
+    chosen = [m for m in mutants if fnmatch.fnmatchcase(m.name, options.only)]
     if not chosen:
-        raise UsageError(f"no mutant's name matches '{wish.only}'")
-    marked, waiting = _by_files(chosen, original, wish.order)
-    if not wish.static:
+        raise UsageError(f"no mutant's name matches '{options.only}'")
+    marked, waiting = _by_files(chosen, original, options.order)
+    if not options.static:
         notify(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
-        marked |= _by_running({**_ends(wish), **waiting}, wish, notify)
-    rows = tuple(Row(m, marked[m.name]) for m in chosen if m.name in marked)
+        marked |= _by_running({**_ends(options), **waiting}, options, notify)
+    rows = tuple(MutantResult(m, marked[m.name]) for m in chosen if m.name in marked)
     return Matrix(
         assignment=assignment.id,
         checks=tuple(c for c in CHECKS if c in {use.id for use in assignment.checks}),
@@ -70,13 +70,15 @@ def validate(wish: Wish, notify: Callable[[str], None]) -> Matrix:
     )
 
 
-def collect(wish: Wish, original: Tree) -> list[Mutant]:
+def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     """Return the named mutants, and the automatic ones that differ from all of them."""
-    assignment = wish.order.assignment
+    assignment = options.order.assignment
     automatic = tuple(generate(original, assignment))
     ids = [use.id for use in assignment.checks]
-    path = wish.keys / MUTANTS
-    written = read_mutants(path, checks=ids, mistakes=CATALOGUE) if path.is_file() else Written()
+    path = options.keys / MUTANTS
+    written = (
+        read_mutants(path, checks=ids, mistakes=CATALOGUE) if path.is_file() else MutantsFile()
+    )
     seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
     made = []
     for mutant in automatic:
@@ -103,9 +105,9 @@ def write_json(matrix: Matrix, path: Path) -> None:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
-def _solution(wish: Wish) -> Tree:
-    assignment = wish.order.assignment
-    folder = wish.keys / "solution" / assignment.package
+def _solution(options: ValidationOptions) -> Tree:
+    assignment = options.order.assignment
+    folder = options.keys / "solution" / assignment.package
     if not folder.is_dir():
         raise UsageError(
             f"there is no solution of {assignment.id}: no folder {folder}",
@@ -114,11 +116,11 @@ def _solution(wish: Wish) -> Tree:
     return read_tree(folder)
 
 
-def _ends(wish: Wish) -> dict[str, Submission]:
+def _ends(options: ValidationOptions) -> dict[str, Submission]:
     """Return the solution, which must get full marks, and the starter, which must not."""
-    ends = {SOLUTION: submit_path(wish.keys / "solution", wish.order)}
-    if wish.starter is not None:
-        ends[STARTER] = submit_path(wish.starter, wish.order)
+    ends = {SOLUTION: submit_path(options.keys / "solution", options.order)}
+    if options.starter is not None:
+        ends[STARTER] = submit_path(options.starter, options.order)
     return ends
 
 
@@ -139,12 +141,12 @@ def _by_files(
 
 
 def _by_running(
-    waiting: dict[str, Submission], wish: Wish, notify: Callable[[str], None]
+    waiting: dict[str, Submission], options: ValidationOptions, notify: Callable[[str], None]
 ) -> dict[str, Marked]:
     """Mark the submissions that need a build and a run, and report progress."""
     marked: dict[str, Marked] = {}
     begin = reported = time.monotonic()
-    for name, found in mark_all(waiting.items(), wish.order, workers=wish.workers):
+    for name, found in mark_all(waiting.items(), options.order, workers=options.workers):
         marked[name] = found
         now = time.monotonic()
         if now - reported >= PROGRESS_EVERY:

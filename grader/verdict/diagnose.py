@@ -11,11 +11,10 @@ from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import compared, meant
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE, RANK
-from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_traceback import recognise
-from grader.mistakes.kind import Finding
-from grader.mistakes.raised import Raised
-from grader.mistakes.suspect import Suspect
+from grader.mistakes.kind import RecognisedMistake
+from grader.mistakes.symptoms import Raised, Suspect
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import traceback_of
 from grader.verdict.checks.parsed import node_path
@@ -80,7 +79,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
     return diagnosis
 
 
-def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> Finding | None:
+def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedMistake | None:
     if symptom in RAISES:
         error, where = traceback_of(evidence, evidence.run)
         if error:
@@ -95,18 +94,18 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> Finding | N
         diagnosis.where = Where(file=within.path, line=within.source.super_init.lineno)
     if symptom == "run.wrong_period" and within.source.timers:
         diagnosis.where = Where(file=within.path, line=within.source.timers[0].line)
-    look = LOOKS.get(symptom)
+    look = BY_SYMPTOM.get(symptom)
     return look(suspect) if look is not None else None
 
 
-def _raised(error: str, where: Where | None, evidence: Evidence) -> Finding | None:
+def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
     within = file_at(evidence, where.file if where else node_path(evidence))
     if within is None:
         return None
     return recognise(Raised(error, within.path, where, within.source, evidence.assignment))
 
 
-def _not_installed(error: str, evidence: Evidence) -> Finding | None:
+def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
     """Return why the node's own module was not installed; None if another one is missing."""
     package = evidence.assignment.package
     module = rf"{re.escape(package)}(?:\.{re.escape(evidence.assignment.node_file[:-3])})?"
@@ -114,11 +113,13 @@ def _not_installed(error: str, evidence: Evidence) -> Finding | None:
         return None
     init = f"{package}/__init__.py"
     if evidence.submission.file(init) is None:
-        return Finding(kind="source.no_init_file", words={"path": init}, where=Where(file=init))
-    return Finding(kind="setup.not_packaged", where=Where(file="setup.py"))
+        return RecognisedMistake(
+            kind="source.no_init_file", words={"path": init}, where=Where(file=init)
+        )
+    return RecognisedMistake(kind="setup.not_packaged", where=Where(file="setup.py"))
 
 
-def _text(diagnosis: Diagnosis, suspect: Suspect) -> Finding | None:
+def _text(diagnosis: Diagnosis, suspect: Suspect) -> RecognisedMistake | None:
     """Return the mistake in the number of a wrong text; None if the rest of the text differs."""
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     line = diagnosis.where.line if diagnosis.where else None
@@ -131,7 +132,7 @@ def _text(diagnosis: Diagnosis, suspect: Suspect) -> Finding | None:
     return suspect.finding("number_format", line) if re.fullmatch(number, text) else None
 
 
-def _explain(diagnosis: Diagnosis, found: Finding) -> None:
+def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:
     """Use the texts of the root cause's catalogue entry."""
     kind = CATALOGUE[found.kind]
     values = {**found.params, **found.words}

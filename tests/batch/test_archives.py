@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
+from grader.base.i18n.message import Message
 from grader.package.intake.model import Submission
 from grader.package.submission import take_in
 from grader.verdict.checks.source import exec_bit
@@ -352,6 +353,12 @@ def test_what_cannot_be_opened_is_the_students_mistake_with_a_fix(
     assert found.problem_fix
     assert len(found.sha256) == 64
     assert found.name == "a"
+
+
+def test_why_an_archive_is_damaged_can_be_translated(tmp_path: Path) -> None:
+    found = hand_in(tmp_path, tarred(package(), "w:xz")[:-20], "a.txz")
+    assert isinstance(found.problem, Message)
+    assert "<it ends in the middle>" in found.problem.translated(lambda text: f"<{text}>")
 
 
 def test_two_different_broken_archives_have_different_hashes(tmp_path: Path) -> None:

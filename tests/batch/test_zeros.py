@@ -87,7 +87,7 @@ def test_every_member_of_a_group_gets_its_verdict_in_every_output(
         text = (run.out / "feedback" / f"{person.number}.md").read_text(encoding="utf-8")
         assert person.name in text
         assert f"{score[person.group]} of 100 points" in text
-    assert "The same once white space" not in run.said, "a group is no copy of itself"
+    assert "Identical except for white space" not in run.said, "a group is no copy of itself"
     # a member who joins later is given the group's verdict, without another marking
     late = replace(class_[0], number=1020, name="Zoë Roe", id_number="1", email="zoe@x.y")
     sheet.write_bytes(worksheet([*class_, late]))
@@ -98,7 +98,7 @@ def test_every_member_of_a_group_gets_its_verdict_in_every_output(
         path, run.out, *("--worksheet", sheet, "--assignment", zero), "--regrade-student", "Zoë Roe"
     )
     assert regraded.marked == 1
-    assert "Marked again: 4, of which 4 as before." in regraded.said
+    assert "Marked again: 4, 4 of them with the same result." in regraded.said
 
 
 # a part of the class, or of the list

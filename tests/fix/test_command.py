@@ -113,7 +113,7 @@ def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
     for words, said in (
         ([archive], "Unpack"),
         ([inside], "Unpack"),
-        ([tmp_path / "nowhere"], "no folder"),
+        ([tmp_path / "nowhere"], "no file or folder"),
         ([root, "--check", "package.marke"], "did you mean 'package.marker'?"),
         ([root, "--assignment", "hello_tme"], "hello_time"),
         ([root, "--distro", "jazzy,kilted"], "one distro"),

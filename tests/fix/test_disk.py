@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import UsageError
+from grader.package.edit import disk
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.validate.tree import Chmod, Delete, Move, Replace
@@ -146,6 +147,61 @@ def test_a_failure_half_way_brings_everything_back(
     with pytest.raises(raised):
         apply(plan.old, plan.new, root)
     assert tree(root) == before
+
+
+def test_an_error_names_the_files_that_could_not_be_restored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = edited(tmp_path, NAME, ENTRY)
+    plan = plan_of(root)
+    before = tree(root)
+    rename = os.rename
+
+    def full(old: str, new: str, **folders: int) -> None:
+        if new == SETUP or old.endswith(".~1~"):
+            raise OSError(28, "No space left on device")
+        rename(old, new, **folders)
+
+    monkeypatch.setattr(os, "rename", full)
+    with pytest.raises(UsageError) as caught:
+        apply(plan.old, plan.new, root)
+    assert "Nothing was written" not in str(caught.value)
+    assert f"could not be restored, check them: {MANIFEST}." in caught.value.remedy
+    assert (root / f"{MANIFEST}.~1~").read_bytes() == before[MANIFEST][0]
+
+
+def test_a_mode_that_cannot_be_set_brings_the_old_bytes_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = edited(tmp_path)
+    old = Files.of(taken(root))
+    new = old.with_data(NODE, b"#!/usr/bin/env python3\n").with_mode(NODE, 0o700)
+    before = tree(root)
+
+    fchmod = os.fchmod
+
+    def refuse(handle: int, mode: int) -> None:
+        if mode == 0o700:
+            raise OSError(1, "Operation not permitted")
+        fchmod(handle, mode)
+
+    monkeypatch.setattr(os, "fchmod", refuse)
+    with pytest.raises(UsageError, match="Nothing was written"):
+        apply(old, new, root)
+    assert tree(root) == before
+
+
+def test_the_last_backup_is_the_one_that_the_limit_allows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(disk, "MOST_BACKUPS", 2)
+    root = edited(tmp_path, NAME)
+    plan = plan_of(root)
+    (root / f"{MANIFEST}.~1~").write_text("an older one")
+    assert apply(plan.old, plan.new, root) == [f"{MANIFEST}.~2~"]
+    (root / MANIFEST).write_bytes(plan.old.data(MANIFEST) or b"")
+    with pytest.raises(UsageError, match="there are 2 backups of it already"):
+        apply(plan.old, plan.new, root)
 
 
 def test_a_plan_with_a_path_out_of_the_package_is_refused(tmp_path: Path) -> None:

@@ -14,10 +14,9 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.fixes.syntax import fault_of
 from grader.mistakes.fixes.table import BY_MISTAKE
-from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_traceback import recognise
-from grader.mistakes.raised import Raised
-from grader.mistakes.suspect import Suspect
+from grader.mistakes.symptoms import Raised, Suspect
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile, Submission
@@ -117,7 +116,7 @@ def diagnosis(found: bytes) -> None:
     source = read_node(found)
     if source is not None:
         suspect = Suspect(source, NODE, ASSIGNMENT)
-        for look in LOOKS.values():
+        for look in BY_SYMPTOM.values():
             told = look(suspect)
             assert told is None or told.kind in CATALOGUE
 

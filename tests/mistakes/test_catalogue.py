@@ -11,10 +11,10 @@ import pytest
 
 from grader.base.i18n.translator import Translator
 from grader.mistakes.catalogue import CATALOGUE, RANK
-from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_source import BY_SYMPTOM
+from grader.mistakes.from_terminal import filled
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
-from grader.mistakes.recognise import filled
 from grader.ros.distro import distros
 from tests.corpus.broken import BROKEN
 from tests.corpus.hostile import HOSTILE
@@ -102,7 +102,7 @@ def test_an_entry_leads_to_the_documentation(kind: Kind) -> None:
 
 
 def test_a_cause_comes_before_what_it_causes() -> None:
-    for symptom in LOOKS:
+    for symptom in BY_SYMPTOM:
         for name, rank in RANK.items():
             if name.startswith(("node.", "setup.", "source.", "package.")):
                 assert rank < RANK[symptom]

@@ -11,8 +11,8 @@ import pytest
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.mistakes.from_source import LOOKS
-from grader.mistakes.wanted import words_of
+from grader.mistakes.from_source import BY_SYMPTOM
+from grader.mistakes.placeholders import placeholder_values
 from grader.package.source.node import MOST_BYTES
 from grader.package.submission import Submission
 from grader.report.model import CheckResult, Where
@@ -61,7 +61,7 @@ def failed(mistake: str) -> Failed:
         actual="no line",
         where=Where(file=NODE),
         params={"text": "Hello time: {self.counter_}"} if mistake == "run.wrong_text" else {},
-        words={**words_of(ASSIGNMENT), "wanted": ASSIGNMENT.node_name},
+        words={**placeholder_values(ASSIGNMENT), "wanted": ASSIGNMENT.node_name},
     )
 
 
@@ -162,7 +162,7 @@ def test_a_check_of_another_stage_is_left_as_it_is(bench: Bench) -> None:
     assert told == Diagnosis.of(seen)
 
 
-@pytest.mark.parametrize("mistake", [*LOOKS, "run.wrong_text", "run.died_at_start"])
+@pytest.mark.parametrize("mistake", [*BY_SYMPTOM, "run.wrong_text", "run.died_at_start"])
 def test_a_diagnosis_adds_next_to_nothing_to_a_verdict(bench: Bench, mistake: str) -> None:
     usual = RIGHT + "\n\ndef helper(x):\n    return x + 1\n" * 40
     error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"

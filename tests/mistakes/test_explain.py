@@ -29,9 +29,9 @@ def test_an_entry_says_why_and_what_to_do_and_where_to_read_on() -> None:
     done = explain("setup.missing_comma")
     assert done.returncode == 0
     for said in (
-        "no comma between them",
-        "Python joins two texts",
-        "Put a comma after",
+        "the comma between them is missing",
+        "Python joins two adjacent strings",
+        "Add a comma after",
         "https://",
     ):
         assert said in done.stdout
@@ -61,7 +61,7 @@ def test_what_a_terminal_shows_is_explained_root_first() -> None:
 def test_a_text_without_a_known_mistake_is_said_to_have_none() -> None:
     done = explain("-", text="Hello time: 0\n")
     assert done.returncode == 1
-    assert "No mistake" in done.stdout
+    assert "no mistake" in done.stdout
 
 
 def test_control_characters_of_the_text_do_not_reach_the_terminal() -> None:

@@ -9,11 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.from_source import LOOKS
+from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_traceback import RECOGNISERS, recognise
-from grader.mistakes.kind import Finding
-from grader.mistakes.raised import Raised
-from grader.mistakes.suspect import Suspect
+from grader.mistakes.kind import RecognisedMistake
+from grader.mistakes.symptoms import Raised, Suspect
 from grader.package.source.node import MOST_BYTES, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
@@ -50,13 +49,13 @@ OTHERWISE = textwrap.dedent(
 )
 
 
-def look(symptom: str, text: str) -> Finding | None:
+def look(symptom: str, text: str) -> RecognisedMistake | None:
     source = read_node(text.encode())
     assert source is not None
-    return LOOKS[symptom](Suspect(source, FILE, ASSIGNMENT))
+    return BY_SYMPTOM[symptom](Suspect(source, FILE, ASSIGNMENT))
 
 
-def raised(error: str, text: str, line: int | None) -> Finding | None:
+def raised(error: str, text: str, line: int | None) -> RecognisedMistake | None:
     source = read_node(text.encode())
     assert source is not None
     where = Where(file=FILE, line=line) if line else None
@@ -224,7 +223,7 @@ def test_whatever_the_source_nothing_breaks(data: st.DataObject) -> None:
     source = read_node("\n".join(kept).encode())
     if source is None:
         return
-    for find in LOOKS.values():
+    for find in BY_SYMPTOM.values():
         found = find(Suspect(source, FILE, ASSIGNMENT))
         assert found is None or found.kind in CATALOGUE
     errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]

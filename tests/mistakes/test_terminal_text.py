@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.recognise import seen_in
+from grader.mistakes.from_terminal import seen_in
 
 TRACE = 'Traceback (most recent call last):\n  File "/ws/install/x/lib/x/test_node", line 33\n'
 SHOWN = {

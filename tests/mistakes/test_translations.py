@@ -24,11 +24,6 @@ OTHERS = [lang for lang in LANGUAGES if lang != "en"]
 CODE = (
     "'{entry}': {because}",
     "[develop] script_dir={wanted} and [install] install_scripts={wanted}",
-    "chmod +x {path}",
-    "source install/local_setup.bash",
-    "source /opt/ros/{distro}/setup.bash",
-    "colcon build --symlink-install",
-    "ros2 pkg create --build-type ament_python <package>",
     "What {title}:",
 )
 

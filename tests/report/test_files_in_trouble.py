@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import SurroundingsError
+from grader.base.i18n.message import Message
 from grader.report.files import report_json, write_matrix, write_report
 from grader.report.model import Report
 from tests.report.samples import of, report
@@ -135,6 +136,8 @@ def test_a_folder_that_cannot_be_written_to_is_told_with_a_remedy(
             write_report(report(), out, "anna")
         assert "--out" in told.value.remedy
         assert told.value.exit_status == 3
+        assert isinstance(told.value.message, Message)
+        assert isinstance(told.value.remedy, Message)
 
 
 def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:

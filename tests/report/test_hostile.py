@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given, settings, strategies
 from rich.cells import cell_len
 
-from grader.base.plain_text import first_lines, one_line, visible
+from grader.base.i18n.message import Message
+from grader.base.plain_text import first_lines, last_lines, one_line, visible
 from grader.report.model import Report
 from grader.report.terminal import render_matrix, render_report
 from tests.report.samples import check, report
@@ -156,6 +157,16 @@ def test_a_megabyte_is_cut_and_takes_no_time() -> None:
         assert time.process_time() - begin < 5
         assert len(page) < 200_000
         assert "left out" in page
+
+
+def test_what_is_left_out_is_said_in_the_readers_language() -> None:
+    def translate(text: str) -> str:
+        return text.translated(lambda words: f"<{words}>") if isinstance(text, Message) else text
+
+    lines = first_lines("x\n" * 20, lines=4, translate=translate)
+    assert lines[2] == "<[... 16 lines left out ...]>"
+    (line,), _ = last_lines("x" * 100, lines=4, most=10, translate=translate)
+    assert line == "xxxxx<[... 90 characters left out ...]>xxxxx"
 
 
 def test_of_a_long_text_beginning_and_end_are_kept() -> None:

@@ -13,56 +13,60 @@ from tests.site.classes import entry
 AT = datetime(2026, 11, 20, 22, 30, tzinfo=timezone.utc)
 
 
-def reckoning(**fields: object) -> str:
-    return "\n".join(student_view(entry(1, failing_report(), **fields), show_hidden=True).reckoning)
+def calculation(**fields: object) -> str:
+    return "\n".join(
+        student_view(entry(1, failing_report(), **fields), show_hidden=True).calculation
+    )
 
 
 def test_points_that_nobody_touched_are_said_to_be_the_checks() -> None:
-    assert reckoning() == "These are the points that the checks gave."
+    assert calculation() == "These are the points that the checks gave."
 
 
 def test_a_late_penalty_is_explained() -> None:
-    said = reckoning(penalty=5.0, late_seconds=7_800.0, final=55.0)
+    said = calculation(penalty=5.0, late_seconds=7_800.0, final=55.0)
     assert "Late by 2 h 10 min: 5 points taken." in said
     assert "55 of 100 go into the gradebook." in said
 
 
 def test_late_without_a_penalty_says_so() -> None:
-    assert "no points taken" in reckoning(late_seconds=60.0)
+    assert "no points taken" in calculation(late_seconds=60.0)
 
 
 def test_a_correction_names_its_reason_its_author_and_what_it_was_before() -> None:
     override = Override("1001", "run.output", 10, "shown in the laboratory", by="M. C.", at=AT)
-    said = reckoning(overrides=(override,), score=70.0, final=70.0)
+    said = calculation(overrides=(override,), score=70.0, final=70.0)
     assert "run.output gives 10 instead of 0, because: shown in the laboratory" in said
     assert "M. C., 2026-11-20 22:30 UTC" in said
     assert "The score is then 70." in said
 
 
 def test_a_correction_of_the_total_is_called_so() -> None:
-    said = reckoning(overrides=(Override("1001", "", 80, "an oral exam"),), score=80.0, final=80.0)
+    said = calculation(
+        overrides=(Override("1001", "", 80, "an oral exam"),), score=80.0, final=80.0
+    )
     assert "the total gives 80, because: an oral exam" in said
 
 
 def test_the_attempt_that_counts_is_named() -> None:
-    assert "Attempt 2 of 3 is the one that counts." in reckoning(attempt=2, attempts=3)
+    assert "Attempt 2 of 3 is the one that counts." in calculation(attempt=2, attempts=3)
 
 
 def test_points_that_wait_for_the_instructor_are_said_to_wait() -> None:
-    assert "Nothing goes into the gradebook yet." in reckoning(final=None)
+    assert "Nothing goes into the gradebook yet." in calculation(final=None)
 
 
 def test_open_points_are_told_with_the_total() -> None:
     doubtful = report(check("run.period", "inconclusive"))
-    said = student_view(entry(1, doubtful), show_hidden=True).reckoning
+    said = student_view(entry(1, doubtful), show_hidden=True).calculation
     assert "4 points could be neither given nor taken." in said
 
 
 def test_a_fault_of_the_grader_is_not_told_as_the_students() -> None:
     fault = report(status="error", checks=[], score=0, message="no sandbox")
     view = student_view(entry(1, fault, status="ungradable", final=None), show_hidden=True)
-    assert "the fault is in the grader" in view.reckoning[0]
-    assert view.reckoning[1:] == ("Nothing goes into the gradebook yet.",)
+    assert "the fault is in the grader" in view.calculation[0]
+    assert view.calculation[1:] == ("Nothing goes into the gradebook yet.",)
 
 
 def test_a_skipped_check_names_its_cause() -> None:
@@ -88,8 +92,8 @@ def test_no_word_of_a_hidden_check_is_shown_where_it_is_to_stay_hidden() -> None
     override = Override("1001", "run.output", 10, "the secret reason")
     view = student_view(entry(1, report(secret, skipped), overrides=(override,)), show_hidden=False)
     assert view.hidden == 1
-    assert "secret" not in repr(view.checks) + repr(view.reckoning)
-    assert "run.output" not in repr(view.reckoning)
+    assert "secret" not in repr(view.checks) + repr(view.calculation)
+    assert "run.output" not in repr(view.calculation)
     (logger,) = [v for v in view.checks if v.check.id == "run.logger"]
     assert logger.because == ("a hidden check",)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
-from grader.validate.named import Written, read_mutants
+from grader.validate.named import MutantsFile, read_mutants
 from grader.validate.tree import Chmod, Copy, Delete, Move, Replace, Write
 
 CHECKS = ("package.found", "source.exec_bit")
@@ -24,7 +24,7 @@ mutants:
 """
 
 
-def read(folder: Path, text: str) -> Written:
+def read(folder: Path, text: str) -> MutantsFile:
     path = folder / "mutants.yaml"
     path.write_text(text)
     return read_mutants(path, checks=CHECKS, mistakes=MISTAKES)

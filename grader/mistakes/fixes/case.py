@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from grader.course.assignment import Assignment
 from grader.package.edit.files import Files
+from grader.package.edit.text import SourceText, read_source
+from grader.package.source.python import PythonFault, parse_python
 from grader.report.model import CheckResult
 
 Param = str | int | float
@@ -51,6 +54,17 @@ class Case:
     def entry(self) -> str:
         """The entry of console_scripts that the assignment requires."""
         return f"{self.assignment.executable} = {self.assignment.target}"
+
+    def parsed(self, path: str) -> tuple[SourceText, ast.Module] | None:
+        """Return a Python file as text and syntax tree; None if Python cannot parse it."""
+        found = self.files.data(path)
+        source = read_source(found)
+        if found is None or source is None:
+            return None
+        try:
+            return source, parse_python(found).tree
+        except PythonFault:
+            return None
 
     def with_data(self, path: str, data: bytes | None) -> Files | None:
         """Return the files with one replaced; None if `data` is None or equal to the old bytes."""

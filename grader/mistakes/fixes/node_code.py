@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import SourceText, Splice, read_source
-from grader.package.source.python import PythonFault, parse_python
+from grader.package.edit.text import SourceText, Splice
+from grader.package.source.python import can_parse
 
 LEVELS = ("debug", "info", "warn", "warning", "error", "fatal")
 
@@ -26,11 +26,7 @@ class NodeCode:
     def changed(self, *splices: Splice) -> Files | None:
         """Return the files after changes to this one; None if Python cannot parse the result."""
         new = self.source.spliced(splices) if splices else None
-        if new is None:
-            return None
-        try:
-            parse_python(new)
-        except PythonFault:
+        if new is None or not can_parse(new):
             return None
         return self.case.with_data(self.case.node_path, new)
 
@@ -69,12 +65,6 @@ class NodeCode:
         """The one call of the node's logger, if it has exactly one argument."""
         found = [c for c in self.calls(*LEVELS) if "get_logger" in ast.unparse(c.func)]
         return found[0] if len(found) == 1 and len(found[0].args) == 1 else None
-
-    @property
-    def quote(self) -> str:
-        """The quotes that the file uses for most of its strings."""
-        text = self.source.text.replace('"""', "").replace("'''", "")
-        return '"' if text.count('"') > text.count("'") else "'"
 
     def counters(self) -> dict[str, ast.Constant]:
         """Return the attributes of self that __init__ sets to an integer literal."""
@@ -122,21 +112,9 @@ def own(node: ast.expr | None) -> str:
 
 def read_node(case: Case) -> NodeCode | None:
     """Return the node's file; None if it cannot be parsed or does not have exactly one class."""
-    found = case.files.data(case.node_path)
-    source = read_source(found)
-    if found is None or source is None:
+    parsed = case.parsed(case.node_path)
+    if parsed is None:
         return None
-    try:
-        tree = parse_python(found).tree
-    except PythonFault:
-        return None
+    source, tree = parsed
     classes = [s for s in tree.body if isinstance(s, ast.ClassDef)]
     return NodeCode(case, source, tree, classes[0]) if len(classes) == 1 else None
-
-
-def plain_text(code: NodeCode, node: ast.expr | None) -> str | None:
-    """Return the value of a string literal without prefix or escapes, else None."""
-    if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
-        return None
-    text = node.value
-    return text if code.source.code(node) in (f"'{text}'", f'"{text}"') else None

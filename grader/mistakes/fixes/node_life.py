@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode, own, plain_text, read_node
+from grader.mistakes.fixes.node_code import NodeCode, own, read_node
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 
@@ -79,7 +79,7 @@ def name(case: Case) -> Files | None:
     init = code.method("__init__") if code else None
     if code is None or init is None:
         return None
-    wanted = f"{code.quote}{case.assignment.node_name}{code.quote}"
+    wanted = f"{code.source.quote}{case.assignment.node_name}{code.source.quote}"
     calls = code.calls("__init__")
     if not calls:
         return _call_added(code, init, f"super().__init__({wanted})")
@@ -92,7 +92,7 @@ def name(case: Case) -> Files | None:
     given = call.args[0] if call.args else None
     for keyword in call.keywords:
         given = keyword.value if keyword.arg == "node_name" and given is None else given
-    old = plain_text(code, given)
+    old = code.source.plain_string(given)
     if given is None or old is None or old == case.assignment.node_name:
         return None
     q = code.source.code(given)[0]

@@ -7,7 +7,7 @@ import difflib
 import re
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode, called, own, plain_text, read_node
+from grader.mistakes.fixes.node_code import NodeCode, called, own, read_node
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 
@@ -22,7 +22,7 @@ def f_prefix(case: Case) -> Files | None:
     call = code.log_call if code else None
     if code is None or call is None:
         return None
-    logged = plain_text(code, call.args[0]) or ""
+    logged = code.source.plain_string(call.args[0]) or ""
     names = PLACE.findall(logged)
     if not names or logged.count("{") != len(names) or not set(names) <= set(code.counters()):
         return None
@@ -40,9 +40,9 @@ def text(case: Case) -> Files | None:
     logged = call.args[0]
     if isinstance(logged, ast.BinOp) and isinstance(logged.op, ast.Add):
         start, end = code.source.span(logged.left)[1], code.source.span(logged)[1]
-        if isinstance(logged.left, ast.BinOp) and plain_text(code, logged.right):
+        if isinstance(logged.left, ast.BinOp) and code.source.plain_string(logged.right):
             return code.changed(Splice(start, end, ""))
-        literal = plain_text(code, logged.left)
+        literal = code.source.plain_string(logged.left)
         if literal is None or not _near(literal, before):
             return None
         if isinstance(logged.right, ast.Constant | ast.BinOp):
@@ -113,7 +113,7 @@ def number_as_text(case: Case) -> Files | None:
     logged = call.args[0] if call else None
     if code is None or not isinstance(logged, ast.BinOp) or not isinstance(logged.op, ast.Add):
         return None
-    if own(logged.right) not in code.counters() or plain_text(code, logged.left) is None:
+    if own(logged.right) not in code.counters() or code.source.plain_string(logged.left) is None:
         return None
     return code.changed(code.source.swap(logged.right, f"str({code.source.code(logged.right)})"))
 
@@ -126,7 +126,7 @@ def comma(case: Case) -> Files | None:
         return None
     first, second = calls[0].args
     to_text = isinstance(second, ast.Call) and called(second) == "str"
-    if plain_text(code, first) is None or not to_text:
+    if code.source.plain_string(first) is None or not to_text:
         return None
     start, end = code.source.span(first)[1], code.source.span(second)[0]
     if code.source.text[start:end].strip() != ",":
@@ -141,7 +141,7 @@ def number(case: Case) -> Files | None:
     before, _, after = case.assignment.output.text.partition("{n}")
     if code is None or call is None or after or len(code.counters()) != 1:
         return None
-    if (plain_text(code, call.args[0]) or "").rstrip() != before.rstrip():
+    if (code.source.plain_string(call.args[0]) or "").rstrip() != before.rstrip():
         return None
     q = code.source.code(call.args[0])[0]
     counter = next(iter(code.counters()))

@@ -6,8 +6,7 @@ import ast
 from dataclasses import dataclass
 
 from grader.mistakes.fixes.case import Case
-from grader.package.edit.text import SourceText, Splice, indent_of, read_source
-from grader.package.source.python import PythonFault, parse_python
+from grader.package.edit.text import SourceText, Splice, indent_of
 from grader.package.source.setup_py import is_setup_call
 
 FILE = "setup.py"
@@ -34,8 +33,8 @@ class SetupCall:
         """Return the string literal of an expression: in place, or assigned once to a name."""
         if isinstance(node, ast.Name):
             node = self.constant(node.id)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            return node if self.is_plain(node) else None
+        if isinstance(node, ast.Constant) and self.source.plain_string(node) is not None:
+            return node
         return None
 
     def constant(self, name: str) -> ast.expr | None:
@@ -50,20 +49,10 @@ class SetupCall:
                 return statement.value
         return None
 
-    def is_plain(self, node: ast.Constant) -> bool:
-        """Whether a string is a single literal without prefix or escapes."""
-        code = self.source.code(node)
-        return isinstance(node.value, str) and code in (f"'{node.value}'", f'"{node.value}"')
-
     def text(self, old: ast.Constant, new: str) -> Splice:
         """Return the splice that changes a literal and keeps its quotes."""
         quote = self.source.code(old)[0]
         return self.source.swap(old, f"{quote}{new}{quote}")
-
-    @property
-    def quote(self) -> str:
-        """The quotes that the file uses for most of its strings."""
-        return '"' if self.source.text.count('"') > self.source.text.count("'") else "'"
 
     def into_list(self, node: ast.List | ast.Tuple, new: str) -> list[Splice]:
         """Return the splices that append an item to a list, on its own line if the others are."""
@@ -127,13 +116,9 @@ def _comma(text: str, start: int, end: int) -> int | None:
 
 def read_setup_call(case: Case) -> SetupCall | None:
     """Return the call in setup.py; None if there is not exactly one or Python cannot parse it."""
-    found = case.files.data(FILE)
-    source = read_source(found)
-    if found is None or source is None:
+    parsed = case.parsed(FILE)
+    if parsed is None:
         return None
-    try:
-        tree = parse_python(found).tree
-    except PythonFault:
-        return None
+    source, tree = parsed
     calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and is_setup_call(n)]
     return SetupCall(source, tree, calls[0]) if len(calls) == 1 else None

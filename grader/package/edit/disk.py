@@ -11,7 +11,7 @@ from __future__ import annotations
 import errno
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,6 +44,14 @@ class Change:
     after: SourceFile
 
 
+@dataclass
+class _Begun:
+    """A change that was begun, and the path of its backup once the file is replaced."""
+
+    change: Change
+    backup: str = ""
+
+
 def changes(old: Files, new: Files) -> list[Change]:
     """Return the files that differ."""
     found = []
@@ -59,32 +67,35 @@ def changes(old: Files, new: Files) -> list[Change]:
 def apply(old: Files, new: Files, root: Path) -> list[str]:
     """Write the new files to the package in the folder `root` and return the backups' paths in it.
 
-    Raises UsageError, with nothing written, if a file is read-only, is a link, or has changed
-    since it was read.
+    Raises UsageError if a file is read-only, is a link, or has changed since it was read: then
+    nothing is written. If a write fails, the old files are restored, or the error names those
+    that could not be.
     """
     todo = changes(old, new)
-    backups: list[str] = []
-    undo: list[tuple[Change, str]] = []
+    begun: list[_Begun] = []
     with _package(root) as top:
         for change in todo:
             _check(top, change)
         try:
             for change in todo:
-                undo.append((change, ""))
-                backup = _write(top, change)
-                undo[-1] = (change, backup)
-                backups += [backup] if backup else []
+                begun.append(_Begun(change))
+                _write(top, begun[-1])
         except OSError as error:
-            _undo(top, undo)
-            raise _refused(todo[len(undo) - 1].path, error.strerror or str(error)) from None
+            lost = _undo(top, begun)
+            reason = error.strerror or str(error)
+            raise _refused(begun[-1].change.path, reason, not_restored=lost) from None
         except BaseException:  # Ctrl+C leaves no partial change
-            _undo(top, undo)
+            _undo(top, begun)
             raise
-    return backups
+    return [one.backup for one in begun if one.backup]
 
 
-def _refused(path: str, reason: str) -> UsageError:
-    return UsageError(joined(shown(path), reason, by=": "), remedy=NOTHING_WRITTEN)
+def _refused(path: str, reason: str, *, not_restored: Sequence[str] = ()) -> UsageError:
+    remedy = NOTHING_WRITTEN
+    if not_restored:
+        paths = ", ".join(shown(path) for path in not_restored)
+        remedy = say("These files could not be restored, check them: {paths}.", paths=paths)
+    return UsageError(joined(shown(path), reason, by=": "), remedy=remedy)
 
 
 @contextmanager
@@ -107,7 +118,7 @@ def _folder_of(top: int, path: str, *, make: bool = False) -> Iterator[tuple[int
     try:
         for part in above:
             if part in ("", ".", ".."):
-                raise OSError(errno.EINVAL, "not a path in the package")
+                raise OSError(errno.EINVAL, say("it is not a path in the package"))
             if make:
                 with suppress(FileExistsError):
                     os.mkdir(part, dir_fd=at)
@@ -157,9 +168,9 @@ def _is_there(top: int, path: str) -> bool:
     return True
 
 
-def _write(top: int, change: Change) -> str:
-    """Make one change; return the path of the backup, empty if none was needed."""
-    backup = ""
+def _write(top: int, begun: _Begun) -> None:
+    """Make one change, and note the path of its backup if it needs one."""
+    change, backup = begun.change, ""
     if change.source is not None and change.source != change.path:
         _move(top, change.source, change.path)
     with _folder_of(top, change.path, make=True) as (folder, name):
@@ -176,10 +187,10 @@ def _write(top: int, change: Change) -> str:
                 for left in filter(None, (temporary, backup)):
                     os.unlink(left, dir_fd=folder)
                 raise
+            above = change.path.rpartition("/")[0]
+            begun.backup = f"{above}/{backup}".lstrip("/") if backup else ""
         if before is not None and before.mode != change.after.mode:
             _chmod(folder, name, change.after.mode)
-    above = change.path.rpartition("/")[0]
-    return f"{above}/{backup}".lstrip("/") if backup else ""
 
 
 def _chmod(folder: int, name: str, mode: int) -> None:
@@ -213,7 +224,7 @@ def _put(folder: int, name: str, found: bytes, like: os.stat_result | None) -> N
 
 def _backed_up(folder: int, name: str) -> str:
     """Keep a file under a second name: a hard link, or a copy if links are not supported."""
-    for number in range(1, MOST_BACKUPS):
+    for number in range(1, MOST_BACKUPS + 1):
         backup = f"{name}.~{number}~"
         try:
             os.link(name, backup, src_dir_fd=folder, dst_dir_fd=folder, follow_symlinks=False)
@@ -226,19 +237,36 @@ def _backed_up(folder: int, name: str) -> str:
             except FileExistsError:
                 continue
         return backup
-    raise OSError(errno.EEXIST, f"there are {MOST_BACKUPS} backups of it already")
+    raise OSError(errno.EEXIST, say("there are {count} backups of it already", count=MOST_BACKUPS))
 
 
-def _undo(top: int, done: list[tuple[Change, str]]) -> None:
-    """Restore the old files, the last change first."""
-    for change, backup in reversed(done):
-        with suppress(OSError), _folder_of(top, change.path) as (folder, name):
-            if backup:
-                os.rename(backup.rpartition("/")[2], name, src_dir_fd=folder, dst_dir_fd=folder)
-            elif change.before is None:
-                os.unlink(name, dir_fd=folder)
-            if change.before is not None:
-                _chmod(folder, name, change.before.mode)
+def _undo(top: int, begun: Sequence[_Begun]) -> list[str]:
+    """Restore the old files, the last change first; return the paths that could not be restored."""
+    lost = []
+    for one in reversed(begun):
+        change = one.change
+        try:
+            _restore(top, change, one.backup)
+        except FileNotFoundError:
+            if one.backup:  # without one, the change had not reached the file
+                lost.append(change.path)
+        except OSError:
+            lost.append(change.path)
         if change.source is not None and change.source != change.path:
-            with suppress(OSError):
+            try:
                 _move(top, change.path, change.source)
+            except FileNotFoundError:  # it had not been moved
+                pass
+            except OSError:
+                lost.append(change.path)
+    return list(dict.fromkeys(lost))
+
+
+def _restore(top: int, change: Change, backup: str) -> None:
+    with _folder_of(top, change.path) as (folder, name):
+        if backup:
+            os.rename(backup.rpartition("/")[2], name, src_dir_fd=folder, dst_dir_fd=folder)
+        elif change.before is None:
+            os.unlink(name, dir_fd=folder)
+        if change.before is not None:
+            _chmod(folder, name, change.before.mode)

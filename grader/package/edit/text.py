@@ -81,6 +81,19 @@ class SourceText:
         start, end = self.span(node)
         return self.text[start:end]
 
+    def plain_string(self, node: ast.expr | None) -> str | None:
+        """Return the value of a single string literal without prefix or escapes, else None."""
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+            return None
+        value = node.value
+        return value if self.code(node) in (f"'{value}'", f'"{value}"') else None
+
+    @property
+    def quote(self) -> str:
+        """The quotes that the file uses for most of its strings."""
+        text = self.text.replace('"""', "").replace("'''", "")
+        return '"' if text.count('"') > text.count("'") else "'"
+
     def swap(self, node: ast.expr | ast.stmt, new: str) -> Splice:
         """Return the splice that replaces a piece of syntax."""
         start, end = self.span(node)

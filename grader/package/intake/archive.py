@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from typing import IO, Literal
 
 from grader.base.errors import GraderError
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, say
 from grader.package.intake.archive_kind import HEAD, Kind, kind_of, without_ending
 from grader.package.intake.archive_limits import Spent
 from grader.package.intake.archive_member import Member, inside
@@ -75,7 +75,7 @@ class Archive:
         return self._modes.get(path) is not None
 
     def remarks(self) -> Iterable[tuple[str, str]]:
-        return (*self._remarks, *((CASE_ONLY, " and ".join(pair)) for pair in self._case_only()))
+        return (*self._remarks, *((CASE_ONLY, ", ".join(pair)) for pair in self._case_only()))
 
     # filling it
 
@@ -177,7 +177,8 @@ def parsing(what: str) -> Iterator[None]:
     except (ArchiveError, GraderError):
         raise
     except Exception as error:
-        raise ArchiveError(corrupt(what, str(error) or type(error).__name__)) from None
+        own = next((arg for arg in error.args if isinstance(arg, Message)), "")
+        raise ArchiveError(corrupt(what, own or str(error) or type(error).__name__)) from None
 
 
 def members_of(file: IO[bytes], kind: Kind, what: str, spent: Spent) -> Iterator[Member]:

@@ -46,9 +46,9 @@ class Spent:
         self._packed = self._members = self._unpacked = self._held = self._archives = 0
         self._until = time.thread_time() + limits.seconds
 
-    def archive(self, what: str, size: int, *, handed_in: bool) -> None:
-        """Count one more archive of `size` bytes; `handed_in` if it is not in another one."""
-        if handed_in:
+    def archive(self, what: str, size: int, *, outermost: bool) -> None:
+        """Count one more archive of `size` bytes; `outermost` if it is not in another one."""
+        if outermost:
             self._packed += size
         if size > self.limits.packed:
             raise ArchiveError(too_large(what, say("it has {size}", size=_in_mb(size))))

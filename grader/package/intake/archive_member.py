@@ -1,12 +1,13 @@
-"""A member of an archive, as its reader yields it, and where its name leads."""
+"""What the readers of tar and zip share: a member of an archive, and a file with limited reads."""
 
 from __future__ import annotations
 
+import io
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Literal
+from typing import IO, Literal
 
 DRIVE = re.compile(r"[A-Za-z]:[/\\]")
 CHUNK = 65_536
@@ -30,6 +31,29 @@ class Member:
     target: str = ""
     remark: str = ""
     chunks: Callable[[], Iterator[bytes]] = lambda: iter(())
+
+
+class LimitedFile(io.RawIOBase):
+    """A seekable file whose reads a subclass limits, because a hostile header asks for gigabytes."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self.file = file
+
+    def seekable(self) -> bool:
+        """Return True, as tarfile and zipfile require."""
+        return True
+
+    def readable(self) -> bool:
+        """Return True, as tarfile and zipfile require."""
+        return True
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        """Move to a position of the file; return it."""
+        return self.file.seek(offset, whence)
+
+    def tell(self) -> int:
+        """Return the position in the file."""
+        return self.file.tell()
 
 
 def inside(name: str) -> str | None:

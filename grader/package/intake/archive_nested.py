@@ -127,5 +127,5 @@ def _open(place: Place, path: str, kind: Kind, spent: Spent) -> Archive:
     with opened as file:
         size = file.seek(0, io.SEEK_END)
         file.seek(0)
-        spent.archive(path, size, handed_in=place.origin(path) == "directory")
+        spent.archive(path, size, outermost=place.origin(path) == "directory")
         return read_archive(file, kind, path, spent)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from grader.base.i18n.message import Message, say
+from grader.base.i18n.message import Message, msg, say
 from grader.base.shown import shown
 from grader.package.intake.problems import Problem
 
 ENCRYPTED = "package.archive_encrypted"
-AGAIN = say(
+AGAIN = msg(
     "Pack the package's folder again, with nothing else in it: cd ~/ros2_ws/src && "
     "tar -czf my_package.tar.gz my_package (with your package's name)."
 )
+NO_PASSWORD = msg("Pack it again without a password.")
 
 
 class ArchiveError(Exception):
@@ -39,7 +40,7 @@ def no_archive(what: str) -> Problem:
     return Problem(
         "package.archive_corrupt",
         say("{what} is named like an archive but is not one.", what=shown(what)),
-        say("Renaming a file does not make it an archive. {again}", again=AGAIN),
+        say("Renaming a file does not make it an archive. {again}", again=Message(AGAIN)),
     )
 
 
@@ -48,7 +49,7 @@ def encrypted(what: str) -> Problem:
     return Problem(
         ENCRYPTED,
         say("The archive {what} is locked with a password.", what=shown(what)),
-        say("Pack it again without a password."),
+        Message(NO_PASSWORD),
     )
 
 
@@ -57,7 +58,7 @@ def unsupported(what: str, kind: str) -> Problem:
     return Problem(
         "package.archive_unsupported",
         say("{what} is {kind}, which the grader cannot open.", what=shown(what), kind=kind),
-        say("Hand in a zip or a tar.gz. {again}", again=AGAIN),
+        say("Hand in a zip or a tar.gz. {again}", again=Message(AGAIN)),
     )
 
 
@@ -71,7 +72,10 @@ def unsafe(what: str, name: str) -> Problem:
             what=shown(what),
             name=shown(name),
         ),
-        say("Paths in an archive must be relative and contain no '..'. {again}", again=AGAIN),
+        say(
+            "Paths in an archive must be relative and contain no '..'. {again}",
+            again=Message(AGAIN),
+        ),
     )
 
 
@@ -86,7 +90,7 @@ def bomb(what: str, *, packed: str, unpacked: str) -> Problem:
             packed=packed,
             unpacked=unpacked,
         ),
-        say("Hand in only what you wrote. {again}", again=AGAIN),
+        say("Hand in only what you wrote. {again}", again=Message(AGAIN)),
     )
 
 
@@ -102,7 +106,7 @@ def too_large(what: str, reason: str) -> Problem:
         say(
             "Hand in only what you wrote: no recordings, data sets or virtual environments. "
             "{again}",
-            again=AGAIN,
+            again=Message(AGAIN),
         ),
     )
 
@@ -116,7 +120,7 @@ def too_deep(what: str, depth: int) -> Problem:
             what=shown(what),
             depth=depth,
         ),
-        say("Pack the package once. {again}", again=AGAIN),
+        say("Pack the package once. {again}", again=Message(AGAIN)),
     )
 
 
@@ -125,5 +129,5 @@ def empty(what: str) -> Problem:
     return Problem(
         "package.archive_empty",
         say("The archive {what} is empty.", what=shown(what)),
-        say("Check that the package is in it before you hand it in. {again}", again=AGAIN),
+        say("Check that the package is in it before you hand it in. {again}", again=Message(AGAIN)),
     )

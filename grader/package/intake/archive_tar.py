@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import bz2
 import gzip
-import io
 import lzma
 import tarfile
 import tempfile
@@ -16,38 +15,26 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.package.intake.archive_kind import HEAD, Packing, is_tar
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_member import CHUNK, Member
+from grader.package.intake.archive_member import CHUNK, LimitedFile, Member
 from grader.package.intake.archive_problems import ArchiveError, corrupt, unsupported
 
 IN_MEMORY = 8_000_000  # bytes; larger unpacked data goes to an unnamed file on disk
 XZ_MEMORY = 100_000_000  # bytes; xz -9 needs 65 MB
 
 
-class _Guarded(io.RawIOBase):
+class _HeaderLimit(LimitedFile):
     """A file of which only the allowed bytes can be read: a hostile header asks for gigabytes."""
 
     def __init__(self, file: IO[bytes], what: str) -> None:
-        self._file = file
+        super().__init__(file)
         self._what = what
         self.allowed = 0
-
-    def seekable(self) -> bool:
-        return True
-
-    def readable(self) -> bool:
-        return True
-
-    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
-        return self._file.seek(offset, whence)
-
-    def tell(self) -> int:
-        return self._file.tell()
 
     def read(self, size: int = -1) -> bytes:
         if not 0 <= size <= self.allowed:
             raise ArchiveError(corrupt(self._what, say("one of its headers is too long")))
         self.allowed -= size
-        return self._file.read(size)
+        return self.file.read(size)
 
 
 def read_tar(file: IO[bytes], packing: Packing, what: str, spent: Spent) -> Iterator[Member]:
@@ -75,8 +62,12 @@ def _write(unpacked: tempfile.SpooledTemporaryFile[bytes], chunk: bytes) -> None
         unpacked.write(chunk)
     except OSError as error:
         raise SurroundingsError(
-            f"there is no space to unpack an archive in {tempfile.gettempdir()}: {error.strerror}",
-            remedy="Free some space there, or set TMPDIR to another folder.",
+            say(
+                "there is no space to unpack an archive in {folder}: {reason}",
+                folder=tempfile.gettempdir(),
+                reason=error.strerror or str(error),
+            ),
+            remedy=say("Free some space there, or set TMPDIR to another folder."),
         ) from None
 
 
@@ -96,14 +87,14 @@ def _unpacked(file: IO[bytes], packing: Packing) -> Iterator[bytes]:
             if decoder.needs_input and not more:
                 more = file.read(CHUNK)
                 if not more:
-                    raise EOFError("it ends in the middle")
+                    raise EOFError(say("it ends in the middle"))
             yield decoder.decompress(more, max_length=CHUNK)
             more = b""
         more = (decoder.unused_data or file.read(CHUNK)).lstrip(b"\0")
 
 
 def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
-    guarded = _Guarded(file, what)
+    guarded = _HeaderLimit(file, what)
     guarded.allowed = spent.limits.header
     headers = spent.limits.headers
     with tarfile.open(
@@ -117,7 +108,7 @@ def _members(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
             if info is None:
                 break
             archive.members = []  # type: ignore[attr-defined] # it would keep them all
-            # a negative size makes tarfile read the same header for ever (CVE-2025-8194)
+            # a negative size makes tarfile read the same header forever (CVE-2025-8194)
             if info.offset <= before or info.size < 0 or archive.offset <= info.offset:
                 raise ArchiveError(corrupt(what, say("its headers form a loop")))
             before = info.offset
@@ -133,7 +124,7 @@ def _check_end(file: IO[bytes], offset: int, what: str) -> None:
         raise ArchiveError(corrupt(what, say("the data after its last readable file is invalid")))
 
 
-def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) -> Member:
+def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _HeaderLimit) -> Member:
     def chunks() -> Iterator[bytes]:
         guarded.allowed = info.size + CHUNK
         file = archive.extractfile(info)
@@ -142,7 +133,7 @@ def _member(archive: tarfile.TarFile, info: tarfile.TarInfo, guarded: _Guarded) 
             left -= len(chunk)
             yield chunk
         if left:
-            raise EOFError("it ends in the middle of a file")
+            raise EOFError(say("it ends in the middle of a file"))
 
     mode = info.mode & 0o7777
     if info.isdir():

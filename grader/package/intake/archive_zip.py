@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 import stat
 import zipfile
@@ -12,7 +11,7 @@ from typing import IO
 
 from grader.base.i18n.message import say
 from grader.package.intake.archive_limits import Spent
-from grader.package.intake.archive_member import CHUNK, Member
+from grader.package.intake.archive_member import CHUNK, LimitedFile, Member
 from grader.package.intake.archive_problems import ArchiveError, encrypted, too_large, unsupported
 
 UNIX = (3, 19)  # "version made by": Unix, and macOS (APPNOTE 4.4.2)
@@ -24,28 +23,16 @@ BACKSLASHES = say("a name with backslashes: read as folders, as on Windows")
 LONGEST_LINK = 4_096  # PATH_MAX
 
 
-class _Guarded(io.RawIOBase):
+class _ReadLimit(LimitedFile):
     """A file that refuses one large read, such as the directory of a hostile zip."""
 
     def __init__(self, file: IO[bytes], most: int, what: str) -> None:
-        self._file = file
+        super().__init__(file)
         self._most = most
         self._what = what
 
-    def seekable(self) -> bool:
-        return True
-
-    def readable(self) -> bool:
-        return True
-
-    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
-        return self._file.seek(offset, whence)
-
-    def tell(self) -> int:
-        return self._file.tell()
-
     def read(self, size: int = -1) -> bytes:
-        found = self._file.read(min(size, self._most + 1) if size >= 0 else self._most + 1)
+        found = self.file.read(min(size, self._most + 1) if size >= 0 else self._most + 1)
         if len(found) > self._most:
             raise ArchiveError(too_large(self._what, say("its table of contents is too long")))
         return found
@@ -56,7 +43,7 @@ def read_zip(file: IO[bytes], what: str, spent: Spent) -> Iterator[Member]:
 
     Any other exception of zipfile means that the archive is damaged.
     """
-    guarded = _Guarded(file, max(spent.limits.directory, 2 * CHUNK), what)
+    guarded = _ReadLimit(file, max(spent.limits.directory, 2 * CHUNK), what)
     with zipfile.ZipFile(guarded) as archive:
         members = archive.infolist()
         spent.foresee(what, sum(member.file_size for member in members))

@@ -18,6 +18,7 @@ MANIFEST, SETUP, IGNORE = "package.xml", "setup.py", "COLCON_IGNORE"
 MOST_CANDIDATES = 50
 MOST_NAMING_BYTES = 64_000
 """How much of a package.xml or setup.py is read to learn the package's name."""
+TOO_MANY = say("not examined, as there are more than {count} packages", count=MOST_CANDIDATES)
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ def find_candidates(tree: Tree) -> list[Candidate]:
     }
     ordered = sorted(folders, key=lambda folder: (len(ancestors(folder)), folder))
     if len(ordered) > MOST_CANDIDATES:
-        tree.left_out.add(f"more than {MOST_CANDIDATES} packages; not looked at", ordered[-1])
+        tree.left_out.add(TOO_MANY, ordered[-1])
     return [Candidate(f, _name(tree, f)) for f in ordered[:MOST_CANDIDATES]]
 
 

@@ -28,12 +28,16 @@ def resolved(path: Path) -> Path:
         if stat.S_ISDIR(kind) or stat.S_ISREG(kind):
             return path.resolve()
     except FileNotFoundError:
-        raise UsageError(say("there is no folder {name}", name=name)) from None
+        raise UsageError(say("there is no file or folder {name}", name=name)) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        unread = say("{name} cannot be read: {reason}", name=name, reason=str(reason))
-        raise UsageError(unread) from None
+        raise cannot_be_read(path, str(reason)) from None
     raise UsageError(say("{name} is neither a folder nor a file", name=name))
+
+
+def cannot_be_read(path: Path, reason: str) -> UsageError:
+    """Return the error for a path that cannot be read."""
+    return UsageError(say("{name} cannot be read: {reason}", name=shown(str(path)), reason=reason))
 
 
 def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
@@ -46,8 +50,7 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
         return Folder(path, modes_kept=modes_kept)
     opened = open_file(path)
     if isinstance(opened, Unread):
-        name = shown(str(path))
-        raise UsageError(say("{name} cannot be read: {reason}", name=name, reason=opened.reason))
+        raise cannot_be_read(path, opened.reason)
     with opened as file:
         kind = kind_of(file.read(HEAD))
         if kind is None and is_named_archive(path.name):
@@ -57,7 +60,7 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
                 say("{name} is neither a folder nor an archive", name=shown(str(path))),
                 remedy=say("Give the folder that contains the package, or a zip or tar of it."),
             )
-        spent.archive(path.name, os.fstat(file.fileno()).st_size, handed_in=True)
+        spent.archive(path.name, os.fstat(file.fileno()).st_size, outermost=True)
         file.seek(0)
         return read_archive(file, kind, path.name, spent)
 

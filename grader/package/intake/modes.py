@@ -44,19 +44,22 @@ def keeps_modes(path: Path, mounts: Path = MOUNTS) -> bool:
 def git_ignores_modes(
     repository: Path, read: Callable[[Path, int], bytes | Unread] = read_bytes
 ) -> bool:
-    """Whether `core.fileMode` is false in a checkout (git-config(1)); git itself is never run."""
+    """Whether `core.fileMode` is false in a checkout; git itself is never run.
+
+    If it is set more than once, the last value counts (git-config(1)).
+    """
     found = read(repository / ".git" / "config", MOST_CONFIG_BYTES)
     if isinstance(found, Unread):
         return False
-    inside = False
+    inside = ignored = False
     for line in found.decode("utf-8", "replace").splitlines():
         text = line.strip()
         if text.startswith("["):
             inside = text.lower().startswith("[core]")
         name, _, value = text.partition("=")
         if inside and name.strip().lower() == "filemode":
-            return value.partition("#")[0].strip().lower() in ("false", "no", "off", "0")
-    return False
+            ignored = value.partition("#")[0].strip().lower() in ("false", "no", "off", "0")
+    return ignored
 
 
 def git_modes(

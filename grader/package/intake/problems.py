@@ -5,12 +5,22 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, msg, say
 from grader.base.shown import shown
+from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.tree import MADE_BY_TOOLS, Tree
 
-ARCHIVE = re.compile(r".*\.(?:zip|tar|tgz|tar\.\w{2,3}|7z|rar)", re.IGNORECASE)
 NEAR_NAME = re.compile(r"package\.xml\.\w{1,10}|setup\.py\.\w{1,10}|package\.xml|setup\.py", re.I)
+ONLY_YOURS = msg("Hand in only what you wrote: no recordings, data sets or virtual environments.")
+NOT_THE_LINK = msg("Hand in the folder that the link leads to, not the link.")
+NOT_THE_BUILD = msg(
+    "Hand in the package from the workspace's src folder: build, install and log are generated "
+    "from it and do not replace it."
+)
+KEEP_ONE = msg(
+    "Keep one of them. Move a backup copy out of the workspace (or put an empty file COLCON_IGNORE "
+    "into it)."
+)
 CREATE = "ros2 pkg create --build-type ament_python {package}"
 
 
@@ -34,10 +44,7 @@ def duplicate(paths: list[str], package: str) -> Problem:
             package=package,
             places=places,
         ),
-        say(
-            "Keep one of them. Move a backup copy out of the workspace (or put an empty file "
-            "COLCON_IGNORE into it)."
-        ),
+        Message(KEEP_ONE),
     )
 
 
@@ -50,7 +57,7 @@ def too_large(reason: str, root: str) -> Problem:
             root=shown(root),
             reason=reason,
         ),
-        say("Hand in only what you wrote: no recordings, data sets or virtual environments."),
+        Message(ONLY_YOURS),
     )
 
 
@@ -70,7 +77,7 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
                 wanted=wanted,
             ),
         )
-    archives = [path for path, name in names.items() if ARCHIVE.fullmatch(name)]
+    archives = [path for path, name in names.items() if is_named_archive(name)]
     if archives and len(files) == len(archives):
         return Problem(
             "package.archive_inside",
@@ -90,7 +97,7 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
         return Problem(
             "package.link",
             say("There is no package, only a link to another place: {place}.", place=shown(place)),
-            say("Hand in the folder that the link leads to, not the link."),
+            Message(NOT_THE_LINK),
         )
     if not files:
         return _nothing(tree, create)
@@ -136,10 +143,7 @@ def _nothing(tree: Tree, create: str) -> Problem:
                 "There are only generated files ({folders}) and no source.",
                 folders=", ".join(made),
             ),
-            say(
-                "Hand in the package from the workspace's src folder: build, install and log are "
-                "generated from it and do not replace it."
-            ),
+            Message(NOT_THE_BUILD),
         )
     rest = tree.left_out.lines()
     return Problem(

@@ -7,8 +7,8 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 
 from grader.base.i18n.message import say
-from grader.base.shown import LeftOut
 from grader.package.intake.artefacts import COLCON, is_colcon_artefact, is_tool_file, is_tool_folder
+from grader.package.intake.left_out import LeftOut
 from grader.package.intake.links import follow
 from grader.package.intake.place import Entry, Place
 

@@ -65,6 +65,15 @@ def parse_python(found: bytes) -> PythonFile:
     return PythonFile(text, tree)
 
 
+def can_parse(found: bytes) -> bool:
+    """Return whether `parse_python` accepts a file's bytes."""
+    try:
+        parse_python(found)
+    except PythonFault:
+        return False
+    return True
+
+
 def _fault(error: SyntaxError, text: str) -> PythonFault:
     kind = "syntax"
     if isinstance(error, TabError):

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines
 from grader.batch.model import GradebookEntry, Override
 from grader.batch.words import instant
+from grader.publish.pages.calculation import calculation
 from grader.publish.pages.charts import Timeline, timeline
 from grader.publish.pages.overview import shown
-from grader.publish.pages.points_table import reckoning
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
@@ -20,7 +21,7 @@ from grader.report.report_page import ran_on
 FIELD_LINES, FIELD_CHARACTERS = 30, 1_000
 LOG_LINES, LOG_CHARACTERS = 2_000, 2_000  # a report has 40,000 characters of each
 KEY, FOLDER = say("Key"), say("Folder")
-LOGS = {"colcon build printed": "build-log", "ros2 run printed": "transcript"}
+ANCHORS = {"build_log": "build-log", "transcript": "transcript"}  # of the logs on the page
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class StudentView:
     entry: GradebookEntry
     checks: tuple[CheckView, ...]
     hidden: int
-    reckoning: tuple[str, ...]
+    calculation: tuple[str, ...]
     facts: tuple[tuple[str, str], ...]
     details: tuple[tuple[str, str], ...]
     timeline: Timeline | None
@@ -82,12 +83,12 @@ def student_view(entry: GradebookEntry, *, show_hidden: bool, lang: str = SOURCE
         entry=entry,
         checks=tuple(_check(check, entry, visible, translate) for check in checks),
         hidden=len(report.checks) - len(checks) if report else 0,
-        reckoning=tuple(translate(line) for line in reckoning(entry, visible)),
+        calculation=tuple(translate(line) for line in calculation(entry, visible)),
         facts=tuple((translate(name), translate(value)) for name, value in _facts(entry) if value),
         details=tuple((n, v) for n, v in _details(report) if v) if report else (),
         timeline=timeline(report.observed) if report else None,
-        transcript=_log(evidence.transcript) if evidence else "",
-        build_log=_log(evidence.build_log) if evidence else "",
+        transcript=_log(evidence.transcript, translate) if evidence else "",
+        build_log=_log(evidence.build_log, translate) if evidence else "",
     )
 
 
@@ -99,26 +100,25 @@ def _check(
     if check.status == "skipped":
         names = [o.id if o.id in visible else UNSEEN for o in roots(check, entry.report.checks)]
         because = [translate(name) for name in dict.fromkeys(names)]
-    _, title = evidence_of(check, entry.report.evidence)
-    log = next((place for start, place in LOGS.items() if title.startswith(start)), "")
+    found = evidence_of(check, entry.report.evidence)
+    log = ""
+    if found is not None and getattr(entry.report.evidence, found.log).strip():
+        log = ANCHORS[found.log]
     return CheckView(
         check=check,
         fields=tuple(
             Field(translate(f.label), translate(f.text), f.code)
-            for f in _fields(check)
+            for f in _fields(check, translate)
             if f.text.strip()
         ),
         because=tuple(because),
         override=next((o for o in entry.overrides if o.check == check.id), None),
-        log=log if log and _log_text(entry.report, log).strip() else "",
+        log=log,
     )
 
 
-def _log_text(report: Report, place: str) -> str:
-    return report.evidence.build_log if place == "build-log" else report.evidence.transcript
-
-
-def _fields(check: CheckResult) -> list[Field]:
+def _fields(check: CheckResult, translate: Translator) -> list[Field]:
+    cut = partial(_cut, translate=translate)
     where = ""
     if check.where is not None:
         where = check.where.file
@@ -129,14 +129,14 @@ def _fields(check: CheckResult) -> list[Field]:
         "error": say("No points given or taken: this is a fault of the grader. Please report it."),
     }
     return [
-        Field(say("Expected"), _cut(check.expected), code=True),
-        Field(say("Found"), _cut(check.actual), code=True),
+        Field(say("Expected"), cut(check.expected), code=True),
+        Field(say("Found"), cut(check.actual), code=True),
         Field(say("Where"), where, code=True),
-        Field(say("Why"), _cut(check.rationale)),
+        Field(say("Why"), cut(check.rationale)),
         Field(say("Points"), open_.get(check.status, "")),
-        Field(say("Fix"), _cut(check.fix)),
-        Field(say("Change"), _cut(check.patch), code=True),
-        *(Field(say("Also"), _cut(advice)) for advice in check.advice),
+        Field(say("Fix"), cut(check.fix)),
+        Field(say("Change"), cut(check.patch), code=True),
+        *(Field(say("Also"), cut(advice)) for advice in check.advice),
         Field(say("Mistake"), ", ".join(mistake.id for mistake in check.mistakes), code=True),
     ]
 
@@ -178,14 +178,14 @@ def _details(report: Report) -> list[tuple[str, str]]:
     return found
 
 
-def _cut(text: str) -> str:
-    return _lines(text, most_lines=FIELD_LINES, most=FIELD_CHARACTERS)
+def _cut(text: str, translate: Translator) -> str:
+    return _lines(text, translate, most_lines=FIELD_LINES, most=FIELD_CHARACTERS)
 
 
-def _log(text: str) -> str:
-    return _lines(text, most_lines=LOG_LINES, most=LOG_CHARACTERS)
+def _log(text: str, translate: Translator) -> str:
+    return _lines(text, translate, most_lines=LOG_LINES, most=LOG_CHARACTERS)
 
 
-def _lines(text: str, *, most_lines: int, most: int) -> str:
-    found: Sequence[str] = first_lines(text, lines=most_lines, most=most)
+def _lines(text: str, translate: Translator, *, most_lines: int, most: int) -> str:
+    found: Sequence[str] = first_lines(text, lines=most_lines, most=most, translate=translate)
     return "\n".join(found).rstrip()

@@ -105,7 +105,7 @@ def _remove_old(folder: Folder, kept: set[str]) -> None:
 
 
 @dataclass(frozen=True)
-class Row:
+class StudentRow:
     """A student's row; `find` holds texts that the search matches beside the visible ones."""
 
     entry: GradebookEntry
@@ -118,7 +118,7 @@ class Row:
 def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> bytes:
     entries = result.entries
     scores = overview.scores(result)
-    asked = {
+    groups = {
         "unsure": overview.unsure(result, show_hidden=show_hidden),
         "identical": _identical(result),
         **{
@@ -131,8 +131,8 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
         script=True,
         about=_about(result),
         cards=_cards(entries),
-        attention=any(asked.values()),
-        **asked,
+        attention=any(groups.values()),
+        **groups,
         scores=scores,
         histogram=histogram(scores.bins) if scores else None,
         checks=overview.checks(result, show_hidden=show_hidden),
@@ -180,13 +180,13 @@ def _identical(result: ClassResult) -> list[list[GradebookEntry]]:
     return [group for group in groups if len(group) > 1]
 
 
-def _row(entry: GradebookEntry, *, show_hidden: bool) -> Row:
+def _row(entry: GradebookEntry, *, show_hidden: bool) -> StudentRow:
     student = entry.student
     checks = overview.shown(entry, show_hidden=show_hidden)
     mistakes = [mistake.id for check in checks for mistake in check.mistakes]
     attempt = f"{entry.attempt} of {entry.attempts}" if entry.attempts > 1 else "1"
     unseen = (student.key, student.email, student.username, *mistakes)
-    return Row(
+    return StudentRow(
         entry=entry,
         number=_number(entry),
         attempt=attempt if entry.report else "",

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Value, say
-from grader.mistakes.wanted import words_of
+from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
 from grader.verdict.checks.build import limit_name, python_error
 from grader.verdict.node_files import file_with_node
@@ -46,7 +46,7 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
 def words(evidence: Evidence) -> dict[str, Value]:
     """Return the values of assignment and node source for the texts of a mistake."""
     within = file_with_node(evidence)
-    return words_of(evidence.assignment, within.source if within is not None else None)
+    return placeholder_values(evidence.assignment, within.source if within is not None else None)
 
 
 def flood(evidence: Evidence, expected: str) -> Failed:

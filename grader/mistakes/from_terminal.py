@@ -1,4 +1,4 @@
-"""Mistakes recognised in what a terminal showed."""
+"""Recognise mistakes in the output of a terminal."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from grader.base.i18n.message import Value
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 
-MOST = 200_000  # characters of a text that are looked at: its end tells the most
-MOST_OF_A_KIND = 20  # places at which one kind of mistake is looked for
-LONGEST = 2_000  # characters of a line that are looked at
+MOST = 200_000  # characters that are searched, at the end of the text: errors come last
+MOST_OF_A_KIND = 20  # matches of one kind of mistake that are examined
+LONGEST = 2_000  # characters of a line that are searched
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Seen:
 def seen_in(text: str) -> list[Seen]:
     """Return the mistakes that a text shows, root causes first.
 
-    Where several entries know the same words, the first of the catalogue has them.
+    If several entries match the same words, the first entry of the catalogue gets them.
     """
     text = "\n".join(line[:LONGEST] for line in text[-MOST:].splitlines())
     taken: list[tuple[int, int]] = []
@@ -53,6 +53,6 @@ def _line_around(text: str, start: int, end: int) -> str:
 
 
 def filled(template: str, params: Mapping[str, Value]) -> dict[str, Value]:
-    """Return a value for every placeholder of a template: what is not known is its name in <>."""
+    """Return a value for every placeholder of a template; an unknown value is its name in <>."""
     names = [name for _, name, _, _ in string.Formatter().parse(template) if name]
     return {name: params.get(name, f"<{name}>") for name in names}

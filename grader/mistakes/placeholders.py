@@ -1,6 +1,6 @@
-"""What the texts of the catalogue take from the assignment, and from the student's own source.
+"""The values of placeholders in the catalogue, from the assignment and the student's source.
 
-A text never names a part of one exercise: it has a placeholder, and this module fills it.
+A text never names a part of one exercise: it has a placeholder instead.
 """
 
 from __future__ import annotations
@@ -12,15 +12,17 @@ from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
 from grader.package.source.node import Function, NodeSource, dotted
 
-CALLBACK = "callback"  # names for what the student's source does not have yet
+CALLBACK = "callback"  # default names, if the student's source has none
 COUNTER = "self.counter"
 CLASS = "MyNode"
 
 
-def words_of(assignment: Assignment, source: NodeSource | None = None) -> dict[str, Value]:
-    """Return a value for each placeholder that the assignment, or the source, can fill.
+def placeholder_values(
+    assignment: Assignment, source: NodeSource | None = None
+) -> dict[str, Value]:
+    """Return the values that the assignment and the source give to placeholders.
 
-    `period` is in seconds, `callback` a bare name, `counter` with its `self.`; `sum` and
+    `period` is in seconds, `callback` is a bare name, `counter` begins with `self.`; `sum` and
     `f_string` are two ways to write the text of a line in Python.
     """
     output = assignment.output
@@ -64,11 +66,11 @@ def as_f_string(output: Output, counter: str) -> str:
 
 
 EXAMPLE = _example()
-"""Stands for some of the words where no assignment is at hand; the others show their names."""
+"""Values of some placeholders if there is no assignment; the others show their names."""
 
 
 def _callback_of(source: NodeSource | None) -> str:
-    """Return the callback's name, as the source has it or as a timer of it asks for it."""
+    """Return the name of the callback, or the name that a timer refers to."""
     if source is None:
         return CALLBACK
     named = [timer.method for timer in source.timers if timer.method]
@@ -82,13 +84,13 @@ def _counter_of(source: NodeSource | None) -> str:
 
 
 def logged_counter(source: NodeSource, callback: Function) -> tuple[int, str] | None:
-    """Return the line of the first log call and the attribute of self that it shows."""
+    """Return the line of the first log call, and the attribute of self in it."""
     for call in [*source.logs(callback), *source.prints(callback)]:
         for node in ast.walk(call):
             name = dotted(node) if isinstance(node, ast.Attribute) else ""
             if name.startswith("self.") and name.count(".") == 1 and "get_logger" not in name:
                 return call.lineno, name
-    # (the text is put together on a line before: what is counted up is the counter)
+    # (the text is built on a line before the call: the incremented attribute is the counter)
     for call in [*source.logs(callback), *source.prints(callback)]:
         for node in ast.walk(callback):
             name = dotted(node.target) if isinstance(node, ast.AugAssign) else ""

@@ -11,7 +11,7 @@ from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 
 
-def reckoning(entry: GradebookEntry, visible: set[str]) -> list[str]:
+def calculation(entry: GradebookEntry, visible: set[str]) -> list[str]:
     """Return how the final points were calculated, one step per line."""
     report = entry.report
     lines = _given(report) if report is not None else []
