@@ -37,6 +37,7 @@ def mark(
     sandbox: str = "bubblewrap",
     listener: Listener = unheard,
     lang: str = "en",
+    limits: Limits = LIMITS,
     recordings: list[Recording] | None = None,
 ) -> Report:
     """Build and run a package and return the report; its evidence is appended to `recordings`."""
@@ -45,7 +46,7 @@ def mark(
         assignment=assignment,
         distro=find_distro(distro),
         sandbox=sandbox,
-        limits=LIMITS,
+        limits=limits,
         lang=lang,
     )
     keep = None if recordings is None else recordings.append
