@@ -97,7 +97,9 @@ def test_an_assignment_may_ask_for_the_output_alone(
     assert "3 / 3" in done.stdout
 
 
-def test_the_other_courses_package_does_not(course: Path, tmp_path: Path) -> None:
+def test_the_package_of_the_first_course_does_not_get_full_marks(
+    course: Path, tmp_path: Path
+) -> None:
     solution = write(RIGHT[0], tmp_path)
     done = stage.run(
         stage.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
@@ -135,7 +137,7 @@ def keys(course: Path, tmp_path: Path) -> Path:
     return folder
 
 
-def test_hidden_checks_are_asked_from_the_instructors_folder(
+def test_hidden_checks_are_read_from_the_instructors_folder(
     course: Path, package: Path, keys: Path, tmp_path: Path
 ) -> None:
     words = ("grade", package, "--assignment", course, "--keys", keys, "--out", tmp_path / "o")
@@ -151,7 +153,7 @@ def test_hidden_checks_are_asked_from_the_instructors_folder(
 
 
 @pytest.mark.parametrize("command", ["grade", "grade-all", "validate", "gradescope-zip"])
-def test_without_that_folder_the_announced_checks_are_missed(
+def test_announced_hidden_checks_are_required_without_that_folder(
     course: Path, package: Path, keys: Path, tmp_path: Path, command: str
 ) -> None:
     (keys / "hidden.yaml").unlink()
@@ -175,7 +177,7 @@ def test_gradescopes_archive_has_the_hidden_checks(course: Path, keys: Path) -> 
         assert "--keys keys" in archive.read("run_autograder").decode()
 
 
-def test_validate_asks_the_hidden_checks_too(
+def test_validate_runs_the_hidden_checks(
     course: Path, package: Path, keys: Path, tmp_path: Path
 ) -> None:
     (keys / "solution").mkdir()

@@ -20,7 +20,7 @@ from tests import stage
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 
 
-def test_closing_ends_everything_and_leaves_no_control_group(ros_jazzy: Ros) -> None:
+def test_closing_ends_every_process_and_removes_the_control_group(ros_jazzy: Ros) -> None:
     mark = f"sleep 97{secrets.randbelow(10**6)}"
     with Bubblewrap(ros_jazzy, Limits()) as opened:
         script = f"echo up; setsid {mark} & {mark}"
@@ -82,7 +82,7 @@ def test_a_grader_that_ends_while_the_sandbox_opens_leaves_nothing(
     stage.wait_until_gone(before)
 
 
-def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) -> None:
+def test_the_control_groups_of_a_killed_grader_are_removed(tmp_path: Path) -> None:
     from grader.sandbox.cgroups import open_group
 
     dead = subprocess.Popen(["true"])
@@ -97,7 +97,7 @@ def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) 
     assert left == {f"{os.getpid()}-1"}
 
 
-def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
+def test_an_ordinary_user_gets_the_same_sandbox(ros_jazzy: Ros) -> None:
     code = (
         "import json\n"
         "from grader.sandbox.limits import Limits\n"
@@ -128,7 +128,7 @@ def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
     assert held["processes"] in ("rlimit", "cgroup")
 
 
-def test_a_machine_that_forbids_namespaces_is_told_why(
+def test_a_machine_without_namespaces_is_reported_with_the_cause(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from grader.base.errors import SurroundingsError

@@ -20,7 +20,7 @@ BY_NAME = {package.name: package for package in BROKEN}
         ("setup_raises", "RuntimeError: not today", "raise RuntimeError('not today')"),
     ],
 )
-def test_the_error_of_setup_py_is_told_and_not_colcons_own(
+def test_the_error_of_setup_py_is_reported_instead_of_colcons(
     name: str, error: str, code: str, tmp_path: Path
 ) -> None:
     package = write(BY_NAME[name], tmp_path)

@@ -30,7 +30,7 @@ LIMITS = Limits()
 LONG = Event("Hello time: 0", 0.0, 1.0, "logger", 0, None)
 
 
-def test_the_ceiling_has_room_for_a_build_and_two_runs_at_their_limits() -> None:
+def test_the_ceiling_allows_a_build_and_two_runs_at_their_limits() -> None:
     for limits in (LIMITS, LIMITS.override({"build_seconds": 7, "start_seconds": 1})):
         run = limits.start_seconds + limits.run_seconds + limits.stop_seconds
         assert limits.verdict_seconds > limits.build_seconds + 2 * run
@@ -90,7 +90,7 @@ def doubtful() -> Run:
     return Run("", Watch(clock="virtual", events=[LONG], missing=[1]), started=True)
 
 
-def test_runs_that_take_all_they_may_are_repeated_within_the_ceiling(
+def test_runs_at_their_time_limit_are_repeated_within_the_ceiling(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock = Clock(monkeypatch, ProbeError("no answer"))
@@ -102,7 +102,7 @@ def test_runs_that_take_all_they_may_are_repeated_within_the_ceiling(
     assert clock.now - begin <= LIMITS.verdict_seconds
 
 
-def test_after_a_build_at_its_limit_there_is_still_a_second_opinion(
+def test_a_build_at_its_limit_leaves_time_for_a_second_run(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     first, second = doubtful(), doubtful()
@@ -114,7 +114,7 @@ def test_after_a_build_at_its_limit_there_is_still_a_second_opinion(
     assert clock.now - begin <= LIMITS.verdict_seconds
 
 
-def test_quick_faults_of_ours_are_still_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_quick_grader_faults_are_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(monkeypatch, ProbeError("it has ended"))
     clock.seconds = 1.0
     with pytest.raises(Unobserved, match="it has ended"):
@@ -122,7 +122,7 @@ def test_quick_faults_of_ours_are_still_tried_three_times(monkeypatch: pytest.Mo
     assert clock.runs == 3
 
 
-def test_without_time_for_a_run_none_is_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_run_starts_without_enough_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(monkeypatch, doubtful())
     opened = begun()
     clock.now += LIMITS.verdict_seconds - 1
@@ -136,7 +136,7 @@ ENDLESS = "trap '' INT TERM HUP; while :; do printf .; sleep 0.05; done"
 
 @pytest.mark.prefix
 @pytest.mark.parametrize(("overlay", "met"), [(ENDLESS, "wall time"), ("exit 0", "")])
-def test_a_node_that_outruns_its_limits_beside_a_silent_probe_has_met_one(
+def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
     make_sandbox: Callable[[Limits], Sandbox],
     monkeypatch: pytest.MonkeyPatch,
     overlay: str,
@@ -169,7 +169,7 @@ SETUP = "install/local_setup.bash"
 
 
 @pytest.mark.prefix
-def test_a_deaf_node_that_prints_dots_has_its_verdict_at_once(tmp_path: Path) -> None:
+def test_a_node_that_ignores_signals_and_prints_dots_has_a_quick_verdict(tmp_path: Path) -> None:
     package = next(package for package in HOSTILE if package.name == "deaf_and_prints_dots")
     begin = time.monotonic()
     found = mark(write(package, tmp_path))
@@ -192,7 +192,7 @@ UNKNOWN = check("run.period", "inconclusive")
 MET = check("run.starts", "failed", mistakes=[Mistake(id="run.resource")])
 
 
-def test_what_could_not_be_known_is_tried_again(trial: Trial) -> None:
+def test_an_inconclusive_submission_is_tried_again(trial: Trial) -> None:
     assert trial.hear(answer(10, UNKNOWN)) is None
     trial.tries = TRIES
     done = trial.hear(answer(10, UNKNOWN))
@@ -201,7 +201,7 @@ def test_what_could_not_be_known_is_tried_again(trial: Trial) -> None:
     assert done.answer.report.attempts == TRIES
 
 
-def test_a_submission_that_met_a_limit_of_its_own_is_never_tried_again(trial: Trial) -> None:
+def test_a_submission_that_hit_a_limit_is_not_tried_again(trial: Trial) -> None:
     assert trial.hear(answer(10, UNKNOWN, MET)) is not None
 
 
@@ -211,7 +211,7 @@ def test_no_submission_is_tried_for_longer_than_two_ceilings(trial: Trial) -> No
     assert trial.hear(answer(90, UNKNOWN)) is not None
 
 
-def test_a_fault_without_an_answer_counts_as_well(trial: Trial) -> None:
+def test_a_fault_without_an_answer_counts(trial: Trial) -> None:
     assert trial.hear(Answer(fault="hung", seconds=100)) is None
     trial.tries = 2
     assert trial.hear(Answer(fault="hung", seconds=100)) is not None

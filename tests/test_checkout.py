@@ -31,7 +31,7 @@ def blobs(checkout: Path) -> dict[str, str]:
     return {row.partition("\t")[2]: row.split()[2] for row in rows if row}
 
 
-def test_every_file_is_byte_for_byte_what_was_committed(windows_clone: Path) -> None:
+def test_every_file_has_the_committed_bytes(windows_clone: Path) -> None:
     """So shell scripts, Dockerfiles and sources keep LF, and what has CRLF on purpose keeps that."""
     committed = blobs(windows_clone)
     assert {"docker/Dockerfile", "docker/apt_install.sh", "lab/shell/bashrc"} <= committed.keys()

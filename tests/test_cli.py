@@ -59,7 +59,9 @@ def test_version() -> None:
         (["grade", ".", "--limit", "memory=-1"], "above 0"),
     ],
 )
-def test_wrong_usage_is_2_with_a_message_and_no_traceback(words: list[str], said: str) -> None:
+def test_a_usage_error_has_status_2_with_a_message_and_no_traceback(
+    words: list[str], said: str
+) -> None:
     done = stage.run(stage.grader(*words))
     assert done.returncode == 2
     assert said in done.stderr
@@ -67,7 +69,7 @@ def test_wrong_usage_is_2_with_a_message_and_no_traceback(words: list[str], said
     assert done.stdout == ""
 
 
-def test_no_sandbox_is_3_and_says_what_to_install(tmp_path: Path) -> None:
+def test_a_missing_sandbox_has_status_3_and_says_what_to_install(tmp_path: Path) -> None:
     for program in ("sh", "env"):
         (tmp_path / program).symlink_to(f"/bin/{program}")
     done = stage.run(
@@ -79,13 +81,13 @@ def test_no_sandbox_is_3_and_says_what_to_install(tmp_path: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
-def test_a_distro_that_cannot_be_had_here_is_3(tmp_path: Path) -> None:
+def test_an_unavailable_distro_has_status_3(tmp_path: Path) -> None:
     done = stage.run(stage.grader("grade", solution(tmp_path), "--distro", "rolling"))
     assert done.returncode == 3
     assert "no ROS wheels for rolling" in done.stderr
 
 
-def test_the_report_is_written_where_it_was_asked_for(tmp_path: Path) -> None:
+def test_the_report_is_written_to_the_given_folder(tmp_path: Path) -> None:
     package = solution(tmp_path)
     done = stage.run(stage.grader("grade", package, "--name", "Ann Lee", "--out", tmp_path / "o"))
     assert done.returncode == 0, done.stdout + done.stderr
@@ -121,7 +123,7 @@ def test_a_signal_ends_everything(tmp_path: Path, number: signal.Signals, status
     assert not list((tmp_path / "o").rglob("report.json"))
 
 
-def test_a_closed_pipe_is_no_traceback(tmp_path: Path) -> None:
+def test_a_closed_pipe_gives_no_traceback(tmp_path: Path) -> None:
     package = solution(tmp_path)
     command = " ".join(f"'{word}'" for word in stage.grader("grade", package, "--out", tmp_path))
     done = stage.run(["sh", "-c", f"{command} | true"])
@@ -137,7 +139,7 @@ def test_a_self_check_shows_the_verdict_and_writes_no_report(tmp_path: Path) -> 
     assert sorted(p.name for p in tmp_path.iterdir()) == ["solution"]
 
 
-def test_a_self_check_looks_into_the_workspace_in_the_home_folder(tmp_path: Path) -> None:
+def test_a_self_check_finds_the_workspace_in_the_home_folder(tmp_path: Path) -> None:
     package = solution(tmp_path / "ros2_ws" / "src")
     package.rename(package.with_name("my_robot_controller"))
     done = stage.run(
@@ -175,7 +177,7 @@ def test_two_distros_give_a_matrix(tmp_path: Path) -> None:
     assert "kilted" in done.stdout
 
 
-def test_start_up_imports_nothing_that_a_help_text_does_not_need() -> None:
+def test_start_up_imports_only_what_a_help_text_needs() -> None:
     code = "import sys, grader.cli.main; print([m for m in ('pydantic', 'rich', 'yaml', 'pexpect') "
     done = stage.run([sys.executable, "-c", code + "if m in sys.modules])"])
     assert done.stdout.strip() == "[]"
@@ -187,7 +189,7 @@ def _cache() -> Path:
     return cache_root()
 
 
-def test_environment_is_not_needed_to_be_a_terminal(tmp_path: Path) -> None:
+def test_the_command_works_with_an_empty_term_variable(tmp_path: Path) -> None:
     done = stage.run(
         stage.grader("grade", solution(tmp_path), "--out", tmp_path / "o"),
         env={"TERM": "", "COLUMNS": "40", "LANG": "C", "NO_COLOR": "1"},

@@ -74,7 +74,7 @@ class Node(ProbeLink):
     [("Hello time: {n}\r\n", ""), ("", "Hello time: {n}\r\n"), ("counting\r\n", "counted\r\n")],
     ids=["printed before", "printed after", "both"],
 )
-def test_what_the_terminal_shows_late_belongs_to_its_own_tick(before: str, after: str) -> None:
+def test_late_terminal_output_belongs_to_its_own_tick(before: str, after: str) -> None:
     console = SlowConsole()
     node = Node(console, before=before, after=after)
     observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
@@ -84,7 +84,7 @@ def test_what_the_terminal_shows_late_belongs_to_its_own_tick(before: str, after
     assert {(e.n, e.due) for e in watch.counted} == {(k, k) for k in range(OUTPUT.ticks)}
 
 
-def test_a_logger_that_is_not_shown_is_waited_for_once_only() -> None:
+def test_a_logger_that_is_not_shown_is_waited_for_only_once() -> None:
     console = SlowConsole()
     node = Node(console, before="", after="")
     observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)

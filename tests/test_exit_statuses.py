@@ -53,7 +53,7 @@ def package(*edits: Replace | Write) -> Package:
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("status", [126, 127, 250, 251])
-def test_a_status_of_setup_py_is_the_students(status: int, tmp_path: Path) -> None:
+def test_a_status_of_setup_py_counts_for_the_student(status: int, tmp_path: Path) -> None:
     report = mark(write(package(installing(status)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
     assert found.status == "failed", told(report)
@@ -61,7 +61,7 @@ def test_a_status_of_setup_py_is_the_students(status: int, tmp_path: Path) -> No
 
 
 @pytest.mark.prefix
-def test_a_setup_py_that_spoils_what_it_can_write_gains_nothing(tmp_path: Path) -> None:
+def test_a_setup_py_that_writes_files_everywhere_gains_nothing(tmp_path: Path) -> None:
     report = mark(write(package(installing(127, SPOIL)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
     assert found.status == "failed", told(report)
@@ -70,7 +70,7 @@ def test_a_setup_py_that_spoils_what_it_can_write_gains_nothing(tmp_path: Path) 
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("status", [126, 127])
-def test_a_status_of_the_node_is_the_students(status: int, tmp_path: Path) -> None:
+def test_a_status_of_the_node_counts_for_the_student(status: int, tmp_path: Path) -> None:
     report = mark(write(package(Write(NODE, UNREADY.format(status=status), 0o755)), tmp_path))
     found = next(check for check in report.checks if check.id == "run.starts")
     assert found.status == "failed", told(report)

@@ -57,7 +57,9 @@ def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, .
     ],
     ids=lambda value: value if isinstance(value, str) else " ".join(value),
 )
-def test_wrong_words_are_told_in_the_readers_language(words: tuple[str, ...], wrong: str) -> None:
+def test_usage_errors_are_reported_in_the_readers_language(
+    words: tuple[str, ...], wrong: str
+) -> None:
     status, told = said("grader", *words, env=KOREAN)
     assert status == 2
     last = told.splitlines()[-1]
@@ -77,7 +79,7 @@ def test_wrong_words_are_told_in_the_readers_language(words: tuple[str, ...], wr
         ((), "en"),
     ],
 )
-def test_the_language_of_a_command_line(
+def test_the_language_is_read_from_the_command_line(
     words: tuple[str, ...], wanted: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in ENGLISH.items():
@@ -85,7 +87,7 @@ def test_the_language_of_a_command_line(
     assert language_of(words) == wanted
 
 
-def test_it_speaks_as_long_as_it_lasts() -> None:
+def test_the_language_lasts_as_long_as_the_block() -> None:
     def state() -> tuple[str, str | None, str, str | None]:
         help_text = commands.commands["check"].help
         usage = click.Context(commands).get_usage()

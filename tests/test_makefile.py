@@ -55,7 +55,7 @@ def test_grade_without_a_student_says_how() -> None:
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_name_is_data(name: str, tmp_path: Path) -> None:
+def test_a_hostile_name_is_passed_as_data(name: str, tmp_path: Path) -> None:
     """make, the shell and the grader all get it as it is: the path that is missed is this one."""
     missing = tmp_path / name
     status, out, err = make("grade", f"STUDENT={missing}", "OUT=HACKED")
@@ -71,7 +71,7 @@ def test_a_hostile_name_is_data(name: str, tmp_path: Path) -> None:
     "variable",
     ["ASSIGNMENT", "DISTRO", "SANDBOX", "PACKAGE", "NAME", "GRADER_COURSE", "GRADER_ASSIGNMENT"],
 )
-def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None:
+def test_every_other_variable_is_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     target = "check" if variable == "PACKAGE" else "grade"
     status, _, _ = make(target, f"STUDENT={tmp_path}/none", f"{variable}={hostile}")
@@ -80,7 +80,7 @@ def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("variable", ["KEYS", "ASSIGNMENT", "SANDBOX"])
-def test_the_variables_of_an_assignments_own_test_are_data(variable: str, tmp_path: Path) -> None:
+def test_the_variables_of_make_validate_are_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     status, _, said = make("validate", f"{variable}={hostile}")
     assert status == 2
@@ -88,7 +88,7 @@ def test_the_variables_of_an_assignments_own_test_are_data(variable: str, tmp_pa
     assert not (tmp_path / "HACKED").exists()
 
 
-def test_another_courses_lesson_is_taken_through_make(tmp_path: Path) -> None:
+def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     package = weather.write_package(tmp_path, Replace(weather.SETUP, weather.ENTRY, ""))
     words = ("fix", f"PACKAGE={package}", f"GRADER_COURSE={course}")
@@ -99,7 +99,7 @@ def test_another_courses_lesson_is_taken_through_make(tmp_path: Path) -> None:
     assert weather.ENTRY in shown
 
 
-def test_a_package_is_fixed_through_make(tmp_path: Path) -> None:
+def test_a_package_can_be_fixed_through_make(tmp_path: Path) -> None:
     package = solution(tmp_path)
     (package / "setup.cfg").unlink()
     status, shown, _ = make("fix", f"PACKAGE={package}")
@@ -117,7 +117,7 @@ def test_a_package_is_fixed_through_make(tmp_path: Path) -> None:
         *("GRADE_COLUMN", "FEEDBACK_COLUMN", "ACCEPT"),
     ],
 )
-def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> None:
+def test_the_variables_of_a_class_are_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     words = {"SUBMISSIONS": f"{tmp_path}/none", "OUT": f"{tmp_path}/out", variable: hostile}
     status, _, said = make("grade-all", *(f"{name}={value}" for name, value in words.items()))
@@ -127,13 +127,13 @@ def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("words", [("LC_ALL=", "LANG=ko_KR.UTF-8"), ("GRADER_LANG=ko",)])
-def test_the_language_is_a_variable_too(words: tuple[str, ...], tmp_path: Path) -> None:
+def test_the_language_is_a_variable(words: tuple[str, ...], tmp_path: Path) -> None:
     status, _, said = make("grade", f"STUDENT={tmp_path / 'missing'}", *words)
     assert status == 2
     assert "폴더가 없습니다" in said
 
 
-def test_the_columns_of_a_class_and_what_is_accepted_reach_the_command(tmp_path: Path) -> None:
+def test_the_column_and_accept_variables_reach_the_command(tmp_path: Path) -> None:
     (tmp_path / "sheet.csv").write_text("Identifier,Punkte,Text\nParticipant 1,,\n")
     words = [f"SUBMISSIONS={tmp_path}", f"OUT={tmp_path / 'out'}"]
     sheet = [*words, f"WORKSHEET={tmp_path / 'sheet.csv'}"]
@@ -154,7 +154,7 @@ def test_grade_all_without_a_class_says_how() -> None:
 
 
 @pytest.mark.prefix
-def test_a_class_is_marked_through_make(tmp_path: Path) -> None:
+def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
     solution(tmp_path / "the class")
     folder, out = tmp_path / "the class", tmp_path / "out put"
     status, said, err = make(
@@ -169,7 +169,7 @@ def test_a_class_is_marked_through_make(tmp_path: Path) -> None:
     assert "Marked again: 1, of which 1 as before." in said
 
 
-def test_a_variable_of_the_environment_works_as_well(tmp_path: Path) -> None:
+def test_an_environment_variable_works(tmp_path: Path) -> None:
     done = stage.run(["make", "grade"], env={"STUDENT": f"{tmp_path}/$(touch HACKED)"})
     assert done.returncode == 2
     assert "$(touch HACKED)" in done.stderr
@@ -197,7 +197,7 @@ def copy_checkout(folder: Path) -> Path:
     return folder
 
 
-def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path) -> None:
+def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
     """A set-up that was killed half-way has no stamp, and is not taken for a whole one."""
     checkout = copy_checkout(tmp_path / "checkout")
     half = checkout / ".venv" / "bin"
@@ -214,7 +214,7 @@ def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path
         assert "setting up" not in err
 
 
-def test_a_path_that_no_environment_can_have_is_told(tmp_path: Path) -> None:
+def test_a_path_that_venv_refuses_is_reported(tmp_path: Path) -> None:
     """venv refuses a colon, since PATH is a list with colons between its folders."""
     folder = tmp_path / "a:b"
     for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
@@ -231,7 +231,9 @@ def test_a_path_that_no_environment_can_have_is_told(tmp_path: Path) -> None:
 
 @pytest.mark.full  # it makes an environment and a prefix
 @pytest.mark.prefix
-def test_a_bare_machine_marks_in_a_checkout_whose_path_no_shebang_can_name(tmp_path: Path) -> None:
+def test_a_bare_machine_can_mark_in_a_checkout_with_a_path_too_long_for_a_shebang(
+    tmp_path: Path,
+) -> None:
     place = tmp_path / f"some path ü {'l' * 130}"
     checkout = copy_checkout(place / "checkout")
     environment = {"GRADER_CACHE": "", "XDG_CACHE_HOME": str(place / "cache")}

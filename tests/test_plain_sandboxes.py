@@ -90,7 +90,7 @@ for _ in range(2):
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_two_graders_with_accounts_do_not_need_each_others_link(ros_jazzy: Ros) -> None:
+def test_two_graders_with_accounts_do_not_depend_on_each_others_link(ros_jazzy: Ros) -> None:
     command = stage.as_root_of_a_container([sys.executable, "-c", TWO_ACCOUNTS])
     done = stage.run(command)
     assert done.returncode == 0, done.stderr
@@ -104,7 +104,7 @@ def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> 
         open_sandbox("account", find_distro("jazzy"), Limits())
 
 
-def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
+def test_without_a_sandbox_every_process_still_ends(ros_jazzy: Ros) -> None:
     mark = f"sleep 94{secrets.randbelow(10**6)}"
     with Bare(ros_jazzy, Limits()) as opened:
         # it says up when it has left the group, which ends with the command
@@ -117,7 +117,7 @@ def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
     assert not folder.exists()
 
 
-def test_without_a_sandbox_the_environment_is_still_a_list(
+def test_without_a_sandbox_the_environment_has_only_listed_variables(
     ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", "/own")
@@ -132,7 +132,7 @@ def test_without_a_sandbox_the_environment_is_still_a_list(
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("name", ["some path ü", "l" * 150, "it's $HOME `id`", 'a "b":c', "a\nb"])
-def test_no_sandbox_needs_a_tame_path(
+def test_without_a_sandbox_odd_paths_work(
     name: str, ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Neither of the prefix nor for temporary files: the student's own scripts name a short one."""
@@ -150,9 +150,9 @@ def test_no_sandbox_needs_a_tame_path(
 @pytest.mark.parametrize(
     "holds",
     [
-        contract.test_dots_without_a_line_end_extend_no_wait,
-        contract.test_a_pipe_that_never_says_a_line_extends_no_wait,
-        contract.test_what_nobody_reads_on_stderr_stops_no_pipe,
+        contract.test_output_without_a_line_end_extends_no_wait,
+        contract.test_a_pipe_without_a_complete_line_extends_no_wait,
+        contract.test_unread_stderr_does_not_block_a_pipe,
     ],
 )
 def test_without_a_sandbox_no_output_extends_a_wait(
@@ -172,7 +172,9 @@ def test_auto_never_marks_without_a_sandbox(
     assert "apt-get install bubblewrap" in caught.value.remedy
 
 
-def test_own_code_may_run_without_one(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_own_code_may_run_without_a_sandbox(
+    ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import shutil
 
     real = shutil.which

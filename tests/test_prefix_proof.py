@@ -80,14 +80,14 @@ def test_a_prefix_is_proven_once(maker: Callable[[int], Maker]) -> None:
     assert second.made == second.proven == []
 
 
-def test_one_that_fails_is_made_once_more(maker: Callable[[int], Maker]) -> None:
+def test_a_prefix_that_fails_its_proof_is_made_again(maker: Callable[[int], Maker]) -> None:
     made = maker(1)
     assert made.find().is_dir()
     assert len(made.made) == len(made.proven) == 2
     assert "colcon does not run\nmaking the prefix once more" in made.heard
 
 
-def test_one_that_fails_twice_is_told_and_never_kept(maker: Callable[[int], Maker]) -> None:
+def test_a_prefix_that_fails_twice_is_reported_and_not_kept(maker: Callable[[int], Maker]) -> None:
     made = maker(2)
     with pytest.raises(SurroundingsError) as caught:
         made.find()
@@ -100,7 +100,7 @@ def test_one_that_fails_twice_is_told_and_never_kept(maker: Callable[[int], Make
 
 @pytest.mark.parametrize("program", ["python3", "colcon", "ros2"])
 @pytest.mark.parametrize("how", ["removed", "closed", "points nowhere"])
-def test_one_whose_programs_have_gone_is_made_again(
+def test_a_prefix_with_missing_programs_is_made_again(
     program: str, how: str, maker: Callable[[int], Maker]
 ) -> None:
     path = maker(0).find() / "bin" / program
@@ -118,7 +118,7 @@ def test_one_whose_programs_have_gone_is_made_again(
     assert [p.name for p in folder.parent.iterdir() if "making" in p.name] == []
 
 
-def test_one_of_an_older_format_is_not_taken(
+def test_a_prefix_of_an_older_format_is_not_used(
     maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(prefix, "FORMAT", 1)
@@ -128,7 +128,7 @@ def test_one_of_an_older_format_is_not_taken(
     assert prefix.prefix_path(JAZZY).name != older.name
 
 
-def test_a_damaged_one_that_cannot_be_removed_is_told(
+def test_a_damaged_prefix_that_cannot_be_removed_is_reported(
     maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = maker(0).find()
@@ -151,7 +151,7 @@ def surroundings(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
     return str(request.param)
 
 
-def test_the_real_prefix_passes(ros_jazzy: Ros, surroundings: str) -> None:
+def test_the_real_prefix_passes_its_proof(ros_jazzy: Ros, surroundings: str) -> None:
     prove_ros(ros_jazzy)
 
 
@@ -164,7 +164,7 @@ def test_the_real_prefix_passes(ros_jazzy: Ros, surroundings: str) -> None:
         ("python3", "#!/bin/sh\necho No module named rclpy\nexit 1\n", "No module named rclpy"),
     ],
 )
-def test_a_prefix_with_a_program_that_fails_does_not(
+def test_a_prefix_with_a_failing_program_does_not_pass(
     program: str, text: str, said: str, tmp_path: Path, surroundings: str
 ) -> None:
     folder = small_prefix(tmp_path / "some 'path' $ü")
@@ -176,7 +176,7 @@ def test_a_prefix_with_a_program_that_fails_does_not(
     assert "GRADER_CACHE" in caught.value.remedy
 
 
-def test_a_ros_of_the_system_is_never_removed(tmp_path: Path) -> None:
+def test_a_system_ros_is_never_removed(tmp_path: Path) -> None:
     """ros-jazzy-ros-base has no colcon."""
     folder = small_prefix(tmp_path / "jazzy")
     (folder / "bin" / "colcon").unlink()
@@ -188,7 +188,7 @@ def test_a_ros_of_the_system_is_never_removed(tmp_path: Path) -> None:
     assert folder.is_dir()
 
 
-def test_a_proof_that_is_not_finished_removes_nothing(
+def test_an_unfinished_proof_removes_nothing(
     maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = maker(0).find()
@@ -240,7 +240,7 @@ def _link(source: str, target: str) -> None:
         ("python3", "#!/bin/sh\nexit 126\n"),
     ],
 )
-def test_a_program_of_ours_that_does_not_run_is_nobodys_mistake(
+def test_a_broken_program_of_the_prefix_is_a_surroundings_error(
     program: str, text: str, own_cache: Callable[[str, str], Path], tmp_path: Path
 ) -> None:
     folder = own_cache(program, text)

@@ -86,7 +86,9 @@ def installed(folder: Path, wheel: Path) -> tuple[Path, Path]:
 
 
 @pytest.mark.parametrize("name", FOLDERS, ids=range(len(FOLDERS)))
-def test_what_pip_wrote_runs_wherever_the_prefix_is(name: str, tmp_path: Path, wheel: Path) -> None:
+def test_programs_written_by_pip_run_wherever_the_prefix_is(
+    name: str, tmp_path: Path, wheel: Path
+) -> None:
     made, python = installed(tmp_path / name, wheel)
     # an interpreter whose own path no `#!` line can name
     other = tmp_path / "my pythons" / "python3"
@@ -125,7 +127,7 @@ def test_pip_writes_more_than_one_form(tmp_path: Path, wheel: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["s", "some path", "some path ü", "l" * 150])
-def test_what_setuptools_writes_is_known(name: str, tmp_path: Path) -> None:
+def test_the_header_that_setuptools_writes_is_recognised(name: str, tmp_path: Path) -> None:
     python = environment(tmp_path / name)
     ours = sysconfig.get_path("purelib")
     header = said([python, "-c", HEADER_OF_SETUPTOOLS], PYTHONPATH=ours)

@@ -41,9 +41,7 @@ def bash(prefix: Path, workspace: Path, script: str) -> str:
     return done.stdout + done.stderr
 
 
-def test_its_command_runs_under_the_python_that_colcon_ran_with(
-    overlay: Path, jazzy_prefix: Path
-) -> None:
+def test_the_command_runs_under_the_python_of_colcon(overlay: Path, jazzy_prefix: Path) -> None:
     script = overlay / "install/ros2_teaching_lab/lib/ros2_teaching_lab/grader"
     assert script.read_text().splitlines()[0] == f"#!{sys.executable}"
     said = bash(
@@ -52,7 +50,7 @@ def test_its_command_runs_under_the_python_that_colcon_ran_with(
     assert grader.__version__ in said
 
 
-def test_what_it_needs_at_run_time_is_installed_with_it(overlay: Path, jazzy_prefix: Path) -> None:
+def test_run_time_data_files_are_installed(overlay: Path, jazzy_prefix: Path) -> None:
     """The installed copy, not this checkout, marks the solution: data files and all."""
     share = overlay / "install/ros2_teaching_lab/share/ros2_teaching_lab"
     assert (share / "course/hello_time/assignment.yaml").is_file()
@@ -67,7 +65,7 @@ def test_what_it_needs_at_run_time_is_installed_with_it(overlay: Path, jazzy_pre
     assert "100 / 100" in said
 
 
-def test_the_keys_are_not_among_what_a_student_gets() -> None:
+def test_a_student_does_not_get_the_keys() -> None:
     names = [p.relative_to(stage.ROOT / "lab") for p in (stage.ROOT / "lab").rglob("*")]
     assert not [name for name in names if "solution" in name.parts or "hidden.yaml" in name.parts]
 
@@ -98,7 +96,7 @@ def test_grader_never_imports_lab() -> None:
         assert not re.search(r"^\s*(from|import) lab\b", source.read_text(), re.MULTILINE), source
 
 
-def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Path) -> None:
+def test_the_wheels_image_has_all_modules_that_make_a_prefix(tmp_path: Path) -> None:
     recipe = (stage.ROOT / "docker/wheels.Dockerfile").read_text().replace("\\\n", " ")
     for line in re.findall(r"^COPY (grader/.*)$", recipe, re.MULTILINE):
         *sources, folder = line.split()
@@ -118,7 +116,7 @@ def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Pat
     assert done.stdout.startswith(str(tmp_path))
 
 
-def test_nothing_is_printed_past_the_gate() -> None:
+def test_all_printing_goes_through_the_gate() -> None:
     """(See grader.base.gate: what is printed with styles has a console that is a gate, too.)"""
     ways = (
         "rich.console import Console",

@@ -52,14 +52,16 @@ def built(submission: Submission, **statuses: int) -> int | None:
 
 
 @pytest.mark.parametrize("status", range(256))
-def test_every_status_of_colcon_is_the_submissions(submission: Submission, status: int) -> None:
+def test_every_status_of_colcon_counts_for_the_submission(
+    submission: Submission, status: int
+) -> None:
     assert built(submission, colcon=status) == status
 
 
 @pytest.mark.parametrize(
     ("ours", "said"), [("lay_out", "could not be laid out"), ("listing", "could not be listed")]
 )
-def test_a_command_of_ours_that_fails_is_our_fault(
+def test_a_failing_command_of_the_grader_is_a_surroundings_error(
     submission: Submission, ours: str, said: str
 ) -> None:
     with pytest.raises(SurroundingsError, match=said):
@@ -67,7 +69,7 @@ def test_a_command_of_ours_that_fails_is_our_fault(
 
 
 @pytest.mark.prefix
-def test_a_setup_py_that_ends_with_a_status_of_its_own_has_not_built(
+def test_a_setup_py_that_exits_early_is_not_a_successful_build(
     sandbox: Sandbox, tmp_path: Path
 ) -> None:
     name, status = "setup_paints_and_ends_with_250", 250
@@ -79,7 +81,7 @@ def test_a_setup_py_that_ends_with_a_status_of_its_own_has_not_built(
 
 
 @pytest.mark.prefix
-def test_what_does_not_fit_into_the_workspace_is_told_in_tars_own_words(
+def test_a_full_workspace_is_reported_with_the_message_of_tar(
     make_sandbox: Callable[[Limits], Sandbox], submission: Submission
 ) -> None:
     limits = Limits().override({"workspace": 8192})
@@ -93,7 +95,7 @@ def ended_at_once() -> Run:
 
 
 @pytest.mark.parametrize("works", [True, False])
-def test_a_node_that_ends_at_once_is_judged_if_the_sandbox_still_starts_commands(
+def test_a_node_that_ends_at_once_is_judged_only_if_the_sandbox_still_works(
     monkeypatch: pytest.MonkeyPatch, works: bool
 ) -> None:
     run = ended_at_once()

@@ -78,7 +78,9 @@ def test_a_right_variant_gets_full_marks(package: Package, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("package", packages(BROKEN))
-def test_a_broken_package_fails_where_and_why_it_must(package: Package, tmp_path: Path) -> None:
+def test_a_broken_package_fails_the_expected_checks_for_the_expected_reason(
+    package: Package, tmp_path: Path
+) -> None:
     verdict_is(package, mark(write(package, tmp_path)))
 
 
@@ -130,7 +132,7 @@ def test_the_tutorials_own_node_gets_full_marks_on_kilted_too(tmp_path: Path) ->
     assert report.score == 100, told(report)
 
 
-def test_the_tutorials_traceback_is_advice_and_not_a_fault(tmp_path: Path) -> None:
+def test_the_tutorials_traceback_is_advice_and_not_a_failure(tmp_path: Path) -> None:
     tutorial = next(package for package in RIGHT if package.name == "tutorial")
     report = mark(write(tutorial, tmp_path))
     assert report.score == 100

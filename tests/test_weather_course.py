@@ -62,7 +62,7 @@ def sources() -> Iterator[Path]:
             yield stage.ROOT / name
 
 
-def test_no_file_but_the_lessons_own_names_a_part_of_it() -> None:
+def test_only_the_lessons_own_files_mention_its_parts() -> None:
     words = re.compile(OURS.pattern.partition(r"|\bmain\b")[0], re.IGNORECASE)
     found = [
         f"{path.relative_to(stage.ROOT)}:{number}: {line.strip()}"
@@ -79,7 +79,7 @@ def kinds() -> list[object]:
 
 
 @pytest.mark.parametrize("kind", kinds())
-def test_an_entry_of_the_catalogue_is_filled_by_the_lesson(kind: Kind, tmp_path: Path) -> None:
+def test_the_lesson_fills_in_the_catalogues_entries(kind: Kind, tmp_path: Path) -> None:
     words = {**words_of(weather.assignment(tmp_path)), "distro": "kilted"}
     templates = [kind.title, kind.why, kind.fix, *kind.whys.values(), *kind.fixes.values()]
     for lang in LANGUAGES:
@@ -238,7 +238,7 @@ def texts(result: CheckResult) -> str:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", MISTAKES)
-def test_a_mistake_is_explained_in_the_words_of_the_lesson(
+def test_a_mistake_is_explained_with_the_lessons_texts(
     name: str, lang: str, tmp_path: Path
 ) -> None:
     mistake = MISTAKES[name]
@@ -252,7 +252,7 @@ def test_a_mistake_is_explained_in_the_words_of_the_lesson(
 # the commands
 
 
-def test_the_right_package_passes_every_check_of_a_run(tmp_path: Path) -> None:
+def test_the_right_package_passes_every_run_check(tmp_path: Path) -> None:
     """(The stand-in runs above fail for the mistake alone.)"""
     wanted = weather.assignment(tmp_path)
     run = counted("Reading {n}")
@@ -278,7 +278,7 @@ def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_real_verdict_names_nothing_of_our_lesson(
+def test_a_real_verdict_mentions_nothing_of_our_lesson(
     course: Path, tmp_path: Path, lang: str
 ) -> None:
     package = weather.write_package(tmp_path, Replace(NODE, "f'Reading {", "f'Readings {"))
@@ -289,7 +289,7 @@ def test_a_real_verdict_names_nothing_of_our_lesson(
 
 
 @pytest.mark.prefix
-def test_fix_fixes_by_the_lesson(course: Path, tmp_path: Path) -> None:
+def test_fix_uses_the_lesson(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
     done = stage.run(stage.grader("fix", "--no-run", package), env=env(course))
     assert done.returncode == 0, done.stderr
@@ -305,7 +305,7 @@ def explained(*words: str, **more: str) -> str:
     return done.stdout
 
 
-def test_explain_takes_the_lesson_and_the_distro(course: Path) -> None:
+def test_explain_uses_the_lesson_and_the_distro(course: Path) -> None:
     said = explained("run.no_lines", ROS_DISTRO="kilted", **env(course))
     assert "create_timer(0.5, self." in said
     assert "https://docs.ros.org/en/kilted/" in said
@@ -314,7 +314,7 @@ def test_explain_takes_the_lesson_and_the_distro(course: Path) -> None:
     assert "source /opt/ros/kilted/" in explained("lab.ros_not_sourced", "--distro", "kilted")
 
 
-def test_explain_without_a_lesson_shows_what_a_lesson_would_tell(tmp_path: Path) -> None:
+def test_explain_without_a_lesson_shows_placeholders(tmp_path: Path) -> None:
     several = weather.write_course(tmp_path, "winds")
     said = explained("run.no_lines", **env(several))
     assert "create_timer(<period>, self.<callback>)" in said
@@ -330,7 +330,7 @@ def guide(*words: str | Path, **more: str) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
-def test_the_guide_goes_through_the_courses_own_lesson(course: Path, tmp_path: Path) -> None:
+def test_the_guide_uses_the_courses_own_lesson(course: Path, tmp_path: Path) -> None:
     workspace = tmp_path / "ws"
     status, said, _ = guide("--workspace", workspace, **env(course))
     assert status == 0
@@ -353,7 +353,7 @@ def test_the_guide_goes_through_the_courses_own_lesson(course: Path, tmp_path: P
         assert not OURS.search(each)
 
 
-def test_the_guide_tells_when_everything_is_done(course: Path, tmp_path: Path) -> None:
+def test_the_guide_says_when_everything_is_done(course: Path, tmp_path: Path) -> None:
     (tmp_path / "ws/src").mkdir(parents=True)
     weather.write_package(tmp_path / "ws/src")
     status, said, _ = guide("--workspace", tmp_path / "ws", **env(course))
@@ -370,7 +370,7 @@ def test_the_guide_tells_when_everything_is_done(course: Path, tmp_path: Path) -
         (None, "no lesson with steps"),
     ],
 )
-def test_a_lesson_that_the_guide_cannot_use_is_told(
+def test_a_lesson_that_the_guide_cannot_use_is_reported(
     course: Path, tmp_path: Path, text: str | None, said: str
 ) -> None:
     file = course / "readings" / "lesson.md"
@@ -407,7 +407,7 @@ def run(command: str, cwd: Path, **more: str) -> tuple[int, str]:
 
 
 @pytest.mark.parametrize("command", [*COMMANDS, "guide", "lab"])
-def test_of_several_lessons_one_has_to_be_named(command: str, tmp_path: Path) -> None:
+def test_one_of_several_lessons_must_be_named(command: str, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     before = sorted(tmp_path.rglob("*"))
     status, errors = run(command, tmp_path, **env(course))
@@ -418,7 +418,7 @@ def test_of_several_lessons_one_has_to_be_named(command: str, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("command", ["check", "guide", "lab", "validate"])
-def test_a_course_folder_that_is_none_is_told(command: str, course: Path, tmp_path: Path) -> None:
+def test_an_invalid_course_folder_is_reported(command: str, course: Path, tmp_path: Path) -> None:
     for folder, said in (
         (tmp_path / "nowhere", "there is no course folder"),
         (course / "readings", "is a lesson and not a course"),
@@ -431,7 +431,7 @@ def test_a_course_folder_that_is_none_is_told(command: str, course: Path, tmp_pa
             assert said in errors
 
 
-def test_the_environment_names_the_lesson_that_is_meant(tmp_path: Path) -> None:
+def test_the_environment_selects_the_lesson(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     more = env(course, GRADER_ASSIGNMENT="winds")
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
@@ -445,7 +445,7 @@ def test_the_environment_names_the_lesson_that_is_meant(tmp_path: Path) -> None:
     assert "readings, winds" in errors
 
 
-def test_another_courses_solution_is_not_looked_for_among_our_keys(tmp_path: Path) -> None:
+def test_our_keys_are_not_searched_for_another_courses_solution(tmp_path: Path) -> None:
     """(A lesson may be called as one of ours is.)"""
     course = weather.write_course(tmp_path)
     (course / "readings").rename(course / "hello_time")

@@ -66,7 +66,7 @@ def are_marked(folder: ClassFolder, *keys: str) -> None:
 
 @pytest.mark.parametrize("top", ["", "hw1/", "hw1/all/"])
 @pytest.mark.parametrize("kind", ["zip", "tar", "tar.gz", "tar.xz"])
-def test_a_class_in_an_archive_is_found_in_it(tmp_path: Path, kind: str, top: str) -> None:
+def test_a_class_in_an_archive_is_discovered(tmp_path: Path, kind: str, top: str) -> None:
     files = {f"{top}{path}": data for path, data in two().items()}
     files[f"{top}kim.zip"] = zipped(package())
     mode = {"tar": "w"}.get(kind, f"w:{kind[4:]}")
@@ -77,7 +77,7 @@ def test_a_class_in_an_archive_is_found_in_it(tmp_path: Path, kind: str, top: st
     are_marked(found, "ann", "joe", "kim")
 
 
-def test_an_archive_is_unpacked_once_and_found_again(tmp_path: Path) -> None:
+def test_an_archive_is_unpacked_only_once(tmp_path: Path) -> None:
     first = found_in(tmp_path, zipped(two()))
     before = (one(first, "ann").path / "ws" / "setup.py").stat().st_ino
     again = found_in(tmp_path, zipped(two()), "renamed.zip")
@@ -87,14 +87,14 @@ def test_an_archive_is_unpacked_once_and_found_again(tmp_path: Path) -> None:
     assert one(other, "ann").path != one(first, "ann").path
 
 
-def test_what_is_unpacked_is_the_owners_alone(tmp_path: Path) -> None:
+def test_unpacked_files_are_readable_by_their_owner_only(tmp_path: Path) -> None:
     found = found_in(tmp_path, zipped(two()))
     for path in (tmp_path / "work", *(tmp_path / "work").iterdir()):
         assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0
     assert one(found, "ann").path.is_relative_to(tmp_path / "work")
 
 
-def test_a_run_that_was_killed_while_unpacking_is_taken_up_again(tmp_path: Path) -> None:
+def test_unpacking_resumes_after_a_kill(tmp_path: Path) -> None:
     (tmp_path / "class.zip").write_bytes(zipped(two()))
     script = (
         "import os, sys; from pathlib import Path\n"
@@ -116,7 +116,7 @@ def test_a_run_that_was_killed_while_unpacking_is_taken_up_again(tmp_path: Path)
     assert not [path for path in everything_below(tmp_path / "work") if ".part" in path]
 
 
-def test_what_a_stranger_changed_in_the_record_is_unpacked_anew(tmp_path: Path) -> None:
+def test_an_altered_record_of_unpacking_unpacks_again(tmp_path: Path) -> None:
     found_in(tmp_path, zipped(two()))
     (record,) = (tmp_path / "work").glob("*/unpacked.json")
     other = '{"form": 0, "remarks": [["ann", "of old"]], "modes_recorded": true}'
@@ -127,7 +127,7 @@ def test_what_a_stranger_changed_in_the_record_is_unpacked_anew(tmp_path: Path) 
         assert not said(one(found, "ann"))
 
 
-def test_a_zip_of_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
+def test_a_class_zip_made_on_windows_has_unknown_exec_bits(tmp_path: Path) -> None:
     found = found_in(tmp_path, zipped(two(), system=WINDOWS))
     assert [given.modes_kept for given in found.handed_in] == [False, False]
 
@@ -138,7 +138,7 @@ def test_a_zip_of_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "name", ["../evil", "/etc/evil", "ann/../../evil", "C:\\evil", "ann\\..\\..\\e"]
 )
-def test_a_name_that_leads_out_is_left_out_and_told(tmp_path: Path, name: str) -> None:
+def test_a_member_outside_the_folder_is_left_out_and_reported(tmp_path: Path, name: str) -> None:
     before = everything_below(tmp_path)
     members = [(zipfile.ZipInfo(path), data) for path, data in two().items()]
     found = found_in(tmp_path, zip_of([*members, (zipfile.ZipInfo(name), b"evil")]))
@@ -155,7 +155,7 @@ def test_a_name_that_leads_out_is_left_out_and_told(tmp_path: Path, name: str) -
 @pytest.mark.parametrize(
     "kind", [tarfile.SYMTYPE, tarfile.LNKTYPE, tarfile.CHRTYPE, tarfile.BLKTYPE, tarfile.FIFOTYPE]
 )
-def test_links_devices_and_pipes_are_never_made(tmp_path: Path, kind: bytes) -> None:
+def test_links_devices_and_pipes_are_never_created(tmp_path: Path, kind: bytes) -> None:
     odd = [
         odd_member("ann/ws/way", kind, "/etc"),
         odd_member("ann/ws/way/passwd", tarfile.REGTYPE),
@@ -171,7 +171,7 @@ def test_links_devices_and_pipes_are_never_made(tmp_path: Path, kind: bytes) -> 
     are_marked(found, "joe")
 
 
-def test_a_hard_link_is_a_copy_of_a_file_in_the_archive(tmp_path: Path) -> None:
+def test_a_hard_link_becomes_a_copy_of_its_file(tmp_path: Path) -> None:
     odd = odd_member("ann/ws/copy.py", tarfile.LNKTYPE, "ann/ws/setup.py")
     found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
     copy = one(found, "ann").path / "ws" / "copy.py"
@@ -179,7 +179,7 @@ def test_a_hard_link_is_a_copy_of_a_file_in_the_archive(tmp_path: Path) -> None:
     assert copy.stat().st_nlink == 1
 
 
-def test_a_file_whose_bytes_are_damaged_costs_its_student_alone(tmp_path: Path) -> None:
+def test_a_damaged_file_affects_only_its_student(tmp_path: Path) -> None:
     """The other students' are whole; a student whose archive is lost is not lost himself."""
     files = {**two(), "kim.zip": os.urandom(300), "max/ws/setup.py": os.urandom(300)}
     data = bytearray(zipped(files))
@@ -193,7 +193,7 @@ def test_a_file_whose_bytes_are_damaged_costs_its_student_alone(tmp_path: Path) 
     are_marked(found, "ann", "joe")
 
 
-def test_a_size_that_is_a_lie_costs_its_student_alone(tmp_path: Path) -> None:
+def test_a_false_size_affects_only_its_student(tmp_path: Path) -> None:
     data = zipped({**two(), "kim.zip": bytes(3_000_000)})
     lied = data.replace(struct.pack("<I", 3_000_000), struct.pack("<I", 1_000))
     found = found_in(tmp_path, lied)
@@ -201,7 +201,7 @@ def test_a_size_that_is_a_lie_costs_its_student_alone(tmp_path: Path) -> None:
     are_marked(found, "ann", "joe")
 
 
-def test_more_than_one_student_can_have_is_not_unpacked(
+def test_files_beyond_a_students_limits_are_not_unpacked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     limits = ArchiveLimits(members=50, unpacked=100_000, packed=60_000)
@@ -226,7 +226,7 @@ def test_more_than_one_student_can_have_is_not_unpacked(
     assert len(list((one(found, "kit").path / "x").iterdir())) == 2
 
 
-def test_names_in_each_others_way_are_left_out_and_told(tmp_path: Path) -> None:
+def test_members_with_conflicting_paths_are_left_out_and_reported(tmp_path: Path) -> None:
     files = [*two().items(), ("ann/ws", b""), ("joe/ws/setup.py/x", b""), ("n" * 300, b"")]
     found = found_in(tmp_path, zip_of([(zipfile.ZipInfo(name), data) for name, data in files]))
     assert "no place" in said(one(found, "ann"))
@@ -234,7 +234,7 @@ def test_names_in_each_others_way_are_left_out_and_told(tmp_path: Path) -> None:
     are_marked(found, "ann", "joe")
 
 
-def test_the_same_name_twice_is_told(tmp_path: Path) -> None:
+def test_a_duplicate_name_is_reported(tmp_path: Path) -> None:
     good = [(zipfile.ZipInfo(name), data) for name, data in two().items()]
     with pytest.warns(UserWarning, match="Duplicate"):
         data = zip_of([*good, (zipfile.ZipInfo("ann/ws/setup.py"), b"last")])
@@ -251,9 +251,7 @@ def test_a_name_that_is_not_utf8_is_kept(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("cut", [10, 300, -30])
 @pytest.mark.parametrize("packing", ["zip", "tar.gz"])
-def test_a_class_archive_that_was_cut_short_is_refused_whole(
-    tmp_path: Path, packing: str, cut: int
-) -> None:
+def test_a_truncated_class_archive_is_refused(tmp_path: Path, packing: str, cut: int) -> None:
     """Half a class must not pass for a class."""
     data = zipped(two()) if packing == "zip" else tarred(two(), "w:gz")
     with pytest.raises(UsageError, match="class' archive cannot be unpacked") as error:
@@ -272,14 +270,14 @@ def packed_by_zip(folder: Path, files: dict[str, bytes], *locked: str) -> bytes:
     return (folder / "c.zip").read_bytes()
 
 
-def test_a_class_archive_with_a_password_is_refused_whole(tmp_path: Path) -> None:
+def test_a_class_archive_with_a_password_is_refused(tmp_path: Path) -> None:
     data = packed_by_zip(tmp_path / "made", two(), *two())
     with pytest.raises(UsageError, match="password") as error:
         found_in(tmp_path, data)
     assert "give the folder" in error.value.remedy
 
 
-def test_one_file_with_a_password_costs_one_student(tmp_path: Path) -> None:
+def test_one_file_with_a_password_affects_one_student(tmp_path: Path) -> None:
     data = packed_by_zip(tmp_path / "made", two(), "ann/ws/setup.py")
     found = found_in(tmp_path, data)
     assert "password" in said(one(found, "ann"))
@@ -287,18 +285,18 @@ def test_one_file_with_a_password_costs_one_student(tmp_path: Path) -> None:
     assert "password" not in said(one(found, "joe"))
 
 
-def test_a_place_that_cannot_be_written_is_our_surroundings_fault(tmp_path: Path) -> None:
+def test_an_unwritable_work_folder_is_a_surroundings_error(tmp_path: Path) -> None:
     (tmp_path / "work").write_text("a file in the way")
     with pytest.raises(SurroundingsError, match="cannot be unpacked"):
         found_in(tmp_path, zipped(two()))
 
 
-def test_a_class_zip_of_one_package_is_no_class(tmp_path: Path) -> None:
+def test_a_zip_of_a_single_package_is_not_a_class(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="one package"):
         found_in(tmp_path, zipped(package(below=PACKAGE)))
 
 
-def test_several_runs_at_once_unpack_it_once(tmp_path: Path) -> None:
+def test_concurrent_runs_unpack_an_archive_once(tmp_path: Path) -> None:
     (tmp_path / "class.zip").write_bytes(zipped(two()))
     script = (
         "import sys; from pathlib import Path\n"

@@ -41,7 +41,7 @@ def judged(given: HandedIn) -> Entry:
     return standing(given.student, [attempt], [], POLICY, 100)
 
 
-def test_clones_are_known_by_what_follows_the_assignments_name(tmp_path: Path) -> None:
+def test_a_clone_is_identified_by_the_part_after_the_assignments_name(tmp_path: Path) -> None:
     root = tmp_path / "hw"
     for user in ("ann-lee", "joe"):
         repository(root / f"hello-time-{user}")
@@ -54,14 +54,14 @@ def test_clones_are_known_by_what_follows_the_assignments_name(tmp_path: Path) -
     assert max_.student.key == "mail-max"
 
 
-def test_one_clone_is_known_by_the_folder_that_gh_makes(tmp_path: Path) -> None:
+def test_a_single_clone_is_identified_by_the_folder_that_gh_makes(tmp_path: Path) -> None:
     repository(tmp_path / "hw1-submissions" / "hw1-ann")
     (ann,) = found_in(tmp_path / "hw1-submissions").handed_in
     assert ann.student.username == "ann"
 
 
 @pytest.mark.parametrize("days", [-3, 3])
-def test_the_time_of_a_commit_costs_nothing_and_spares_nothing(tmp_path: Path, days: int) -> None:
+def test_the_commit_time_does_not_decide_lateness(tmp_path: Path, days: int) -> None:
     """The student's own computer sets it: `git commit --date` makes any commit early."""
     at = (DUE + timedelta(days=days)).isoformat()
     for user in ("ann", "joe"):
@@ -74,7 +74,7 @@ def test_the_time_of_a_commit_costs_nothing_and_spares_nothing(tmp_path: Path, d
     assert "not known when it was handed in" in entry.notes[-1]
 
 
-def test_the_grades_file_of_classroom_tells_who_was_late(tmp_path: Path) -> None:
+def test_lateness_comes_from_the_grades_file_of_classroom(tmp_path: Path) -> None:
     for user in ("ann", "joe", "max"):
         repository(tmp_path / "hw" / f"hw-{user}")
     file = grades(
@@ -92,7 +92,7 @@ def test_the_grades_file_of_classroom_tells_who_was_late(tmp_path: Path) -> None
     assert "not known" in judged(max_).notes[-1]
 
 
-def test_a_grades_file_with_what_is_no_time_tells_none(tmp_path: Path) -> None:
+def test_an_invalid_time_in_the_grades_file_is_ignored(tmp_path: Path) -> None:
     for user in ("ann", "joe"):
         repository(tmp_path / "hw" / f"hw-{user}")
     file = grades(tmp_path / "grades.csv", ann="MM-DD-YYYY", joe="2026-99-99T00:00:00Z")
@@ -100,7 +100,7 @@ def test_a_grades_file_with_what_is_no_time_tells_none(tmp_path: Path) -> None:
     assert [given.submitted for given in found.handed_in] == [None, None]
 
 
-def test_nothing_that_a_repository_names_is_run(tmp_path: Path) -> None:
+def test_no_program_that_a_repository_configures_is_run(tmp_path: Path) -> None:
     """A fsmonitor, hooks, an alias and a pager that would leave a mark."""
     trap = tmp_path / "trap.sh"
     trap.write_text(f"#!/bin/sh\ntouch {tmp_path}/sprung\n")

@@ -100,7 +100,7 @@ def _scores(done: list[Done]) -> dict[str, float]:
     return found
 
 
-def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
+def test_a_lost_worker_costs_only_the_submission_it_was_marking(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:
     first = start_worker()
@@ -116,7 +116,7 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
     assert _scores(found) == expected
 
 
-def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
+def test_a_scheduler_that_ends_during_the_wait_is_reported(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with (
@@ -135,7 +135,7 @@ def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
             list(cluster.run(tasks(tmp_path, ["solution"]), started=_unheard))
 
 
-def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_no_verdict_is_lost_if_the_scheduler_ends(ros_jazzy: Ros, tmp_path: Path) -> None:
     folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"] * 3)
     with scheduler_and_worker() as (scheduler, address):
         command = grader("grade-all", folder, "--out", tmp_path / "out", "--scheduler", address)
@@ -157,7 +157,7 @@ def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_p
         assert ledger.count() == 6
 
 
-def test_a_class_is_marked_on_the_cluster_and_kept_here(
+def test_verdicts_from_the_cluster_are_kept_in_the_local_ledger(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:
     start_worker()
@@ -185,7 +185,7 @@ def test_a_worker_without_a_sandbox_is_not_used(
     assert len([line for line in said if "is not used" in line]) == 1
 
 
-def test_workers_of_which_none_can_mark_are_refused(
+def test_a_cluster_without_a_usable_worker_is_refused(
     scheduler: str, start_worker: Callable[..., int]
 ) -> None:
     start_worker()
@@ -194,7 +194,7 @@ def test_workers_of_which_none_can_mark_are_refused(
         pass
 
 
-def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
+def test_an_unreachable_scheduler_is_reported(tmp_path: Path) -> None:
     folder = of_corpus(tmp_path / "class", ["solution"])
     done = grade_all(folder, tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
     assert done.returncode == 3

@@ -48,7 +48,7 @@ def course(tmp_path: Path) -> Path:
     return root
 
 
-def test_each_folder_and_each_archive_is_a_students(course: Path, tmp_path: Path) -> None:
+def test_each_folder_and_each_archive_is_one_student(course: Path, tmp_path: Path) -> None:
     found = found_in(course, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
     assert [given.student.name for given in found.handed_in] == ["ann lee", "joe", "zoë"]
@@ -61,14 +61,16 @@ def test_each_folder_and_each_archive_is_a_students(course: Path, tmp_path: Path
     assert not (tmp_path / "work").exists()
 
 
-def test_a_folder_of_archives_alone_is_called_so(tmp_path: Path) -> None:
+def test_a_folder_of_archives_is_recognised_as_one(tmp_path: Path) -> None:
     for name in ("jane.zip", "joe.tar.xz"):
         (tmp_path / name).write_bytes(zipped(package()))
     found = found_in(tmp_path, tmp_path)
     assert (found.system, keys(found)) == ("archives", ["jane", "joe"])
 
 
-def test_an_archive_without_an_ending_is_known_by_its_content(course: Path, tmp_path: Path) -> None:
+def test_an_archive_without_an_extension_is_detected_by_content(
+    course: Path, tmp_path: Path
+) -> None:
     (course / "kim").write_bytes(zipped(package()))
     (course / "notes").write_text("to do\n")
     found = found_in(course, tmp_path)
@@ -76,7 +78,7 @@ def test_an_archive_without_an_ending_is_known_by_its_content(course: Path, tmp_
     assert "notes" in said(found)
 
 
-def test_what_is_nobodys_is_told_and_left_out(course: Path, tmp_path: Path) -> None:
+def test_other_files_are_reported_and_left_out(course: Path, tmp_path: Path) -> None:
     for name in (".git", "__MACOSX", "reports"):
         write(course / name, package())
     for name in (".DS_Store", "README.md", "grades.csv", "index.html", "jane.py"):
@@ -89,13 +91,13 @@ def test_what_is_nobodys_is_told_and_left_out(course: Path, tmp_path: Path) -> N
     assert "pipe" in said(found)
 
 
-def test_the_folder_that_things_are_unpacked_in_is_no_student(course: Path) -> None:
+def test_the_folder_of_unpacked_archives_is_not_a_student(course: Path) -> None:
     found = discover(course, unpack=course / "out" / "work")
     (course / "out" / "work").mkdir(parents=True)
     assert keys(discover(course, unpack=course / "out" / "work")) == keys(found)
 
 
-def test_an_archive_beside_the_folder_of_its_name_is_an_attempt_before(tmp_path: Path) -> None:
+def test_an_archive_beside_the_folder_of_its_name_is_an_earlier_attempt(tmp_path: Path) -> None:
     write(tmp_path / "c" / "jane", package())
     (tmp_path / "c" / "jane.zip").write_bytes(zipped(package()))
     (tmp_path / "c" / "jane.tgz").write_bytes(tarred(package(), "w:gz"))
@@ -119,7 +121,7 @@ def test_a_link_in_place_of_a_submission_is_not_followed(course: Path, tmp_path:
     assert one(found, "joe").problem == ""
 
 
-def test_a_folder_around_the_class_is_gone_into(course: Path, tmp_path: Path) -> None:
+def test_a_folder_around_the_class_is_entered(course: Path, tmp_path: Path) -> None:
     around = tmp_path / "downloads"
     (around / "hw1").mkdir(parents=True)
     shutil.move(course, around / "hw1" / "course")
@@ -130,7 +132,7 @@ def test_a_folder_around_the_class_is_gone_into(course: Path, tmp_path: Path) ->
     assert "the class is in the folder hw1" in said(found)
 
 
-def test_a_class_of_one_student_is_not_gone_into(tmp_path: Path) -> None:
+def test_the_folder_of_the_only_student_is_not_entered(tmp_path: Path) -> None:
     """What is in it is the student's: two packages of their own names, or a workspace."""
     write(tmp_path / "a" / "jane", package(below=PACKAGE))
     other = package(below="other")
@@ -143,7 +145,7 @@ def test_a_class_of_one_student_is_not_gone_into(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("below", ["", PACKAGE, f"src/{PACKAGE}"])
-def test_one_package_or_workspace_is_no_class(tmp_path: Path, below: str) -> None:
+def test_a_single_package_or_workspace_is_not_a_class(tmp_path: Path, below: str) -> None:
     write(tmp_path / "jane", package(below=below))
     (tmp_path / "jane.zip").write_bytes(zipped(package(below=below)))
     for name in ("jane", "jane.zip"):
@@ -152,7 +154,7 @@ def test_one_package_or_workspace_is_no_class(tmp_path: Path, below: str) -> Non
         assert "grader grade" in error.value.remedy
 
 
-def test_where_nothing_is_a_submission_it_is_said_what_was_seen(tmp_path: Path) -> None:
+def test_a_folder_without_submissions_lists_what_was_found(tmp_path: Path) -> None:
     (tmp_path / "c").mkdir()
     with pytest.raises(UsageError, match="nothing"):
         found_in(tmp_path / "c", tmp_path)
@@ -164,13 +166,13 @@ def test_where_nothing_is_a_submission_it_is_said_what_was_seen(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("name", ["gone", "a\0b", "file.txt"])
-def test_a_path_that_is_no_class_is_wrong_usage(tmp_path: Path, name: str) -> None:
+def test_a_path_that_is_not_a_class_is_a_usage_error(tmp_path: Path, name: str) -> None:
     (tmp_path / "file.txt").write_text("x")
     with pytest.raises(UsageError):
         found_in(tmp_path / name, tmp_path)
 
 
-def test_a_system_that_is_not_known_is_wrong_usage(course: Path, tmp_path: Path) -> None:
+def test_an_unknown_system_is_a_usage_error(course: Path, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="no course system 'modle'") as error:
         found_in(course, tmp_path, "modle")
     assert "did you mean 'moodle'?" in error.value.remedy
@@ -189,7 +191,7 @@ def test_a_system_can_be_forced(tmp_path: Path) -> None:
 # exec bits
 
 
-def test_exec_bits_that_nobody_has_are_unknown(tmp_path: Path) -> None:
+def test_exec_bits_are_unknown_if_no_student_has_any(tmp_path: Path) -> None:
     """A class whose files came by a way that loses them; one student who has it proves otherwise."""
     for name in ("ann", "joe"):
         write(tmp_path / "c" / name, package())
@@ -203,7 +205,7 @@ def test_exec_bits_that_nobody_has_are_unknown(tmp_path: Path) -> None:
     assert "executable" not in said(found)
 
 
-def test_one_student_without_exec_bits_has_forgotten_them(tmp_path: Path) -> None:
+def test_exec_bits_are_missing_if_other_students_have_them(tmp_path: Path) -> None:
     write(tmp_path / "c" / "ann", package())
     (tmp_path / "c" / "ann" / NODE_PATH).chmod(0o644)
     (given,) = found_in(tmp_path / "c", tmp_path).handed_in
@@ -230,7 +232,7 @@ NAME = st.one_of(
     max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @hypothetical(folders=st.sets(NAME, max_size=6), files=st.sets(NAME, max_size=6))
-def test_no_submission_is_lost_whatever_it_is_called(
+def test_no_submission_is_lost_because_of_its_name(
     tmp_path: Path, folders: set[str], files: set[str]
 ) -> None:
     root = tmp_path / "class"
@@ -270,7 +272,7 @@ def test_no_submission_is_lost_whatever_it_is_called(
     assert len(attempts) == len(set(attempts))
 
 
-def test_two_hundred_submissions_are_found_in_a_moment(tmp_path: Path) -> None:
+def test_two_hundred_submissions_are_found_quickly(tmp_path: Path) -> None:
     for n in range(200):
         write(tmp_path / "c" / f"student{n:03}", package(below=PACKAGE))
         (tmp_path / "c" / f"student{n:03}" / PACKAGE / NODE_PATH).chmod(0o644)

@@ -85,7 +85,7 @@ def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> Plan:
     return plan
 
 
-def test_what_the_grader_fails_on_is_one_students_line_and_the_class_goes_on(
+def test_a_grader_failure_affects_one_student_and_the_class_goes_on(
     ledger: Ledger, tmp_path: Path
 ) -> None:
     folder, pool = a_class(tmp_path / "in", 3), Marks("s0")
@@ -105,7 +105,7 @@ def test_what_the_grader_fails_on_is_one_students_line_and_the_class_goes_on(
     assert {entry.status for entry in result.entries} == {"graded"}
 
 
-def test_surroundings_that_fail_without_a_submission_too_end_the_run(
+def test_the_run_ends_if_the_surroundings_fail_without_a_submission(
     ledger: Ledger, tmp_path: Path
 ) -> None:
     folder = a_class(tmp_path / "in", 2)
@@ -114,7 +114,9 @@ def test_surroundings_that_fail_without_a_submission_too_end_the_run(
     assert ledger.count() == 1, "what was reached is kept"
 
 
-def test_several_in_a_row_are_looked_into_before_the_next(ledger: Ledger, tmp_path: Path) -> None:
+def test_several_failures_in_a_row_are_examined_before_the_next_submission(
+    ledger: Ledger, tmp_path: Path
+) -> None:
     folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW + 1)
     failing = [f"s{number}" for number in range(FAULTS_IN_A_ROW)]
     with pytest.raises(SurroundingsError, match="does not open"):
@@ -126,21 +128,19 @@ def test_several_in_a_row_are_looked_into_before_the_next(ledger: Ledger, tmp_pa
     assert ledger.count() == 1
 
 
-def test_a_class_of_which_nothing_can_be_marked_is_a_fault_of_the_grader(
-    ledger: Ledger, tmp_path: Path
-) -> None:
+def test_a_class_without_a_single_verdict_is_a_grader_error(ledger: Ledger, tmp_path: Path) -> None:
     folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW)
     with pytest.raises(SurroundingsError, match="on all 3 submissions"):
         run(ledger, folder, Marks("s0", "s1", "s2"))
 
 
-def test_a_single_submission_that_is_failed_on_is_no_fault_of_the_surroundings(
+def test_a_failure_on_a_single_submission_is_not_a_surroundings_error(
     ledger: Ledger, tmp_path: Path
 ) -> None:
     run(ledger, a_class(tmp_path / "in", 1), Marks("s0"))
 
 
-def test_one_that_we_fail_to_take_in_stops_nobody_else(
+def test_a_submission_that_intake_fails_on_stops_nobody_else(
     ledger: Ledger, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = a_class(tmp_path / "in", 3)
@@ -159,7 +159,7 @@ def test_one_that_we_fail_to_take_in_stops_nobody_else(
 
 
 @pytest.mark.prefix
-def test_the_proof_passes_if_everything_but_a_submission_is_there(ros_jazzy: Ros) -> None:
+def test_the_proof_passes_if_the_surroundings_are_complete(ros_jazzy: Ros) -> None:
     prove(JOB)
 
 

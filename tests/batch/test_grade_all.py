@@ -79,7 +79,7 @@ def copy(marked: Class, tmp_path: Path) -> Class:
     return Class(tmp_path / "handed in", marked.roster, tmp_path / "out", marked.first)
 
 
-def test_everybody_is_in_the_gradebook_with_what_was_reached(marked: Class) -> None:
+def test_everybody_is_in_the_gradebook_with_their_points(marked: Class) -> None:
     assert marked.first.returncode == 1, marked.first.stderr
     rows = marked.rows()
     found = {key: (row["name"], row["status"], row["final"]) for key, row in rows.items()}
@@ -102,7 +102,7 @@ def test_everybody_has_a_page_and_feedback(marked: Class) -> None:
     assert "Hello Time" in (marked.out / "students" / "s2-text_other_capital.html").read_text()
 
 
-def test_reports_are_where_one_package_has_them(marked: Class) -> None:
+def test_reports_are_in_the_same_place_as_for_one_package(marked: Class) -> None:
     reports = {
         path.parts[-3]: json.loads(path.read_text(encoding="utf-8"))
         for path in marked.out.glob("*/jazzy/report.json")
@@ -128,7 +128,7 @@ def test_the_summary_names_the_first_reasons(marked: Class) -> None:
     assert "\x1b" not in marked.first.stdout + marked.first.stderr, "plain where it is piped"
 
 
-def test_what_has_not_changed_is_neither_marked_nor_written_again(copy: Class) -> None:
+def test_an_unchanged_class_is_neither_marked_nor_written_again(copy: Class) -> None:
     assert copy.again().returncode == 1  # (the outputs are in another place now)
     before = {path: path.stat().st_mtime_ns for path in copy.out.rglob("*.html")}
     again = copy.again()
@@ -138,13 +138,13 @@ def test_what_has_not_changed_is_neither_marked_nor_written_again(copy: Class) -
     assert {path: path.stat().st_mtime_ns for path in copy.out.rglob("*.html")} == before
 
 
-def test_a_file_that_was_deleted_comes_back(copy: Class) -> None:
+def test_a_deleted_output_is_written_again(copy: Class) -> None:
     (copy.out / "gradebook.csv").unlink()
     copy.again()
     assert copy.rows()["s0-solution"]["final"] == "100"
 
 
-def test_only_what_has_changed_is_marked_and_the_attempt_before_is_kept(copy: Class) -> None:
+def test_only_changed_submissions_are_marked_and_earlier_attempts_kept(copy: Class) -> None:
     node = "my_robot_controller/my_robot_controller/my_first_node.py"
     path = copy.folder / "s2-text_other_capital" / node
     path.write_text(path.read_text(encoding="utf-8").replace("Hello Time", "Hello time"))
@@ -183,7 +183,7 @@ def test_a_correction_survives_a_regrade_and_is_in_every_output(copy: Class) -> 
     assert copy.rows()["s1-entry_missing"]["final"] == "50"
 
 
-def test_a_group_is_marked_once_for_real_and_each_member_has_the_report(
+def test_a_group_is_marked_once_and_each_member_has_the_report(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     class_ = [replace(p, group="Team_1") for p in people(3, korean=True)]
@@ -221,16 +221,14 @@ def test_a_group_is_marked_once_for_real_and_each_member_has_the_report(
         (("Bela Nagy", "--remove"), "was not corrected"),
     ],
 )
-def test_a_correction_that_cannot_be_meant_is_refused(
-    marked: Class, words: tuple[str, ...], said: str
-) -> None:
+def test_an_invalid_correction_is_refused(marked: Class, words: tuple[str, ...], said: str) -> None:
     done = marked.override(*words)
     assert done.returncode == 2
     assert said in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_regrade_of_one_student_leaves_the_others(copy: Class) -> None:
+def test_a_regrade_of_one_student_leaves_the_others_unchanged(copy: Class) -> None:
     again = copy.again("--regrade-student", "ann@example.org")
     assert "1 to mark (1 again), 3 marked before" in again.stderr
     assert copy.verdicts() == 5
@@ -244,7 +242,7 @@ def test_a_dry_run_marks_nothing(marked: Class, tmp_path: Path) -> None:
     assert not (tmp_path / "out" / "gradebook.csv").exists()
 
 
-def test_two_graders_on_one_class_do_not_mix(copy: Class) -> None:
+def test_a_second_grader_on_the_same_class_is_refused(copy: Class) -> None:
     with Ledger(copy.out / "ledger.sqlite"):
         done = copy.again()
     assert done.returncode == 2
@@ -260,7 +258,7 @@ def test_two_graders_on_one_class_do_not_mix(copy: Class) -> None:
         (("--sandbox", "bubblewarp"), "did you mean 'bubblewrap'"),
     ],
 )
-def test_wrong_usage_is_told_before_anything_is_marked(
+def test_usage_errors_are_reported_before_anything_is_marked(
     copy: Class, words: tuple[str, ...], said: str
 ) -> None:
     done = copy.again(*words)
@@ -287,7 +285,7 @@ def begun(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str
         process.kill()
 
 
-def test_it_can_be_interrupted_and_goes_on_from_there(
+def test_an_interrupted_run_resumes(
     begun: tuple[subprocess.Popen[str], Path, Path],
 ) -> None:
     process, folder, out = begun

@@ -36,7 +36,7 @@ def mean_class(tmp_path: Path) -> Path:
     return folder
 
 
-def test_a_class_with_mean_students_ends_with_a_verdict_on_each(
+def test_a_class_with_hostile_students_ends_with_a_verdict_on_each(
     ros_jazzy: Ros, mean_class: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"

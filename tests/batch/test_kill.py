@@ -78,10 +78,10 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
     assert not alive(str(tmp_path)), "something of it still runs"
 
 
-def test_a_coordinator_that_is_killed_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_killing_the_coordinator_loses_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=3, kills=3, seed=random.randrange(10**6))
 
 
 @pytest.mark.full
-def test_twenty_kills_at_random_moments_change_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_twenty_kills_at_random_moments_change_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=30, kills=20, seed=random.randrange(10**6))

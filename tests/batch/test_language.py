@@ -26,7 +26,7 @@ def report_of(out: Path) -> dict[str, object]:
 
 
 @pytest.mark.prefix
-def test_a_class_asked_for_in_korean_after_english_comes_out_in_korean(
+def test_a_class_marked_in_english_and_then_in_korean_is_korean(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     folder, out = tmp_path / "class", tmp_path / "out"
@@ -60,7 +60,7 @@ def test_a_class_asked_for_in_korean_after_english_comes_out_in_korean(
     assert report_of(out) == english
 
 
-def test_workers_are_told_the_language() -> None:
+def test_workers_get_the_language() -> None:
     job = Job(JOB.assignment, JOB.distro, JOB.sandbox, JOB.limits, "ko")
     assert Job.from_text(job.to_text()) == job
 

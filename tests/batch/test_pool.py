@@ -33,7 +33,7 @@ def _score(done: Done) -> float:
     return report.score
 
 
-def test_each_gets_the_verdict_of_its_own_package(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
     names = ["solution", "entry_missing", "text_capital", "solution"]
     found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_unheard))
     scores = {done.task.student: _score(done) for done in found}
@@ -45,7 +45,7 @@ def test_each_gets_the_verdict_of_its_own_package(ros_jazzy: Ros, tmp_path: Path
     assert own_workers() == []
 
 
-def test_a_worker_that_is_killed_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     """Both workers are killed in the middle of a verdict; others take their places."""
     killed: list[int] = []
     waiting = tasks(tmp_path, ["solution"] * 4)
@@ -66,7 +66,7 @@ def test_a_worker_that_is_killed_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path
     assert _left() == {}
 
 
-def test_a_worker_that_hangs_is_ended_and_the_submission_tried_again(
+def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     stopped: list[int] = []
@@ -89,7 +89,7 @@ def test_a_worker_that_hangs_is_ended_and_the_submission_tried_again(
     assert _left() == {}
 
 
-def test_a_worker_that_always_dies_is_a_fault_of_ours_and_stops_nobody_else(
+def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
     tmp_path: Path,
 ) -> None:
     """(A program that is no worker at all: what it says last is what the instructor reads.)"""
@@ -102,7 +102,7 @@ def test_a_worker_that_always_dies_is_a_fault_of_ours_and_stops_nobody_else(
     assert all("no memory is left" in done.answer.fault for done in found)
 
 
-def test_what_is_no_answer_is_no_verdict(tmp_path: Path) -> None:
+def test_an_invalid_answer_is_not_a_verdict(tmp_path: Path) -> None:
     command = (sys.executable, "-c", 'print(\'{"report": {"score": 100}}\', flush=True); input()')
     pool = LocalPool(JOB, 1, command=command)
     (done,) = pool.run(tasks(tmp_path, ["solution"]), started=_unheard)
@@ -110,9 +110,7 @@ def test_what_is_no_answer_is_no_verdict(tmp_path: Path) -> None:
     assert "said something else" in done.answer.fault
 
 
-def test_leaving_in_the_middle_ends_every_worker_and_its_sandbox(
-    ros_jazzy: Ros, tmp_path: Path
-) -> None:
+def test_stopping_early_ends_every_worker_and_its_sandbox(ros_jazzy: Ros, tmp_path: Path) -> None:
     with contextlib.closing(
         LocalPool(JOB, 2).run(
             tasks(tmp_path, ["entry_missing", *["solution"] * 9]), started=_unheard
@@ -124,7 +122,7 @@ def test_leaving_in_the_middle_ends_every_worker_and_its_sandbox(
     assert _left() == {}
 
 
-def test_a_submission_travels_whatever_is_in_it(tmp_path: Path) -> None:
+def test_a_submission_survives_serialisation(tmp_path: Path) -> None:
     (task,) = tasks(tmp_path, ["solution"])
     folder = tmp_path / "solution-0" / "my_robot_controller"
     (folder / "bytes.bin").write_bytes(bytes(range(256)) * 9)

@@ -15,7 +15,7 @@ MOST = 200  # MB
 
 @pytest.mark.full
 @pytest.mark.prefix
-def test_memory_stays_flat_and_everybody_is_marked(tmp_path: Path) -> None:
+def test_memory_stays_constant_and_everybody_is_marked(tmp_path: Path) -> None:
     evidence = {"build_log": "b" * 40_000, "transcript": "t" * 40_000}
     report = samples.report(evidence=evidence)
     (tmp_path / "report.json").write_text(report_json(report), encoding="utf-8")

@@ -66,9 +66,7 @@ def in_groups() -> list[Person]:
     return [replace(one, group=name) for one, name in zip(people(7), names, strict=True)]
 
 
-def test_every_member_of_a_group_gets_its_verdict_in_every_output(
-    tmp_path: Path, zero: Path
-) -> None:
+def test_every_output_has_the_groups_verdict_for_each_member(tmp_path: Path, zero: Path) -> None:
     class_ = in_groups()
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_, bom=True))
     submissions = [("Team_1", 1003, 90), ("Übung & Co", 1000, 70), ("Default group", None, 50)]
@@ -112,7 +110,7 @@ def course() -> list[Person]:
 
 
 @pytest.mark.parametrize("policy", ["none", "zero"])
-def test_a_section_against_the_whole_worksheet_lowers_nobody(
+def test_marking_one_section_lowers_no_grade_in_the_whole_worksheet(
     tmp_path: Path, zero: Path, course: list[Person], policy: str
 ) -> None:
     sheet = written(tmp_path / "worksheet.csv", worksheet(course))
@@ -136,7 +134,7 @@ def test_a_section_against_the_whole_worksheet_lowers_nobody(
     assert both.finals() == grades(both)
 
 
-def test_zeros_for_many_need_the_instructors_word(tmp_path: Path, zero: Path) -> None:
+def test_zeros_for_many_students_need_the_instructors_consent(tmp_path: Path, zero: Path) -> None:
     """A list that does not say who handed in: a section looks like a class that handed in little."""
     class_ = people(10)
     lines = [f"{p.name},{p.id_number},{p.email}" for p in class_]
@@ -163,7 +161,9 @@ def test_zeros_for_many_need_the_instructors_word(tmp_path: Path, zero: Path) ->
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "cp949"])
-def test_a_korean_class_is_joined(tmp_path: Path, zero: Path, encoding: str) -> None:
+def test_a_korean_class_is_matched_with_its_roster(
+    tmp_path: Path, zero: Path, encoding: str
+) -> None:
     class_ = people(47, korean=True)
     class_ = [replace(one, submitted=n >= 3) for n, one in enumerate(class_)]
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_, KOREAN, encoding=encoding))
@@ -186,7 +186,7 @@ def test_a_korean_class_is_joined(tmp_path: Path, zero: Path, encoding: str) -> 
         ("이름,학번,이메일\n홍길동,1,hong@x.kr\n", "only 0 of 4 submissions are on the roster"),
     ],
 )
-def test_a_list_that_fits_nobody_stops_before_anything_is_marked(
+def test_a_roster_that_matches_nobody_stops_before_anything_is_marked(
     tmp_path: Path, zero: Path, roster: str, said: str
 ) -> None:
     path = moodle_zip(tmp_path / "c.zip", of_people(people(4)))
@@ -198,7 +198,7 @@ def test_a_list_that_fits_nobody_stops_before_anything_is_marked(
     assert nothing_written(run)
 
 
-def test_a_worksheet_of_another_class_stops_too_and_can_be_accepted(tmp_path: Path) -> None:
+def test_a_worksheet_of_another_class_stops_the_run_unless_accepted(tmp_path: Path) -> None:
     class_ = people(5)
     other = [replace(p, number=p.number + 500) for p in people(40)[30:]]
     sheet = written(tmp_path / "worksheet.csv", worksheet([*other, class_[0]]))
@@ -214,7 +214,7 @@ def test_a_worksheet_of_another_class_stops_too_and_can_be_accepted(tmp_path: Pa
 # lower grades
 
 
-def test_a_lower_grade_needs_the_instructors_word(tmp_path: Path) -> None:
+def test_a_lower_grade_needs_the_instructors_consent(tmp_path: Path) -> None:
     class_ = marked(people(4), "95.00")
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_))
     path = moodle_zip(tmp_path / "c.zip", of_people(class_, 90))
@@ -235,7 +235,7 @@ def test_a_lower_grade_needs_the_instructors_word(tmp_path: Path) -> None:
     assert {grades(accepted)[person.name] for person in class_} == {"90"}
 
 
-def test_what_was_handed_in_before_stays_in_the_gradebook(tmp_path: Path, zero: Path) -> None:
+def test_earlier_submissions_stay_in_the_gradebook(tmp_path: Path, zero: Path) -> None:
     class_ = people(6)
     lines = [f"{p.name},{p.id_number}" for p in class_]
     roster = tmp_path / "roster.csv"
@@ -270,7 +270,7 @@ def canvas(tmp_path: Path, class_: Sequence[Person], score: float = 90) -> Path:
     return canvas_zip(tmp_path / "submissions.zip", class_, score)
 
 
-def test_canvas_is_looked_at_before_anything_is_marked(tmp_path: Path) -> None:
+def test_the_canvas_gradebook_is_checked_before_anything_is_marked(tmp_path: Path) -> None:
     class_ = people(3)
     path = canvas(tmp_path, class_)
     columns = ["Hello world (76)", "Hello time again (77)"]
@@ -286,9 +286,7 @@ def test_canvas_is_looked_at_before_anything_is_marked(tmp_path: Path) -> None:
     assert [row[columns[1]] for row in filled] == ["100.00", "90", "90", "90"]
 
 
-def test_canvas_cells_with_a_grade_are_not_lowered_by_what_is_missing(
-    tmp_path: Path, zero: Path
-) -> None:
+def test_a_missing_submission_does_not_lower_a_canvas_grade(tmp_path: Path, zero: Path) -> None:
     class_ = people(6)
     column = "Your first ROS 2 node: Hello time (77)"
     held = [*class_[:5], replace(class_[5], grade="70")]
@@ -301,7 +299,7 @@ def test_canvas_cells_with_a_grade_are_not_lowered_by_what_is_missing(
     assert [row[column] for row in filled] == ["90"] * 5 + ["70"]
 
 
-def test_one_output_that_fails_costs_no_other(tmp_path: Path) -> None:
+def test_a_failed_output_does_not_prevent_the_others(tmp_path: Path) -> None:
     """A correction beyond the worksheet's maximum is known only after the marking."""
     class_ = people(3)
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_))

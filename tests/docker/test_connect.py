@@ -48,7 +48,9 @@ def old_daemon() -> Iterator[str]:
     server.server_close()
 
 
-def test_a_daemon_that_is_too_old_is_said(old_daemon: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_daemon_that_is_too_old_is_reported(
+    old_daemon: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("DOCKER_HOST", old_daemon)
     with pytest.raises(SurroundingsError) as caught:
         images.connect()
@@ -56,9 +58,7 @@ def test_a_daemon_that_is_too_old_is_said(old_daemon: str, monkeypatch: pytest.M
     assert "19.03" in caught.value.remedy
 
 
-def test_a_daemon_that_hangs_is_not_waited_for_long(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_hanging_daemon_is_given_up_soon(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(images, "FIRST_ANSWER_SECONDS", 1.0)
     monkeypatch.setenv("DOCKER_HOST", f"unix://{tmp_path}/docker.sock")
     with socket.socket(socket.AF_UNIX) as deaf:
@@ -76,7 +76,7 @@ def test_a_connection_waits_long_enough_for_slow_answers() -> None:
         client.close()
 
 
-def test_no_daemon_is_said_with_what_to_do() -> None:
+def test_a_missing_daemon_is_reported_with_a_fix() -> None:
     solution = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
     command = stage.grader("grade", solution, "--sandbox", "docker")
     done = stage.run(command, env={"DOCKER_HOST": "unix:///nonexistent/docker.sock"})
@@ -86,7 +86,7 @@ def test_no_daemon_is_said_with_what_to_do() -> None:
     assert "Traceback" not in done.stderr
 
 
-def test_a_closed_socket_is_said_with_what_to_do() -> None:
+def test_a_socket_without_permission_is_reported_with_a_fix() -> None:
     command = stage.as_user(stage.grader("images"))
     done = stage.run(command, cwd=Path("/"))
     assert done.returncode == 3, done.stdout + done.stderr
@@ -95,7 +95,7 @@ def test_a_closed_socket_is_said_with_what_to_do() -> None:
     assert "Traceback" not in done.stderr
 
 
-def test_a_full_disk_is_said_with_what_to_do() -> None:
+def test_a_full_disk_is_reported_with_a_fix() -> None:
     said = "write /var/lib/docker/tmp/x: no space left on device"
     with (
         pytest.raises(SurroundingsError) as caught,

@@ -39,7 +39,9 @@ def test_a_right_variant_gets_full_marks_in_containers(package: Package, tmp_pat
 
 
 @pytest.mark.parametrize("package", some(BROKEN, 9))
-def test_a_broken_package_fails_alike_in_containers(package: Package, tmp_path: Path) -> None:
+def test_a_broken_package_fails_the_same_way_in_containers(
+    package: Package, tmp_path: Path
+) -> None:
     verdict_is(package, mark(write(package, tmp_path), sandbox="docker"))
 
 

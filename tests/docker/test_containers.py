@@ -78,7 +78,7 @@ def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> No
     assert said.split()[1] == "2"
 
 
-def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -> None:
+def test_the_submission_cannot_end_the_first_process(sandbox: Sandbox) -> None:
     keeper = "ls -l /proc/[0-9]*/exe 2> /dev/null; grep -l timeout /proc/[0-9]*/comm"
     _, before = shell(sandbox, keeper)
     assert "/comm" in before
@@ -90,7 +90,7 @@ def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -
     ]
 
 
-def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], Sandbox]) -> None:
+def test_a_limit_that_ends_the_probe_is_detected(make_sandbox: Callable[[Limits], Sandbox]) -> None:
     hog = "x = bytearray(500_000_000); x[::4096] = b'1' * len(x[::4096])"
     with make_sandbox(Limits(memory=80_000_000)) as opened:
         assert opened.probe_met() == ""
@@ -100,7 +100,7 @@ def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], S
         probe.finish(1)
 
 
-def test_closing_leaves_nothing(
+def test_closing_leaves_nothing_behind(
     make_sandbox: Callable[[Limits], Sandbox], client: DockerClient
 ) -> None:
     with make_sandbox(Limits()) as opened:
@@ -136,7 +136,7 @@ def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
 @pytest.mark.parametrize(
     ("sent", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
 )
-def test_however_the_grader_ends_nothing_is_left(
+def test_nothing_is_left_however_the_grader_ends(
     slow_build: Callable[[], subprocess.Popen[str]],
     client: DockerClient,
     sent: signal.Signals,
@@ -160,7 +160,7 @@ def test_however_the_grader_ends_nothing_is_left(
     assert wait_until_gone(client, grader.pid) == []
 
 
-def test_what_a_dead_grader_left_is_cleared_away_and_nothing_else(
+def test_only_the_remains_of_an_ended_grader_are_removed(
     make_sandbox: Callable[[Limits], Sandbox], client: DockerClient
 ) -> None:
     dead = subprocess.run(
@@ -195,7 +195,7 @@ def test_what_a_dead_grader_left_is_cleared_away_and_nothing_else(
         living.remove()
 
 
-def test_another_machines_containers_have_their_time() -> None:
+def test_containers_of_another_machine_are_kept_for_a_while() -> None:
     label = {orphans.OWNER: "another-boot/1 1 1", orphans.UNTIL: str(int(time.time()) + 100)}
     assert not orphans.is_orphan(label)
     assert orphans.is_orphan(label | {orphans.UNTIL: str(int(time.time()) - 1)})

@@ -114,7 +114,7 @@ def daemon(client: DockerClient) -> Iterator[Daemon]:
                 subprocess.run(["umount", "-l", mount], check=False)
 
 
-def test_a_daemon_killed_in_the_middle_is_said_and_its_leavings_are_cleared(
+def test_a_killed_daemon_is_reported_and_its_remains_are_removed(
     daemon: Daemon, tmp_path: Path
 ) -> None:
     command = stage.grader("grade", SOLUTION, "--sandbox", "docker", "--out", tmp_path)

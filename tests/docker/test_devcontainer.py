@@ -71,7 +71,7 @@ def test_ros_and_colcon_answer_in_every_shell(inside: Inside) -> None:
     assert "colcon [-h]" in done.stdout
 
 
-def test_its_user_is_the_student_in_an_own_workspace(inside: Inside) -> None:
+def test_its_user_is_the_student_in_their_own_workspace(inside: Inside) -> None:
     done = inside("bash", "-c", "id -un; pwd; touch src/mine && stat -c %U src/mine")
     assert done.stdout.splitlines() == ["student", "/home/student/ros2_ws", "student"]
 
@@ -81,7 +81,7 @@ def test_nobody_can_become_root(inside: Inside) -> None:
     assert done.stdout.split() == ["NoNewPrivs:", "1"]
 
 
-def test_the_guide_and_the_check_are_there(inside: Inside) -> None:
+def test_the_guide_and_the_check_are_available(inside: Inside) -> None:
     done = inside("bash", "-ic", "command -v guide check")
     assert [Path(line).name for line in done.stdout.split()] == ["guide", "check"]
 
@@ -91,7 +91,7 @@ def test_distro_in_the_environment_chooses_another(name: str) -> None:
     assert configuration(f"DISTRO={name}")["build"]["args"]["DISTRO"] == name
 
 
-def test_jazzy_is_what_comes_without_a_choice() -> None:
+def test_jazzy_is_the_default() -> None:
     assert configuration()["build"]["args"]["DISTRO"] == "jazzy"
 
 

@@ -69,7 +69,7 @@ def test_no_file_needs_buildkit() -> None:
         assert "<<" not in text
 
 
-def test_an_image_says_what_it_is(image: Image) -> None:
+def test_an_image_has_labels_that_describe_it(image: Image) -> None:
     stage_name, distro, *wheels = image.tags[0].partition(":")[2].split("-")
     assert image.labels["ros2-teaching-lab.distro"] == distro
     assert image.labels["ros2-teaching-lab.stage"] == stage_name
@@ -88,7 +88,7 @@ def test_nothing_runs_as_root_and_nobody_can_become_it(client: DockerClient, ima
     assert writable == ""  # nothing of ours is set-user-id
 
 
-def test_no_solution_and_no_hidden_check_is_in_any_image(layers: Layers) -> None:
+def test_no_image_contains_a_solution_or_a_hidden_check(layers: Layers) -> None:
     names = layers.names
     assert not [name for name in names if "keys" in Path(name).parts and "grader" in name]
     assert not [name for name in names if name.endswith(("hidden.yaml", "mutants.yaml"))]
@@ -98,7 +98,7 @@ def test_no_solution_and_no_hidden_check_is_in_any_image(layers: Layers) -> None
     assert not [name for name in names if Path(name).name in own]
 
 
-def test_the_extra_certificate_is_in_no_layer(layers: Layers) -> None:
+def test_no_layer_contains_the_extra_certificate(layers: Layers) -> None:
     names = layers.names
     assert not [name for name in names if "extra.crt" in name or "ca-certificates/docker" in name]
     extra = engine.network().extra_ca
@@ -107,7 +107,7 @@ def test_the_extra_certificate_is_in_no_layer(layers: Layers) -> None:
     assert not (given - public) & layers.certificates
 
 
-def test_ros_is_where_the_tutorial_looks(client: DockerClient, image: Image) -> None:
+def test_ros_is_where_the_tutorial_expects_it(client: DockerClient, image: Image) -> None:
     distro = image.labels["ros2-teaching-lab.distro"]
     script = f". /opt/ros/{distro}/setup.bash && ros2 pkg prefix rclpy && colcon --help > /dev/null"
     assert said_in(client, image, script).strip() == f"/opt/ros/{distro}"
@@ -123,7 +123,7 @@ def test_the_lab_has_what_a_student_needs(client: DockerClient) -> None:
     assert said_in(client, lab, script).splitlines() == ["/usr/share/man/man1/ls.1.gz"]
 
 
-def test_the_build_sees_no_keys_and_no_rubbish() -> None:
+def test_the_build_context_has_no_keys_and_no_generated_files() -> None:
     rules = (stage.ROOT / ".dockerignore").read_text().splitlines()
     for name in ("grader/keys/hello_time/solution/x.py", "README.md", ".git/config",
                  "grader/__pycache__/x.pyc", "tests/stage.py", ".venv/bin/python"):  # fmt: skip
@@ -137,7 +137,9 @@ def test_the_build_sees_no_keys_and_no_rubbish() -> None:
         assert not is_ignored(name, rules), name
 
 
-def test_docker_itself_reads_the_ignore_file_alike(client: DockerClient, tmp_path: Path) -> None:
+def test_docker_itself_interprets_the_ignore_file_the_same_way(
+    client: DockerClient, tmp_path: Path
+) -> None:
     """The build context of the docker command holds no file that ours would leave out."""
     dockerfile = tmp_path / "Dockerfile"
     dockerfile.write_text("FROM scratch\nCOPY . /context\n")
@@ -183,7 +185,7 @@ def test_a_distro_without_wheels_has_no_wheels_image(client: DockerClient) -> No
     assert "BASE=ros" in caught.value.remedy
 
 
-def test_a_base_that_cannot_be_had_is_said_with_what_to_do(client: DockerClient) -> None:
+def test_an_unavailable_base_image_is_reported_with_a_fix(client: DockerClient) -> None:
     with pytest.raises(SurroundingsError) as caught:
         build_image(
             client,
@@ -197,7 +199,7 @@ def test_a_base_that_cannot_be_had_is_said_with_what_to_do(client: DockerClient)
     assert "BASE=wheels" in caught.value.remedy
 
 
-def test_a_certificate_that_is_none_is_refused(client: DockerClient, tmp_path: Path) -> None:
+def test_an_invalid_certificate_is_refused(client: DockerClient, tmp_path: Path) -> None:
     (tmp_path / "not.pem").write_text("hello")
     for file in (tmp_path / "not.pem", tmp_path / "missing.pem"):
         with pytest.raises(UsageError, match=file.name):
@@ -211,7 +213,7 @@ def test_a_certificate_that_is_none_is_refused(client: DockerClient, tmp_path: P
             )
 
 
-def test_a_second_build_is_made_of_the_cache(client: DockerClient) -> None:
+def test_a_second_build_uses_the_cache(client: DockerClient) -> None:
     """On the official image too, whose entry point the classic builder stumbles over."""
     lines: list[str] = []
     made = [
@@ -229,7 +231,7 @@ def test_a_second_build_is_made_of_the_cache(client: DockerClient) -> None:
     assert [line for line in lines if "ENTRYPOINT" in line]
 
 
-def test_every_distro_has_its_rows_in_the_table(client: DockerClient) -> None:
+def test_every_distro_has_rows_in_the_documented_table(client: DockerClient) -> None:
     rows = images.table(client)
     assert {row.distro for row in rows} == set(distros())
     here = {row.name for row in rows if row.size}

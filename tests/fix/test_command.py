@@ -44,7 +44,7 @@ def test_apply_writes_and_says_where_the_old_files_are(tmp_path: Path) -> None:
     assert "Nothing is wrong" in again.stderr
 
 
-def test_what_cannot_be_fixed_is_named_and_the_status_is_1(tmp_path: Path) -> None:
+def test_unfixable_mistakes_are_named_and_the_status_is_1(tmp_path: Path) -> None:
     root = edited(tmp_path, EMPTY, NAME)
     done = stage.run(stage.grader("fix", "--apply", root))
     assert done.returncode == 1
@@ -63,7 +63,7 @@ def test_one_check_alone_can_be_fixed(tmp_path: Path) -> None:
     }
 
 
-def test_a_setup_py_that_cannot_be_read_is_not_called_right(tmp_path: Path) -> None:
+def test_an_unreadable_setup_py_is_not_reported_as_right(tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(SETUP, "setup(\n    name", "setup((\n    name"))
     done = stage.run(stage.grader("fix", "--no-run", root))
     assert done.returncode == 1
@@ -72,14 +72,14 @@ def test_a_setup_py_that_cannot_be_read_is_not_called_right(tmp_path: Path) -> N
     assert one.returncode == 1
 
 
-def test_a_comma_that_setup_py_lacks_is_put_in_without_a_run(tmp_path: Path) -> None:
+def test_a_missing_comma_in_setup_py_is_added_without_a_run(tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(SETUP, "version='0.0.0',", "version='0.0.0'"), NAME)
     done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
     assert done.returncode == 0, done.stderr
     assert "version='0.0.0'," in (root / SETUP).read_text()
 
 
-def test_a_workspace_is_fixed_where_its_package_lies(tmp_path: Path) -> None:
+def test_the_package_inside_a_workspace_is_fixed(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     workspace = tmp_path / "ros2_ws"
     shutil.copytree(root, workspace / "src" / INNER)
@@ -88,7 +88,7 @@ def test_a_workspace_is_fixed_where_its_package_lies(tmp_path: Path) -> None:
     assert (workspace / "src" / INNER / f"{MANIFEST}.~1~").is_file()
 
 
-def test_a_folder_without_a_package_is_told_and_is_1(tmp_path: Path) -> None:
+def test_a_folder_without_a_package_is_reported_with_status_1(tmp_path: Path) -> None:
     done = stage.run(stage.grader("fix", tmp_path))
     assert done.returncode == 1
     assert "package.found" in done.stderr
@@ -102,7 +102,7 @@ def _zip(root: Path) -> bytes:
     return stream.getvalue()
 
 
-def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
+def test_a_usage_error_has_status_2_and_writes_nothing(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     archive = tmp_path / "handed_in.zip"
     archive.write_bytes(_zip(root))
@@ -130,7 +130,7 @@ def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
     assert tree(tmp_path) == before
 
 
-def test_a_read_only_file_is_2_with_nothing_written(tmp_path: Path) -> None:
+def test_a_read_only_file_has_status_2_and_nothing_is_written(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, Delete(MARKER))
     (root / MANIFEST).chmod(0o444)
     before = tree(root)
@@ -151,7 +151,7 @@ def test_a_diff_is_coloured_on_a_terminal_and_plain_in_a_pipe(tmp_path: Path) ->
     assert "\x1b" not in stage.run(words).stdout
 
 
-def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path) -> None:
+def test_control_characters_of_a_submission_do_not_reach_the_terminal(tmp_path: Path) -> None:
     root = edited(
         tmp_path,
         Replace(SETUP, "'test_node = my", "'test_nod = my"),
@@ -171,7 +171,7 @@ def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path)
 
 
 @pytest.mark.prefix
-def test_what_only_a_run_shows_is_fixed_and_run_again(tmp_path: Path) -> None:
+def test_a_mistake_found_by_a_run_is_fixed_and_run_again(tmp_path: Path) -> None:
     root = edited(
         tmp_path,
         Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"),

@@ -38,7 +38,9 @@ def made_by(tool: tuple[str, ...], old: dict[str, bytes], patch: bytes) -> dict[
 @settings(max_examples=60, deadline=None)
 @given(old=DATA, new=DATA)
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
-def test_any_bytes_become_any_others(tool: tuple[str, ...], old: bytes, new: bytes) -> None:
+def test_a_diff_turns_any_bytes_into_any_others(
+    tool: tuple[str, ...], old: bytes, new: bytes
+) -> None:
     patch = diff(files({"f": old}), files({"f": new}))
     if old == new:
         assert patch == b""
@@ -48,7 +50,7 @@ def test_any_bytes_become_any_others(tool: tuple[str, ...], old: bytes, new: byt
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 @pytest.mark.parametrize("name", NAMES)
-def test_any_name_arrives(name: str, tool: tuple[str, ...]) -> None:
+def test_a_diff_keeps_any_file_name(name: str, tool: tuple[str, ...]) -> None:
     patch = diff(files({name: b"one\n"}), files({name: b"two\n"}))
     assert made_by(tool, {name: b"one\n"}, patch) == {name: b"two\n"}
 
@@ -56,7 +58,7 @@ def test_any_name_arrives(name: str, tool: tuple[str, ...]) -> None:
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("changed", [True, False])
-def test_a_file_moves_with_or_without_a_change(
+def test_a_file_moves_with_or_without_changes(
     name: str, tool: tuple[str, ...], changed: bool
 ) -> None:
     old = files({name: b"one\ntwo\n"})
@@ -66,12 +68,12 @@ def test_a_file_moves_with_or_without_a_change(
     assert made == {"new name.py": b"one\n2\n" if changed else b"one\ntwo\n"}
 
 
-def test_a_file_that_moves_there_and_back_is_no_change() -> None:
+def test_a_file_moved_there_and_back_gives_no_diff() -> None:
     old = files({"a": b"1\n"})
     assert diff(old, old.with_move("a", "b").with_move("b", "a")) == b""
 
 
-def test_modes_are_those_that_git_knows() -> None:
+def test_modes_are_the_two_that_git_records() -> None:
     old = files({"a": b"1\n"}, mode=0o640)
     assert diff(old, old.with_mode("a", 0o750)) == (
         b"diff --git a/a b/a\nold mode 100644\nnew mode 100755\n"
@@ -79,7 +81,7 @@ def test_modes_are_those_that_git_knows() -> None:
     assert diff(old, old.with_mode("a", 0o600)) == b""
 
 
-def test_a_long_file_in_which_every_line_changes_is_compared_at_once() -> None:
+def test_a_long_file_with_every_line_changed_is_compared_quickly() -> None:
     old, new = b"x\r\n" * 20_000, b"x\n" * 20_000
     patch = diff(files({"f": old}), files({"f": new}))
     assert made_by(TOOLS[0], {"f": old}, patch) == {"f": new}

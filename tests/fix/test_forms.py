@@ -184,7 +184,7 @@ MORE: dict[str, tuple[Edit, ...]] = {
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_it_is_fixed(form: str, tmp_path: Path) -> None:
+def test_the_mistake_is_fixed(form: str, tmp_path: Path) -> None:
     edit, (path, wanted) = FORMS[form]
     plan = plan_of(edited(tmp_path, edit, *MORE.get(form, ())))
     assert not plan.left, plan.left
@@ -221,13 +221,13 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
 
 
 @pytest.mark.parametrize("form", UNCERTAIN)
-def test_it_is_left_to_the_student(form: str, tmp_path: Path) -> None:
+def test_an_uncertain_fix_is_left_to_the_student(form: str, tmp_path: Path) -> None:
     root = edited(tmp_path, *UNCERTAIN[form])
     plan = plan_of(root)
     assert contents(plan.new) == contents(plan.old), plan.patch.decode()
 
 
-def test_an_entry_that_is_there_twice_is_not_added_once_more(tmp_path: Path) -> None:
+def test_an_entry_that_exists_twice_is_not_added_again(tmp_path: Path) -> None:
     """(Two on one line, without a comma between them: found by fuzzing.)"""
     entry = "'test_node = my_robot_controller.my_first_node:main'"
     wrong = entry.replace("first", "frist")

@@ -22,7 +22,7 @@ def prose(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("words", [("--dry-run",), ("--apply",), ("--check", "package.marker")])
-def test_what_is_said_is_korean_and_the_diff_is_the_same(
+def test_messages_are_korean_and_the_diff_is_the_same(
     words: tuple[str, ...], tmp_path: Path
 ) -> None:
     roots = [edited(tmp_path / lang, NAME, Delete(MARKER)) for lang in ("en", "ko")]
@@ -37,7 +37,7 @@ def test_what_is_said_is_korean_and_the_diff_is_the_same(
         assert prose(line) == [], line
 
 
-def test_what_is_left_is_told_in_korean(tmp_path: Path) -> None:
+def test_unfixed_mistakes_are_listed_in_korean(tmp_path: Path) -> None:
     root = edited(tmp_path, Write(NODE, b""), NAME)
     done = stage.run(stage.grader("fix", "--lang", "ko", root))
     assert done.returncode == 1
@@ -48,7 +48,7 @@ def test_what_is_left_is_told_in_korean(tmp_path: Path) -> None:
     assert prose(done.stderr) == []
 
 
-def test_wrong_usage_and_refusals_are_told_in_korean(tmp_path: Path) -> None:
+def test_usage_errors_and_refusals_are_in_korean(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     (root / MANIFEST).chmod(0o444)
     file = tmp_path / "handed_in.zip"

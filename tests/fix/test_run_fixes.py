@@ -78,15 +78,13 @@ def patches(name: str, folder: Path) -> list[str]:
     return found
 
 
-def test_each_mistake_with_a_fix_is_one_of_the_catalogue() -> None:
+def test_each_mistake_with_a_fix_is_in_the_catalogue() -> None:
     assert set(BY_MISTAKE) <= set(CATALOGUE)
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 @pytest.mark.parametrize("name", BACK_TO_SOLUTION)
-def test_the_patch_leads_back_to_the_solution(
-    name: str, tool: tuple[str, ...], tmp_path: Path
-) -> None:
+def test_the_patch_restores_the_solution(name: str, tool: tuple[str, ...], tmp_path: Path) -> None:
     patch = patches(name, tmp_path)[0]
     assert patch
     fixed = with_tool(tool, patch.encode(), tmp_path / name)
@@ -95,12 +93,12 @@ def test_the_patch_leads_back_to_the_solution(
 
 
 @pytest.mark.parametrize("name", OTHERWISE)
-def test_the_patch_holds_the_fix(name: str, tmp_path: Path) -> None:
+def test_the_patch_contains_the_fix(name: str, tmp_path: Path) -> None:
     assert OTHERWISE[name] in patches(name, tmp_path)[0]
 
 
 @pytest.mark.parametrize("name", sorted(NOT_MENDED))
-def test_where_nothing_is_certain_there_is_no_patch(name: str, tmp_path: Path) -> None:
+def test_an_uncertain_mistake_has_no_patch(name: str, tmp_path: Path) -> None:
     assert set(patches(name, tmp_path)) == {""}
 
 
@@ -119,7 +117,7 @@ def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
         for name in (*BACK_TO_SOLUTION, *OTHERWISE)
     ],
 )
-def test_the_real_verdict_is_full_after_the_fix(name: str, tmp_path: Path) -> None:
+def test_the_real_verdict_has_full_marks_after_the_fix(name: str, tmp_path: Path) -> None:
     root = write(package(name), tmp_path)
     limits = ("build_seconds=30", "start_seconds=15")
     (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
@@ -138,7 +136,7 @@ def test_the_real_verdict_is_full_after_the_fix(name: str, tmp_path: Path) -> No
         "self.create_timer(period(), self.timer_callback())\n        self.create_timer(2.0, None)",
     ],
 )
-def test_code_of_another_form_is_left_alone(line: str, tmp_path: Path) -> None:
+def test_unrecognised_code_is_left_unchanged(line: str, tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(NODE, "self.create_timer(1.0, self.timer_callback)", line))
     files = Files.of(taken(root))
     for mistake in ("node.callback_called", "run.wrong_period", "node.callback_misspelt"):

@@ -41,13 +41,13 @@ def named(package: Package) -> str:
     return package.name
 
 
-def test_most_of_what_files_show_is_fixed() -> None:
+def test_most_static_mistakes_are_fixed() -> None:
     assert {package.name for package in SHOWN_BY_FILES} >= NOT_MENDED
     assert len(MENDED) >= 50
 
 
 @pytest.mark.parametrize("package", MENDED, ids=named)
-def test_every_check_of_the_files_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
+def test_every_static_check_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert not plan.left
     results = decided(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
@@ -68,7 +68,7 @@ def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path:
 
 
 @pytest.mark.parametrize("package", MENDED, ids=named)
-def test_what_is_fixed_stays_as_it_is(package: Package, tmp_path: Path) -> None:
+def test_a_fixed_package_is_not_changed_again(package: Package, tmp_path: Path) -> None:
     root = write(package, tmp_path)
     fixed = with_tool(TOOLS[0], plan_of(root).patch, root)
     again = plan_of(fixed)
@@ -86,7 +86,7 @@ def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_pa
 
 
 @pytest.mark.parametrize("package", [p for p in SHOWN_BY_FILES if p.name in NOT_MENDED], ids=named)
-def test_where_nothing_is_certain_the_file_at_fault_stays(package: Package, tmp_path: Path) -> None:
+def test_an_uncertain_mistake_leaves_its_file_unchanged(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert plan.left
     for finding in plan.left:
@@ -102,7 +102,7 @@ def test_without_a_package_there_is_no_patch(package: Package, tmp_path: Path) -
     assert patch_for(result, submission, ASSIGNMENT) == ""
 
 
-def test_many_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
+def test_several_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
     wanted = (
         *("build_type_missing", "marker_missing", "setup_cfg_without_install"),
         *("exec_bit_missing", "shebang_crlf", "comma_missing", "manifest_other_name"),
@@ -117,13 +117,13 @@ def test_many_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
     }
 
 
-def test_a_right_package_is_left_alone(tmp_path: Path) -> None:
+def test_a_right_package_is_left_unchanged(tmp_path: Path) -> None:
     plan = plan_of(write(Package(name="right", edits=()), tmp_path))
     assert plan.patch == b""
     assert plan.left == ()
 
 
-def test_a_report_is_not_filled_by_the_diff_of_a_huge_file(tmp_path: Path) -> None:
+def test_the_diff_of_a_huge_file_is_left_out_of_a_report(tmp_path: Path) -> None:
     root = write(Package(name="huge", edits=(Crlf(NODE),)), tmp_path)
     for size, has_patch in ((100, True), (1_000, False), (100_000, False)):
         code = b"#!/usr/bin/env python3\r\n" + b"x = 'some text of a line'\r\n" * size

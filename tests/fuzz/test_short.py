@@ -91,7 +91,7 @@ HOSTILE = {
 
 @pytest.mark.parametrize("name", TARGETS)
 @pytest.mark.parametrize("kind", HOSTILE)
-def test_what_is_made_to_be_slow_is_bounded_in_time(kind: str, name: str) -> None:
+def test_input_made_to_be_slow_takes_bounded_time(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])  # (what is loaded at the first call does not count)
     found = HOSTILE[kind]
     begin = time.process_time()
@@ -102,7 +102,7 @@ def test_what_is_made_to_be_slow_is_bounded_in_time(kind: str, name: str) -> Non
 @pytest.mark.full
 @pytest.mark.parametrize("name", TARGETS)
 @pytest.mark.parametrize("kind", HOSTILE)
-def test_what_is_made_to_be_large_takes_little_memory(kind: str, name: str) -> None:
+def test_input_made_to_be_large_needs_little_memory(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])
     tracemalloc.start()
     try:

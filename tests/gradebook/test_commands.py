@@ -42,7 +42,7 @@ def test_a_report_is_converted_into_each_form(report: Path) -> None:
     assert outputs("convert", "md", report).stdout.startswith("# anna")
 
 
-def test_the_archive_is_written_for_its_owner_only(tmp_path: Path) -> None:
+def test_the_archive_is_readable_by_its_owner_only(tmp_path: Path) -> None:
     out = tmp_path / "autograder.zip"
     done = outputs("gradescope-zip", out)
     assert done.returncode == 0, done.stderr
@@ -63,7 +63,7 @@ def test_the_archive_is_written_for_its_owner_only(tmp_path: Path) -> None:
         (["gradescope-zip", "/no/such/folder/x.zip"], 3, "could not be written"),
     ],
 )
-def test_wrong_usage_says_what_to_do(words: list[str], status: int, said: str) -> None:
+def test_a_usage_error_says_what_to_do(words: list[str], status: int, said: str) -> None:
     done = outputs(*words)
     assert done.returncode == status
     assert said in done.stderr

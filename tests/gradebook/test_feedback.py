@@ -38,7 +38,7 @@ def both(entry_of: ClassResult, key: str) -> list[str]:
     return [spoken(markdown(entry, TITLE, show_hidden=False)), page]
 
 
-def test_the_result_corrections_lateness_and_attempts_are_told(mixed: ClassResult) -> None:
+def test_result_corrections_lateness_and_attempts_are_listed(mixed: ClassResult) -> None:
     for text in both(mixed, "1003"):
         assert "of 100 points" in text
         assert "Late by 2 h 10 min: 5 points taken." in text
@@ -70,7 +70,7 @@ def test_hidden_checks_are_counted_and_not_named() -> None:
     assert "secret" in markdown(entry, TITLE, show_hidden=True)
 
 
-def test_nothing_of_others_and_nothing_for_the_instructor_alone(mixed: ClassResult) -> None:
+def test_nothing_about_others_and_no_notes_for_the_instructor_are_shown(mixed: ClassResult) -> None:
     entry = dataclasses.replace(mixed.entries[0], same_as=("1006",), notes=("smells of copying",))
     result = dataclasses.replace(mixed, entries=(entry, *mixed.entries[1:]))
     assert entry.report is not None
@@ -81,7 +81,9 @@ def test_nothing_of_others_and_nothing_for_the_instructor_alone(mixed: ClassResu
 
 
 @pytest.mark.parametrize(("key", "said"), [("1013", "ends in the middle"), ("1007", "nothing")])
-def test_who_has_no_report_is_told_why(mixed: ClassResult, key: str, said: str) -> None:
+def test_a_student_without_a_report_gets_the_reason(
+    mixed: ClassResult, key: str, said: str
+) -> None:
     for text in both(mixed, key):
         assert said in text
 
@@ -128,7 +130,7 @@ def test_no_text_becomes_markup_in_html(text: str) -> None:
 
 
 @pytest.mark.full  # Chromium is not there for `make test`
-def test_the_page_asks_for_nothing_and_runs_nothing(visit: Open, tmp_path: Path) -> None:
+def test_the_page_loads_nothing_and_runs_nothing(visit: Open, tmp_path: Path) -> None:
     text = "\"'></pre><script>alert(1)</script><img src=http://x.example/ onerror=alert(2)>"
     path = tmp_path / "feedback.html"
     path.write_bytes(html_page(hostile_entry(text), text, show_hidden=True))

@@ -31,7 +31,7 @@ def notice(found: dict[str, Any]) -> tuple[float, float]:
     return sum(test["score"] for test in found["tests"]), found["max_score"]
 
 
-def test_the_notice_has_the_final_points_of_everybody(mixed: ClassResult) -> None:
+def test_the_notice_has_the_final_points(mixed: ClassResult) -> None:
     for entry in mixed.entries:
         found = read(github.encoded(github.results(entry)))
         points, most = notice(found)
@@ -71,12 +71,12 @@ def test_hidden_checks_are_one_line_without_names() -> None:
     assert "build.colcon" in json.dumps(github.results(entry, show_hidden=True))
 
 
-def test_there_is_always_a_test() -> None:
+def test_there_is_always_at_least_one_test() -> None:
     for entry in (classes.entry(1, None, status="missing"), single(samples.report(checks=[]))):
         assert len(read(github.encoded(github.results(entry)))["tests"]) >= 1
 
 
-def test_the_step_s_output_is_one_line_and_the_variable_is_named_by_the_step() -> None:
+def test_the_steps_output_is_one_line_and_the_variable_has_its_name() -> None:
     line = github.github_output(github.results(single(samples.failing_report())))
     name, _, value = line.partition("=")
     assert name == "result"
@@ -87,7 +87,7 @@ def test_the_step_s_output_is_one_line_and_the_variable_is_named_by_the_step() -
 
 @settings(max_examples=60, deadline=None)
 @given(texts)
-def test_hostile_texts_keep_the_points_and_print_nothing_strange(text: str) -> None:
+def test_hostile_texts_change_no_points_and_print_no_workflow_command(text: str) -> None:
     entry = hostile_entry(text)
     found = read(github.encoded(github.results(entry)))
     assert notice(found)[0] == entry.final

@@ -61,7 +61,7 @@ def test_each_state_of_a_check_has_its_element(reports: tuple[Report, ...]) -> N
         assert kinds(suite) == {check.id: KINDS[check.status] for check in report.checks}
 
 
-def test_the_numbers_of_the_suites_are_those_of_their_cases(mixed: ClassResult) -> None:
+def test_the_counts_of_a_suite_match_its_cases(mixed: ClassResult) -> None:
     content = class_xml(mixed)
     found = suites(content)
     assert [suite.name for suite in found] == [entry.student.key for entry in mixed.entries]
@@ -75,7 +75,7 @@ def test_the_numbers_of_the_suites_are_those_of_their_cases(mixed: ClassResult) 
     assert {name: int(top.get(name, "-1")) for name in sums} == sums
 
 
-def test_who_has_no_report_is_told_apart(mixed: ClassResult) -> None:
+def test_a_student_without_a_report_is_distinguished(mixed: ClassResult) -> None:
     found = {
         suite.name: kinds(suite)["submission"]
         for suite in suites(class_xml(mixed))
@@ -107,7 +107,7 @@ def test_a_check_that_was_corrected_to_all_its_points_passes(broken: Report) -> 
 
 @settings(max_examples=80, deadline=None)
 @given(st.lists(texts, min_size=1, max_size=2))
-def test_every_text_gives_xml_that_can_be_read(found: list[str]) -> None:
+def test_every_text_gives_readable_xml(found: list[str]) -> None:
     content = class_xml(hostile_class(*found))
     assert len(suites(content)) == len(found)
     for element in ET.fromstring(content).iter():

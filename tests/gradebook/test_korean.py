@@ -160,7 +160,7 @@ def english(text: str) -> list[str]:
 
 @pytest.mark.parametrize("show_hidden", [False, True])
 @pytest.mark.parametrize("entry", ENTRIES, ids=range(len(ENTRIES)))
-def test_feedback_has_no_english_in_it(entry: Entry, show_hidden: bool) -> None:
+def test_feedback_has_no_english(entry: Entry, show_hidden: bool) -> None:
     page = html_page(entry, TITLE, show_hidden=show_hidden).decode()
     assert '<html lang="ko"' in page
     short = short_html(entry, show_hidden=show_hidden)
@@ -176,7 +176,7 @@ def _without_contact(text: str, entry: Entry) -> str:
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=range(len(ENTRIES)))
-def test_what_other_systems_show_has_no_english_in_it(entry: Entry) -> None:
+def test_texts_for_other_systems_have_no_english(entry: Entry) -> None:
     documents: list[Any] = [prairielearn.results(entry), github.results(entry)]
     if entry.report is not None:
         documents.append(gradescope.results(entry.report, penalty=5, overrides=entry.overrides))
@@ -191,14 +191,14 @@ def test_what_other_systems_show_has_no_english_in_it(entry: Entry) -> None:
             assert english(text) == [], text
 
 
-def test_what_is_no_report_yet_is_told_in_the_language_that_was_asked_for() -> None:
+def test_a_student_without_a_report_gets_the_chosen_language() -> None:
     found = gradescope.problem(OUR_FAULT, lang="ko")
     for text in strings(found):
         assert re.search("[가-힣]", text)
         assert english(text) == [], text
 
 
-def test_moodle_s_feedback_is_korean_and_its_header_is_moodle_s() -> None:
+def test_moodles_feedback_is_korean_and_its_header_stays() -> None:
     result: ClassResult = classes.result([ENTRIES[0]], title=TITLE)
     header, row = moodle_import(result, comment, by="email").content.decode().splitlines()
     assert header.startswith("Email address,Full name,")
@@ -221,7 +221,7 @@ def test_ids_points_and_states_are_the_same_in_both_languages() -> None:
     assert json.dumps(gradescope.results(EVERYTHING)).isascii()
 
 
-def test_gradescope_s_archive_keeps_the_language(tmp_path: Path) -> None:
+def test_gradescopes_archive_keeps_the_language(tmp_path: Path) -> None:
     with zipfile.ZipFile(io.BytesIO(gradescope_zip(lang="ko"))) as archive:
         script = archive.read("run_autograder").decode("ascii")
         names = archive.namelist()
@@ -236,7 +236,7 @@ def test_gradescope_s_archive_keeps_the_language(tmp_path: Path) -> None:
     assert english(found["output"]) == []
 
 
-def test_gradescope_s_results_are_korean_before_the_first_check_and_after_a_fault(
+def test_gradescopes_results_are_korean_before_the_first_check_and_after_a_fault(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "submission").mkdir()

@@ -31,7 +31,7 @@ def test_each_student_has_one_row_by_id_number(mixed: ClassResult) -> None:
     assert "laboratory" in found[mixed.entries[9].student.id_number]["Feedback"]
 
 
-def test_a_row_without_a_grade_would_take_one_away_so_there_is_none(mixed: ClassResult) -> None:
+def test_a_student_without_a_grade_has_no_row(mixed: ClassResult) -> None:
     """grade/import/csv takes `-` and an empty cell for null, and writes it over what is there."""
     assert any(entry.final is None for entry in mixed.entries)
     assert {row[mixed.title] for row in rows(moodle_import(mixed, comment).content)}.isdisjoint(
@@ -39,7 +39,7 @@ def test_a_row_without_a_grade_would_take_one_away_so_there_is_none(mixed: Class
     )
 
 
-def test_who_cannot_be_told_is_left_out_and_named() -> None:
+def test_an_ambiguous_student_is_left_out_and_named() -> None:
     entries = [classes.entry(n, samples.report()) for n in range(5)]
 
     def with_email(n: int, email: str) -> None:
@@ -57,7 +57,7 @@ def test_who_cannot_be_told_is_left_out_and_named() -> None:
         assert entry.student.name in warning
 
 
-def test_what_most_students_have_identifies_them() -> None:
+def test_the_field_that_most_students_have_identifies_them() -> None:
     entries = [classes.entry(n, samples.report()) for n in range(3)]
     bare = [
         dataclasses.replace(e, student=dataclasses.replace(e.student, id_number="", email=""))

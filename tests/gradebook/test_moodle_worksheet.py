@@ -86,7 +86,7 @@ def test_a_german_worksheet_with_semicolons_bom_and_decimal_comma() -> None:
     assert filled.content.startswith(b"\xef\xbb\xbfID;")
 
 
-def test_other_orders_and_unknown_columns_are_no_hindrance() -> None:
+def test_other_column_orders_and_unknown_columns_are_accepted() -> None:
     worksheet = (
         b"Groupe,Remarques,Note,Note maximale,Commentaires de feedback,Identifiant\n"
         b"Groupe 1,x,,100.00,,Participant1000\nGroupe 1,y,,100.00,,Participant1002\n"
@@ -97,7 +97,7 @@ def test_other_orders_and_unknown_columns_are_no_hindrance() -> None:
     assert after[1]["Note"] == ""
 
 
-def test_an_unknown_language_works_with_the_columns_named() -> None:
+def test_an_unknown_language_works_if_the_columns_are_named() -> None:
     worksheet = b"Kennung,Pisteet,Palaute\nOsallistuja 1000,,\nOsallistuja 1001,,\n"
     with pytest.raises(UsageError, match="Pisteet") as caught:
         fill_worksheet(worksheet, one())
@@ -109,7 +109,7 @@ def test_an_unknown_language_works_with_the_columns_named() -> None:
         fill_worksheet(worksheet, one(), grade_column="Points")
 
 
-def test_who_is_not_in_the_worksheet_is_named() -> None:
+def test_a_student_outside_the_worksheet_is_named() -> None:
     result = classes.result([classes.entry(n, samples.report()) for n in (0, 1)])
     filled = fill_worksheet(english(1, 2), result)
     assert filled.warnings == (
@@ -118,7 +118,7 @@ def test_who_is_not_in_the_worksheet_is_named() -> None:
     assert [row["Grade"] for row in rows(filled.content)] == ["100", ""]
 
 
-def test_a_class_from_elsewhere_is_joined_by_email_never_by_a_number() -> None:
+def test_a_class_of_another_system_is_matched_by_email_not_by_number() -> None:
     result = dataclasses.replace(one(1), system="folders")
     swapped = (
         english(0, 1)
@@ -129,7 +129,7 @@ def test_a_class_from_elsewhere_is_joined_by_email_never_by_a_number() -> None:
     assert [row["Grade"] for row in after] == ["", "85"]
 
 
-def test_more_than_the_maximum_is_refused_by_name() -> None:
+def test_a_grade_above_the_maximum_is_refused_with_the_name() -> None:
     result = one()
     with pytest.raises(UsageError) as caught:
         fill_worksheet(english(0, 1, maximum="50.00"), result)
@@ -148,14 +148,14 @@ def test_more_than_the_maximum_is_refused_by_name() -> None:
         (b"Identifier,Full name,Grade\nParticipant 1000,Ann\n", "damaged"),
     ],
 )
-def test_what_is_no_worksheet_is_refused(content: bytes, said: str) -> None:
+def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, said: str) -> None:
     with pytest.raises(UsageError, match=said):
         fill_worksheet(content, one())
 
 
 @settings(max_examples=60, deadline=None)
 @given(texts)
-def test_no_text_of_a_submission_breaks_a_cell_for_php_or_for_html(text: str) -> None:
+def test_no_submission_text_breaks_a_cell_in_php_or_html(text: str) -> None:
     worksheet = english(0, 1)
     result = hostile_class(text)
     # (whose row it is, is told by number and name)

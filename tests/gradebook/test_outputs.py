@@ -62,7 +62,7 @@ def test_the_same_result_gives_the_same_bytes(mixed: ClassResult, tmp_path: Path
     assert first == {p.name: p.read_bytes() for p in write_outputs(mixed, tmp_path / "b").files}
 
 
-def test_the_others_are_written_if_one_output_is_refused(
+def test_the_other_outputs_are_written_if_one_is_refused(
     mixed: ClassResult, tmp_path: Path
 ) -> None:
     worksheet = read_worksheet(english(*range(24), maximum="10.00"))
@@ -77,7 +77,7 @@ def test_the_others_are_written_if_one_output_is_refused(
     assert "All other files were written" in caught.value.remedy
 
 
-def test_a_fault_of_ours_in_one_output_costs_none_of_the_others(
+def test_a_failing_output_does_not_prevent_the_others(
     mixed: ClassResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(result: ClassResult, *, bom: bool) -> bytes:
@@ -91,7 +91,7 @@ def test_a_fault_of_ours_in_one_output_costs_none_of_the_others(
         raise_failures(written.failures)
 
 
-def test_a_link_in_the_way_is_not_followed(mixed: ClassResult, tmp_path: Path) -> None:
+def test_a_link_at_the_output_path_is_not_followed(mixed: ClassResult, tmp_path: Path) -> None:
     out, theirs = tmp_path / "out", tmp_path / "theirs"
     out.mkdir()
     theirs.mkdir()

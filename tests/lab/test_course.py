@@ -35,9 +35,7 @@ def workspace_with(folder: Path, broken: bool) -> Path:
     return source.parent
 
 
-def test_guide_and_check_are_the_lessons_that_the_lab_was_opened_for(
-    kind: Kind, tmp_path: Path
-) -> None:
+def test_guide_and_check_belong_to_the_lesson_of_the_lab(kind: Kind, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     workspace = workspace_with(tmp_path, broken=True)
     opened = of_course(kind, course)
@@ -56,7 +54,7 @@ def test_guide_and_check_are_the_lessons_that_the_lab_was_opened_for(
     assert "f'Reading {self." in explained.stdout
 
 
-def test_the_lab_has_the_lesson_alone_and_cannot_write_to_it(kind: Kind, tmp_path: Path) -> None:
+def test_the_lab_has_only_the_lesson_and_cannot_write_to_it(kind: Kind, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     (course / "solutions.txt").write_text("secret")
     script = (
@@ -83,7 +81,7 @@ def test_a_lesson_may_be_named_by_its_file(kind: Kind, tmp_path: Path) -> None:
     assert not (tmp_path / "x").exists()
 
 
-def test_our_own_course_is_opened_for_its_lesson(kind: Kind, tmp_path: Path) -> None:
+def test_the_default_course_is_opened_for_its_lesson(kind: Kind, tmp_path: Path) -> None:
     script = 'echo "$GRADER_ASSIGNMENT-$GRADER_COURSE"; ls /opt/ros2_teaching_lab/course'
     done = run(kind, tmp_path / "ws", "--", "bash", "-c", script)
     assert done.stdout.split() == ["hello_time-"]
@@ -109,7 +107,7 @@ def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
     ]
 
 
-def test_a_home_folder_is_no_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_home_folder_is_not_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """All that a person has would be in the lab."""
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     for folder in (tmp_path / "home", tmp_path):

@@ -83,7 +83,7 @@ def test_a_language_without_a_lesson_has_the_english_one(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("step", range(2, 10))
-def test_the_guide_tells_each_next_thing_in_korean(step: int, tmp_path: Path) -> None:
+def test_the_guide_names_each_next_action_in_korean(step: int, tmp_path: Path) -> None:
     """(A next thing that is nothing but a command is the same in every language.)"""
     env = after_step(tmp_path / "ws", step, NODE)
     done = guide(workspace=tmp_path / "ws", env=env)
@@ -110,7 +110,7 @@ def test_the_guide_tells_each_next_thing_in_korean(step: int, tmp_path: Path) ->
         ("class MyFirstNode(Node):", "class MyFirstNode(Node)"),
     ],
 )
-def test_what_a_node_lacks_is_told_in_korean(old: str, new: str, tmp_path: Path) -> None:
+def test_missing_parts_of_a_node_are_named_in_korean(old: str, new: str, tmp_path: Path) -> None:
     env = after_step(tmp_path / "ws", 9, NODE.replace(old, new))
     *_, last = guide(workspace=tmp_path / "ws", env=env).stdout.splitlines()
     assert "my_first_node.py" in last
@@ -118,7 +118,7 @@ def test_what_a_node_lacks_is_told_in_korean(old: str, new: str, tmp_path: Path)
     assert PROSE.findall(last) == []
 
 
-def test_a_package_in_a_wrong_state_and_a_wrong_step_are_told_in_korean(tmp_path: Path) -> None:
+def test_a_package_in_a_wrong_state_and_a_wrong_step_are_reported_in_korean(tmp_path: Path) -> None:
     env = after_step(tmp_path / "ws", 9, NODE)
     put(tmp_path / "ws", "src/my_robot_controller/setup.py", "setup(")
     listed = guide("list", workspace=tmp_path / "ws", env=env).stdout.splitlines()
@@ -129,7 +129,7 @@ def test_a_package_in_a_wrong_state_and_a_wrong_step_are_told_in_korean(tmp_path
     assert "'11' 단계는 없습니다" in done.stderr
 
 
-def test_the_shell_s_words_have_every_language_with_the_same_places() -> None:
+def test_the_shells_texts_exist_in_every_language_with_the_same_placeholders() -> None:
     def words(lang: str) -> dict[str, list[str]]:
         text = (WORDS / f"{lang}.sh").read_text(encoding="utf-8")
         found = re.findall(r"^(\w+)=(.*)$", text, re.MULTILINE)
@@ -143,7 +143,7 @@ def test_the_shell_s_words_have_every_language_with_the_same_places() -> None:
         assert all(HANGUL.search(line) for line in lines)
 
 
-def test_the_language_of_the_caller_is_the_labs(kind: Kind, tmp_path: Path) -> None:
+def test_the_lab_has_the_language_of_the_caller(kind: Kind, tmp_path: Path) -> None:
     for words, env, lang in (
         ((), KOREAN, "ko"),
         (("--lang", "ko"), {**KOREAN, "LANG": "C.UTF-8"}, "ko"),
@@ -157,7 +157,7 @@ def test_the_language_of_the_caller_is_the_labs(kind: Kind, tmp_path: Path) -> N
             assert bool(HANGUL.search(line)) == (lang == "ko"), line
 
 
-def test_a_check_in_the_lab_speaks_the_language(kind: Kind, tmp_path: Path) -> None:
+def test_a_check_in_the_lab_uses_the_language(kind: Kind, tmp_path: Path) -> None:
     there = Kind(kind.sandbox, {**kind.env, **KOREAN})
     done = run(there, tmp_path / "ws", "--", "check")
     assert done.returncode == 1, done.stderr
@@ -175,7 +175,7 @@ def test_the_welcome_is_in_the_language(kind: Kind, tmp_path: Path) -> None:
         assert lab.leave() == 0
 
 
-def test_wrong_words_are_told_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_usage_errors_of_the_lab_are_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
     for words, status in (
         (["--workspace", "/"], 2),
         (["--sandbox", "dokcer"], 2),

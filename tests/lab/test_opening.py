@@ -61,7 +61,7 @@ def test_help_is_quick_to_load_and_names_the_options() -> None:
         (["--sandbox", "bubblewrap", "--workspace", "/proc/ws"], "cannot be made"),
     ],
 )
-def test_wrong_words_are_told_with_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
+def test_usage_errors_say_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
     done = lab(*words, "--", "true")
     assert done.returncode == 2
     assert said in done.stderr
@@ -78,7 +78,7 @@ def test_auto_without_a_daemon_opens_bubblewrap_and_says_why(
     assert line.startswith("lab: opening ROS 2 jazzy in bubblewrap, since ")
 
 
-def test_docker_without_a_daemon_is_told(tmp_path: Path) -> None:
+def test_docker_without_a_daemon_is_reported(tmp_path: Path) -> None:
     done = lab("--sandbox", "docker", "--workspace", tmp_path / "ws", "--", "true", env=NO_DAEMON)
     assert done.returncode == 3
     assert "Traceback" not in done.stderr
@@ -92,7 +92,7 @@ def test_a_distro_without_wheels_and_without_docker_says_what_it_needs(tmp_path:
 
 
 @pytest.mark.docker
-def test_docker_without_an_image_names_the_command_that_makes_it(
+def test_docker_without_an_image_names_the_command_that_builds_it(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     words: list[str | Path] = ["--workspace", tmp_path / "ws", "--", "echo", "inside"]
@@ -124,9 +124,7 @@ def test_the_default_workspace_is_ros2_ws_in_the_callers_home(ros_jazzy: Ros) ->
         assert (home / "ros2_ws" / "src").is_dir()
 
 
-def test_a_workspace_that_is_there_is_used_and_nothing_of_it_changed(
-    kind: Kind, tmp_path: Path
-) -> None:
+def test_an_existing_workspace_is_used_and_not_changed(kind: Kind, tmp_path: Path) -> None:
     with open_to_all() as folder:
         workspace = folder / "ws"
         (workspace / "src").mkdir(parents=True)
@@ -149,7 +147,7 @@ def test_a_workspace_that_is_there_is_used_and_nothing_of_it_changed(
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_behind_sudo_the_files_are_those_of_who_called(kind: Kind) -> None:
+def test_under_sudo_the_files_belong_to_the_caller(kind: Kind) -> None:
     with open_to_all() as folder:
         workspace = folder / "deep" / "er" / "ws"
         who = {"SUDO_UID": "4321", "SUDO_GID": "4322"}
@@ -167,7 +165,7 @@ def test_behind_sudo_the_files_are_those_of_who_called(kind: Kind) -> None:
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_a_workspace_of_roots_is_refused_rather_than_changed(
+def test_a_workspace_owned_by_root_is_refused_and_not_changed(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     (tmp_path / "ws" / "src").mkdir(parents=True)
@@ -198,7 +196,7 @@ def test_a_workspace_that_its_student_cannot_write_is_refused(ros_jazzy: Ros) ->
         assert "cannot be made: Permission denied" in done.stderr
 
 
-def test_bubblewrap_that_is_refused_is_told_with_cause_and_remedy(
+def test_a_forbidden_bubblewrap_is_reported_with_cause_and_fix(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     fake = tmp_path / "bin" / "bwrap"
@@ -213,7 +211,7 @@ def test_bubblewrap_that_is_refused_is_told_with_cause_and_remedy(
     assert "unprivileged user namespaces are not allowed" in done.stderr
 
 
-def test_after_an_interactive_visit_the_status_is_not_the_last_commands(
+def test_an_interactive_lab_does_not_exit_with_the_last_commands_status(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     """`make lab` would end with an error message otherwise."""

@@ -17,7 +17,7 @@ NODE = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('talker'))"
 SEEN = "timeout 60 bash -c 'until ros2 node list | grep -x /talker; do :; done'"
 
 
-def test_the_welcome_says_where_one_is_once(kind: Kind, tmp_path: Path) -> None:
+def test_the_welcome_is_shown_once(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         for word in ("ROS 2 jazzy", str(tmp_path / "ros2_ws"), "guide", "check", "exit"):
             assert word in lab.welcome
@@ -39,7 +39,9 @@ def test_the_tutorials_first_command_works_and_changes_nothing(kind: Kind, tmp_p
         assert "ros2_ws" not in lab.type("echo $AMENT_PREFIX_PATH")  # no overlay by itself
 
 
-def test_ctrl_c_reaches_what_runs_and_leaves_the_lab_open(kind: Kind, tmp_path: Path) -> None:
+def test_ctrl_c_reaches_the_running_command_and_leaves_the_lab_open(
+    kind: Kind, tmp_path: Path
+) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         start(lab, "sleep 1000")
         lab.interrupt()
@@ -51,7 +53,7 @@ def test_ctrl_c_reaches_what_runs_and_leaves_the_lab_open(kind: Kind, tmp_path: 
         assert lab.leave() == 0
 
 
-def test_ctrl_z_stops_a_command_and_fg_takes_it_up_again(kind: Kind, tmp_path: Path) -> None:
+def test_ctrl_z_stops_a_command_and_fg_resumes_it(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         mark = f"sleep 90{secrets.randbelow(10**6)}"
         start(lab, mark)
@@ -65,7 +67,7 @@ def test_ctrl_z_stops_a_command_and_fg_takes_it_up_again(kind: Kind, tmp_path: P
         assert lab.status() == 130
 
 
-def test_the_window_size_is_the_terminals_also_when_it_changes(kind: Kind, tmp_path: Path) -> None:
+def test_the_window_size_follows_the_terminal(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         size = """timeout 20 bash -c 'until [ "$(stty size)" = "%s" ]; do :; done'; echo met $?"""
         lab.screen.sendline(size % "40 200")
@@ -103,7 +105,7 @@ def test_a_second_terminal_sees_the_nodes_of_the_first(kind: Kind, tmp_path: Pat
         assert first.leave() == 0
 
 
-def test_ctrl_c_reaches_a_command_that_is_run_on_the_terminal(kind: Kind, tmp_path: Path) -> None:
+def test_ctrl_c_reaches_a_command_run_on_the_terminal(kind: Kind, tmp_path: Path) -> None:
     script = "trap 'echo last words; exit 5' INT; echo up; while :; do sleep 0.1; done"
     words = command("--sandbox", kind.sandbox, "--workspace", tmp_path / "ws", "--")
     screen = pexpect.spawn(
@@ -122,6 +124,6 @@ def test_ctrl_c_reaches_a_command_that_is_run_on_the_terminal(kind: Kind, tmp_pa
     assert screen.exitstatus == 5
 
 
-def test_a_hostile_name_is_shown_in_the_welcome_as_it_is(kind: Kind, tmp_path: Path) -> None:
+def test_a_hostile_name_is_shown_literally_in_the_welcome(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "$(echo run)") as lab:
         assert re.search(r"\\\$\\\(echo\\ run\\\)", lab.welcome)

@@ -13,7 +13,7 @@ from tests.lab.screen import Lab
 from tests.lab.workspaces import open_to_all
 
 
-def test_the_ten_steps_work_word_by_word_and_a_second_visit_finds_them(
+def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
     kind: Kind, tmp_path: Path
 ) -> None:
     workspace = tmp_path / "ros2_ws"
@@ -38,7 +38,7 @@ def test_the_ten_steps_work_word_by_word_and_a_second_visit_finds_them(
         assert lab.leave() == 0
 
 
-def test_an_ordinary_user_does_the_same_and_owns_the_files(ros_jazzy: Ros) -> None:
+def test_an_ordinary_user_can_do_the_steps_and_owns_the_files(ros_jazzy: Ros) -> None:
     with open_to_all() as folder:
         workspace = folder / "ros2_ws"
         with Lab(Kind("bubblewrap"), workspace, user=True) as lab:
@@ -47,7 +47,7 @@ def test_an_ordinary_user_does_the_same_and_owns_the_files(ros_jazzy: Ros) -> No
         assert walk.owners(workspace) == {stage.USER if os.geteuid() == 0 else os.geteuid()}
 
 
-def test_another_distro_is_another_lab_with_its_own_commands(
+def test_another_distro_has_another_lab_with_its_own_commands(
     ros_kilted: Ros, tmp_path: Path
 ) -> None:
     with Lab(Kind("bubblewrap"), tmp_path / "ros2_ws", distro="kilted") as lab:

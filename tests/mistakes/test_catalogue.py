@@ -58,7 +58,7 @@ def named_in_the_code() -> set[str]:
     return named - files - checks
 
 
-def test_every_mistake_that_is_named_has_an_entry() -> None:
+def test_every_mistake_that_the_code_names_has_an_entry() -> None:
     named = named_in_the_code()
     assert len(named) > 150
     assert named - set(CATALOGUE) == set()
@@ -92,7 +92,7 @@ def test_an_entry_can_be_read_in_every_language(kind: Kind) -> None:
 
 
 @pytest.mark.parametrize("kind", entries())
-def test_an_entry_leads_to_the_documentation(kind: Kind) -> None:
+def test_an_entry_links_to_the_documentation(kind: Kind) -> None:
     for distro in distros().values():
         parts = urlsplit(address(kind.link, distro))
         assert parts.scheme == "https"

@@ -74,7 +74,7 @@ def said(report: Report) -> list[str]:
 
 
 @pytest.mark.parametrize("package", packages())
-def test_a_verdict_in_korean_is_the_same_verdict_and_all_korean(
+def test_a_korean_verdict_is_the_same_verdict_in_korean_only(
     package: Package, tmp_path: Path
 ) -> None:
     heard: list[events.Event] = []
@@ -118,7 +118,7 @@ def test_the_language_changes_texts_and_nothing_else(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("lang", ["en", "ko"])
 @pytest.mark.parametrize("width", [40, 80, 120])
-def test_the_marks_stand_below_what_they_mark(lang: str, width: int) -> None:
+def test_the_markers_stand_below_the_marked_text(lang: str, width: int) -> None:
     check = CheckResult(
         id="run.output",
         title="x",

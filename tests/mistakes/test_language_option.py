@@ -41,7 +41,7 @@ def test_a_report_says_in_which_language_it_is(
         assert bool(re.search("[가-힣]", text)) == (lang == "ko"), text
 
 
-def test_wrong_usage_is_told_in_the_readers_language(tmp_path: Path) -> None:
+def test_usage_errors_are_in_the_readers_language(tmp_path: Path) -> None:
     done = stage.run(stage.grader("check", tmp_path / "nowhere"), env=KOREAN)
     assert done.returncode == 2
     assert "폴더가 없습니다" in done.stderr
@@ -52,7 +52,7 @@ def test_wrong_usage_is_told_in_the_readers_language(tmp_path: Path) -> None:
     assert "쓰려고" in done.stderr
 
 
-def test_a_language_that_is_not_spoken_is_wrong_usage(tmp_path: Path) -> None:
+def test_an_unsupported_language_is_a_usage_error(tmp_path: Path) -> None:
     done = stage.run(stage.grader("check", tmp_path, "--lang", "tlh"), env=ENGLISH)
     assert done.returncode == 2
     assert "tlh" in done.stderr

@@ -69,7 +69,7 @@ def marked() -> Iterator[str]:
                     yield str(first.value)
 
 
-def test_every_text_that_is_marked_is_gathered() -> None:
+def test_every_marked_text_is_extracted() -> None:
     """(Babel does not see one within an f-string, or within another that is marked.)"""
     gathered = {template for template, _ in update.templates()}
     assert set(marked()) - gathered == set()
@@ -78,7 +78,7 @@ def test_every_text_that_is_marked_is_gathered() -> None:
 @pytest.mark.parametrize(
     "room", ["publish", "cli", "verdict", "mistakes", "batch", "sandbox", "ros", "lab"]
 )
-def test_the_texts_of_every_room_that_students_read_are_gathered(room: str) -> None:
+def test_the_texts_of_every_package_that_students_read_are_extracted(room: str) -> None:
     places = {place for _, place in update.templates()}
     folder = "lab" if room == "lab" else f"grader/{room}"
     assert any(place.startswith(f"{folder}/") for place in places)
@@ -90,7 +90,7 @@ def test_korean_texts_are_korean() -> None:
             assert re.search("[가-힣]", str(message.string)), message.id
 
 
-def test_what_click_says_is_what_click_says() -> None:
+def test_the_translated_texts_of_click_are_still_those_of_click() -> None:
     """A new click may word it otherwise: the translation would be of nothing."""
     folder = Path(click.__file__).parent
     keywords: dict[str, tuple[int, ...] | None] = {"_": None, "ngettext": (1, 2)}
@@ -109,7 +109,7 @@ def test_korean_sentences_are_in_the_formal_polite_style() -> None:
 
 
 @pytest.mark.parametrize("lang", OTHERS)
-def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang: str) -> None:
+def test_the_committed_translations_are_what_the_command_writes(lang: str) -> None:
     path = update.po_path(lang)
     catalog = update.gathered(lang)
     again = "run python -m grader.cli.update_translations"
@@ -117,7 +117,7 @@ def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang
     assert path.with_suffix(".mo").read_bytes() == update.mo_bytes(catalog), again
 
 
-def test_there_are_no_texts_left_over() -> None:
+def test_there_are_no_obsolete_translations() -> None:
     known = {template for template, _ in update.templates()}
     assert {m.id for m in update.read("ko") if m.id} == {*known, *CLICK_COUNTED}
 
@@ -139,7 +139,7 @@ def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -
         ({"Fix the line.": "Fix the line."}, "'Fix the line.' is still marked"),
     ],
 )
-def test_a_map_of_renamed_texts_that_does_not_fit_the_source_is_refused(
+def test_a_map_of_renamed_texts_that_does_not_match_the_source_is_refused(
     renamed: dict[str, str], reason: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))

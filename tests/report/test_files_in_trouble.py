@@ -51,7 +51,7 @@ def test_a_planted_link_for_the_students_folder_is_not_followed(tmp_path: Path) 
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
 
-def test_a_planted_link_for_the_distros_folder_is_told(tmp_path: Path) -> None:
+def test_a_planted_link_for_the_distros_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "out" / "anna").mkdir(parents=True)
     (tmp_path / "out" / "anna" / "jazzy").symlink_to(tmp_path / "elsewhere")
@@ -80,7 +80,7 @@ def test_a_planted_report_is_neither_followed_nor_waited_for(tmp_path: Path, tar
     assert before is None or victim.read_text() == before
 
 
-def test_a_link_in_place_of_the_matrix_is_replaced_itself(tmp_path: Path) -> None:
+def test_a_link_in_place_of_the_matrix_is_replaced_and_not_followed(tmp_path: Path) -> None:
     victim = tmp_path / "victim"
     victim.write_text("mine")
     write_report(of("/s/anna"), tmp_path / "out", "anna")
@@ -108,7 +108,7 @@ def write_until_killed(out: Path, marked: list[Report]) -> int:
     return pid
 
 
-def test_killed_at_any_moment_the_old_or_the_new_report_is_there(tmp_path: Path) -> None:
+def test_after_a_kill_the_old_or_the_new_report_is_complete(tmp_path: Path) -> None:
     whole = {letter * PADDING for letter in "AB"}
     marked = [report(evidence={"build_log": log, "transcript": ""}) for log in sorted(whole)]
     chance = random.Random(17)
@@ -127,9 +127,7 @@ def test_killed_at_any_moment_the_old_or_the_new_report_is_there(tmp_path: Path)
     assert [path.name for path in file.parent.iterdir()] == ["report.json"]
 
 
-def test_a_folder_that_cannot_be_written_to_is_told_with_a_remedy(
-    tmp_path: Path, ordinary_user: None
-) -> None:
+def test_an_unwritable_folder_is_reported_with_a_fix(tmp_path: Path, ordinary_user: None) -> None:
     for out in (Path("/proc/reports"), Path("/usr/reports")):
         with pytest.raises(SurroundingsError, match=f"below {out}") as told:
             write_report(report(), out, "anna")
@@ -137,14 +135,14 @@ def test_a_folder_that_cannot_be_written_to_is_told_with_a_remedy(
         assert told.value.exit_status == 3
 
 
-def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:
+def test_a_file_in_place_of_the_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "reports").write_text("mine")
     with pytest.raises(SurroundingsError, match="link or file is in the place of a folder"):
         write_report(report(), tmp_path / "reports", "anna")
     assert (tmp_path / "reports").read_text() == "mine"
 
 
-def test_when_there_is_no_room_the_old_report_stays_and_nothing_is_left(tmp_path: Path) -> None:
+def test_on_a_full_disk_the_old_report_stays_and_nothing_else_is_left(tmp_path: Path) -> None:
     written = write_report(report(message="old"), tmp_path, "anna")
     size, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     former = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -161,7 +159,7 @@ def test_when_there_is_no_room_the_old_report_stays_and_nothing_is_left(tmp_path
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT])
-def test_a_disk_that_is_full_when_it_is_synchronised_is_told(
+def test_a_disk_that_is_full_at_fsync_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
 ) -> None:
     def full(fd: int) -> None:

@@ -109,7 +109,7 @@ def test_no_control_character_reaches_the_terminal(name: str, width: int) -> Non
 
 @given(text=strategies.text(max_size=80))
 @settings(max_examples=40, deadline=None)
-def test_no_text_at_all_brings_one_there(text: str) -> None:
+def test_no_text_brings_a_control_character_to_the_terminal(text: str) -> None:
     marked = everywhere(text.encode("utf-8", "ignore").decode())
     assert unfit(render_report(marked, verbose=True, styled=True)) == set()
     assert unfit(render_matrix([marked], width=40)) == set()
@@ -119,13 +119,13 @@ def test_a_plain_page_has_no_escape_at_all() -> None:
     assert "\x1b" not in render_report(everywhere("\x1b[31mred"), verbose=True)
 
 
-def test_our_own_styles_are_colours_and_weights_only() -> None:
+def test_our_own_styles_are_only_colours_and_weights() -> None:
     page = render_report(everywhere("x"), styled=True)
     assert "\x1b[" in page
     assert "\x1b" not in OUR_STYLES.sub("", page)
 
 
-def test_what_cannot_be_seen_is_spelled_out() -> None:
+def test_invisible_characters_are_spelled_out() -> None:
     assert visible("a\x1bb\x9bc\u202ed\u00a0e") == r"a\x1bb\x9bc\u202ed\xa0e"
     assert visible("\ud800") == r"\ud800"
     assert one_line("a\nb\r\nc") == r"a\nb\nc"
@@ -134,7 +134,7 @@ def test_what_cannot_be_seen_is_spelled_out() -> None:
 @pytest.mark.parametrize(
     "markup", ["[bold red]x[/]", "[/]", "[link=http://x]y[/link]", ":smile:", "\\[x]", "[[", "[@"]
 )
-def test_markup_and_emoji_codes_are_text(markup: str) -> None:
+def test_markup_and_emoji_codes_are_plain_text(markup: str) -> None:
     for page in pages(everywhere(markup)):
         assert OUR_STYLES.sub("", page).count(markup) >= 5
 
@@ -149,7 +149,7 @@ def test_a_program_cannot_write_a_line_that_looks_like_ours() -> None:
     assert "  report    /tmp/x" not in page.splitlines()
 
 
-def test_a_megabyte_is_cut_and_takes_no_time() -> None:
+def test_a_megabyte_is_cut_and_takes_little_time() -> None:
     for text in ("x" * 1_000_000, "x\n" * 500_000, "\x1b" * 1_000_000, "Traceback\n" * 100_000):
         begin = time.process_time()
         page = render_report(everywhere(text), verbose=False)
@@ -158,7 +158,7 @@ def test_a_megabyte_is_cut_and_takes_no_time() -> None:
         assert "left out" in page
 
 
-def test_of_a_long_text_beginning_and_end_are_kept() -> None:
+def test_the_beginning_and_the_end_of_a_long_text_are_kept() -> None:
     lines = first_lines("\n".join(str(number) for number in range(1000)), lines=10)
     assert (lines[0], lines[-1], len(lines)) == ("0", "999", 11)
     assert "990 lines" in lines[5]
@@ -190,7 +190,7 @@ def test_letters_of_all_scripts_are_kept_and_lines_fit(text: str, width: int) ->
 
 
 @pytest.mark.parametrize("width", [1, 20, 40, 59, 60, 80, 100, 250])
-def test_no_line_is_wider_than_the_page_and_none_than_people_read(width: int) -> None:
+def test_no_line_is_wider_than_the_page_or_the_readable_width(width: int) -> None:
     long = "word " * 100 + "x" * 300
     marked = report(
         check("run.output", "failed", title=long, expected=long, actual=long, rationale=long,

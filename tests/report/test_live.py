@@ -23,7 +23,7 @@ NOTE = "a second attempt, the machine is busy [red]\\x1b]0;title\\x07\n"
 EVENTS = 8  # of tests.report.working
 
 
-def test_the_live_line_shows_stage_tick_check_and_time_and_goes_away() -> None:
+def test_the_live_line_shows_stage_tick_check_and_time_and_disappears() -> None:
     terminal = on_a_terminal("working", columns=120)
     terminal.expect("Starting")
     terminal.sendline()
@@ -48,7 +48,7 @@ def test_notes_stay_above_the_live_line() -> None:
     terminal.expect("the end")
 
 
-def test_what_a_student_logs_cannot_steer_the_live_line() -> None:
+def test_a_students_log_text_cannot_control_the_live_line() -> None:
     terminal = on_a_terminal("working", columns=120)
     for _ in range(EVENTS + 1):
         terminal.sendline()
@@ -71,7 +71,7 @@ def test_the_live_line_never_takes_two_lines_of_a_narrow_terminal() -> None:
     assert max(len(frame) for frame in drawn) < 40
 
 
-def test_hidden_checks_have_no_name_while_they_are_asked() -> None:
+def test_hidden_checks_are_not_named_while_they_run() -> None:
     terminal = on_a_terminal("working", "hidden", columns=120)
     for _ in range(4):
         terminal.sendline()
@@ -82,7 +82,7 @@ def test_hidden_checks_have_no_name_while_they_are_asked() -> None:
     assert "The node counts" not in str(terminal.before)
 
 
-def test_with_no_color_the_live_line_moves_without_colours() -> None:
+def test_with_no_color_the_live_line_has_no_colours() -> None:
     terminal = on_a_terminal("working", NO_COLOR="1")
     terminal.expect("Starting.*?\x1b\\[2K.*?Starting")
     assert not re.search(r"\x1b\[[0-9;]*m", str(terminal.after))
@@ -90,7 +90,7 @@ def test_with_no_color_the_live_line_moves_without_colours() -> None:
 
 
 @pytest.mark.parametrize("how", ["raises", "is interrupted", "is killed"])
-def test_however_it_ends_the_cursor_is_there(how: str) -> None:
+def test_the_cursor_is_visible_however_it_ends(how: str) -> None:
     terminal = on_a_terminal("working", *(["fail"] if how == "raises" else []))
     output = ""
     terminal.expect("Starting")
@@ -108,13 +108,13 @@ def test_however_it_ends_the_cursor_is_there(how: str) -> None:
     assert output.rfind(CURSOR_SHOWN) > output.rfind(CURSOR_HIDDEN)
 
 
-def test_in_a_pipe_each_stage_and_note_is_one_plain_line_and_there_is_nothing_else() -> None:
+def test_a_pipe_gets_one_plain_line_for_each_stage_and_note() -> None:
     done = piped("working", lines=EVENTS + 1)
     assert done.stderr == STAGES + NOTE
     assert done.stdout == "the end\n"
 
 
-def test_on_a_dumb_terminal_too() -> None:
+def test_a_dumb_terminal_gets_plain_lines() -> None:
     terminal = on_a_terminal("working", TERM="dumb")
     for _ in range(EVENTS + 1):
         terminal.sendline()
@@ -122,7 +122,7 @@ def test_on_a_dumb_terminal_too() -> None:
     assert str(terminal.before).replace("\r\n", "\n") == f"{STAGES}{NOTE}the end\n"
 
 
-def test_standard_output_in_a_file_stays_clean_while_the_line_lives(tmp_path: Path) -> None:
+def test_stdout_in_a_file_has_nothing_of_the_live_line(tmp_path: Path) -> None:
     command = f"{sys.executable} -m tests.report.working print > {tmp_path}/out; echo written"
     terminal = pexpect.spawn(
         "/bin/sh",
@@ -140,7 +140,7 @@ def test_standard_output_in_a_file_stays_clean_while_the_line_lives(tmp_path: Pa
     assert (tmp_path / "out").read_text() == "in between\nthe end\n"
 
 
-def test_a_stream_that_has_gone_away_does_not_disturb_the_work() -> None:
+def test_a_closed_stream_does_not_interrupt_the_work() -> None:
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "w") as gone, LiveProgress(gone) as progress:
@@ -153,7 +153,7 @@ def test_a_stream_that_has_gone_away_does_not_disturb_the_work() -> None:
         progress(StageStarted("build", "building"))
 
 
-def test_all_listeners_hear_each_event_in_order() -> None:
+def test_all_listeners_get_each_event_in_order() -> None:
     heard: list[tuple[str, Event]] = []
     tell = to_all([lambda event: heard.append(("a", event)), lambda e: heard.append(("b", e))])
     first, second = Note("one"), Note("two")

@@ -34,7 +34,7 @@ def test_rows_are_checks_and_columns_distros() -> None:
     assert re.search(r"^Score +100 / 100 +55 / 100$", page, re.MULTILINE)
 
 
-def test_what_differs_and_why_is_said_beneath() -> None:
+def test_differences_and_their_causes_are_listed_below() -> None:
     late = check("run.interrupt", "failed", actual="it went on for 5 s")
     reports = [on("humble"), on("jazzy", marked=failing_report()), on("kilted", late)]
     page = words(render_matrix(reports).partition("What differs:")[2])
@@ -51,7 +51,7 @@ def test_what_differs_and_why_is_said_beneath() -> None:
     assert misspelt_module().fix in page
 
 
-def test_where_nothing_differs_it_says_so_and_tells_each_mistake_once() -> None:
+def test_equal_distros_are_reported_as_equal_and_each_mistake_once() -> None:
     reports = [on(distro, misspelt_module(seconds=n)) for n, distro in enumerate(DISTROS)]
     page = render_matrix(reports)
     assert "The same on every distro." in page
@@ -59,7 +59,7 @@ def test_where_nothing_differs_it_says_so_and_tells_each_mistake_once() -> None:
     assert "(on " not in page
 
 
-def test_other_causes_on_other_distros_are_told_apart() -> None:
+def test_different_causes_on_different_distros_are_distinguished() -> None:
     page = words(
         render_matrix(
             [
@@ -85,7 +85,7 @@ def test_every_distro_has_its_column_on_every_terminal(width: int) -> None:
     assert ("\n\n" in grid.partition("Score")[2].rstrip()) == (width < 80)
 
 
-def test_points_that_nobody_knows_have_a_row() -> None:
+def test_unknown_points_have_a_row() -> None:
     late = check("run.period", "inconclusive")
     page = render_matrix([on("humble"), on("jazzy", late)])
     assert re.search(r"^inconclusive +0 +4$", page, re.MULTILINE)
@@ -98,7 +98,7 @@ def test_a_distro_that_could_not_be_marked_is_named_with_its_reason() -> None:
     assert "rolling: not checked there" in page
 
 
-def test_hidden_checks_are_counted_and_say_nothing() -> None:
+def test_hidden_checks_are_counted_and_not_described() -> None:
     secret = check("secret.id", "failed", title="SECRET", actual="SECRET", visibility="hidden")
     waits = check("run.period", "skipped", blocked_by="secret.id", actual="because of: SECRET")
     reports = [on("humble", secret, waits), on("jazzy")]
@@ -109,6 +109,6 @@ def test_hidden_checks_are_counted_and_say_nothing() -> None:
     assert "FAIL secret.id: SECRET" in render_matrix(reports, show_hidden=True)
 
 
-def test_the_path_of_the_matrix_is_told() -> None:
+def test_the_path_of_the_matrix_is_shown() -> None:
     path = Path("reports/anna/matrix.json")
     assert render_matrix([on("humble")], path=path).splitlines()[-1].endswith(str(path))

@@ -25,7 +25,7 @@ def shown(columns: int = 80, env: dict[str, str] | None = None) -> str:
     return str(terminal.before).replace("\r\n", "\n")
 
 
-def test_on_a_terminal_there_are_colours_and_the_same_words() -> None:
+def test_a_terminal_gets_colours_and_the_same_words() -> None:
     page = shown()
     assert "\x1b[1;31mFAIL" in page
     assert "\x1b[32mpass" in page
@@ -34,7 +34,7 @@ def test_on_a_terminal_there_are_colours_and_the_same_words() -> None:
     assert plain == piped("showing").stdout.splitlines()
 
 
-def test_in_a_pipe_there_are_none() -> None:
+def test_a_pipe_gets_no_colours() -> None:
     output = piped("showing")
     assert output.stdout.isascii()
     assert "\x1b" not in output.stdout
@@ -44,13 +44,13 @@ def test_in_a_pipe_there_are_none() -> None:
 @pytest.mark.parametrize(
     "env", [{"NO_COLOR": "1"}, {"TERM": "dumb"}, {"TERM": "unknown"}, {"TERM": ""}]
 )
-def test_who_wants_no_colours_gets_none_on_a_terminal_either(env: dict[str, str]) -> None:
+def test_colours_can_be_turned_off_on_a_terminal(env: dict[str, str]) -> None:
     page = shown(env=env)
     assert "\x1b" not in page
     assert "FAIL" in page
 
 
-def test_an_empty_no_color_says_nothing() -> None:
+def test_an_empty_no_color_is_ignored() -> None:
     assert "\x1b[" in shown(env={"NO_COLOR": ""})
 
 
@@ -64,14 +64,14 @@ def test_the_page_is_as_wide_as_the_terminal(columns: int) -> None:
     assert columns * 0.8 < max(widths) <= columns or 80 < max(widths) <= 100 < columns
 
 
-def test_columns_tells_the_width_of_a_pipe() -> None:
+def test_columns_sets_the_width_in_a_pipe() -> None:
     narrow = piped("showing", COLUMNS="40").stdout
     assert STYLES.sub("", shown(40)).split() == narrow.split()
     assert piped("showing", COLUMNS="wide").stdout == piped("showing").stdout
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
-def test_every_encoding_takes_every_report(encoding: str) -> None:
+def test_every_report_can_be_printed_in_every_encoding(encoding: str) -> None:
     raw = io.BytesIO()
     file = io.TextIOWrapper(raw, encoding=encoding)
     clean = failing_report()

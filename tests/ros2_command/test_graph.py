@@ -99,7 +99,7 @@ def test_nodes_are_sorted_and_have_their_namespace(graph: Graph) -> None:
     assert until(lambda: graph.ros2("node list -c --spin-time 4"), "2\n") == (0, "2\n", "")
 
 
-def test_two_nodes_of_one_name_are_warned_of(graph: Graph) -> None:
+def test_two_nodes_with_one_name_give_a_warning(graph: Graph) -> None:
     graph.start("twin")
     graph.start("twin")
     status, stdout, stderr = until(lambda: graph.ros2("node list"), "/twin\n/twin\n")
@@ -110,7 +110,7 @@ def test_two_nodes_of_one_name_are_warned_of(graph: Graph) -> None:
     )
 
 
-def test_an_empty_graph_lists_no_nodes_and_the_topics_of_every_node(graph: Graph) -> None:
+def test_an_empty_graph_lists_no_nodes_and_the_default_topics(graph: Graph) -> None:
     assert graph.ros2("node list --spin-time 0.1") == (0, "", "")
     assert graph.ros2("topic list --spin-time 0.1") == (0, "/parameter_events\n/rosout\n", "")
 

@@ -110,7 +110,7 @@ def test_ctrl_c_on_the_terminal_ends_as_recorded(jazzy: Surroundings, name: str)
 
 
 @pytest.mark.parametrize("name", SIGNALLED)
-def test_a_signal_to_ros2_alone_does_as_recorded(jazzy: Surroundings, name: str) -> None:
+def test_a_signal_to_ros2_alone_ends_as_recorded(jazzy: Surroundings, name: str) -> None:
     case = BY_NAME[name]
     number = signal.SIGINT if "SIGINT" in name else signal.SIGTERM
     # A shell stays on the terminal, as a student's does: the end of the terminal's first process

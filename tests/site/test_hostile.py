@@ -88,7 +88,7 @@ def hostile_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
-def test_nothing_of_it_runs_loads_or_becomes_markup(visit: Open, hostile_site: Path) -> None:
+def test_hostile_text_does_not_run_load_or_become_markup(visit: Open, hostile_site: Path) -> None:
     index = hostile_site / "index.html"
     pages = [index, *sorted((hostile_site / "students").iterdir())]
     assert len(pages) == 1 + 2 * len(PAYLOADS)
@@ -107,7 +107,7 @@ def test_nothing_of_it_runs_loads_or_becomes_markup(visit: Open, hostile_site: P
             assert address.startswith(hostile_site.as_uri()), (path, address)
 
 
-def test_it_does_not_make_a_page_wide_or_heavy(visit: Open, hostile_site: Path) -> None:
+def test_hostile_text_does_not_make_a_page_wide_or_large(visit: Open, hostile_site: Path) -> None:
     """One word of a hundred thousand letters, twenty thousand empty lines."""
     witness = visit(viewport={"width": 320, "height": 640})
     for path in sorted(hostile_site.rglob("*.html")):
@@ -116,7 +116,7 @@ def test_it_does_not_make_a_page_wide_or_heavy(visit: Open, hostile_site: Path) 
         assert page.evaluate("document.documentElement.scrollWidth") == 320, path
 
 
-def test_it_is_shown_letter_by_letter(visit: Open, tmp_path: Path) -> None:
+def test_hostile_text_is_shown_literally(visit: Open, tmp_path: Path) -> None:
     text = PAYLOADS[1]
     write_site(hostile_class([text]), tmp_path)
     page = visit().open(tmp_path / "students" / page_names([text, f"{text}!"])[text])
@@ -126,12 +126,12 @@ def test_it_is_shown_letter_by_letter(visit: Open, tmp_path: Path) -> None:
     assert page.locator(".fields dd").first.inner_text() == text
 
 
-def test_what_cannot_be_seen_is_spelled_out(visit: Open, tmp_path: Path) -> None:
+def test_invisible_characters_are_spelled_out(visit: Open, tmp_path: Path) -> None:
     index = write_site(hostile_class(["a\u202eb\x1bc\x00d"]), tmp_path)
     assert visit().open(index).locator("h1").inner_text() == r"a\u202eb\x1bc\x00d"
 
 
-def test_even_markup_that_got_in_would_not_run(visit: Open, hostile_site: Path) -> None:
+def test_injected_markup_would_not_run(visit: Open, hostile_site: Path) -> None:
     """The second wall: the policy stops what escaping would have let through."""
     for path in (hostile_site / "index.html", next((hostile_site / "students").iterdir())):
         with socket.create_server(("127.0.0.1", 0)) as server:
