@@ -1,9 +1,9 @@
-"""`make bench`: what a verdict costs, next to the bare commands' own cost, in one run.
+"""`make bench`: the cost of a verdict compared with that of the bare commands, in one run.
 
-Seconds of wall time ("wall") and of processor time ("cpu"); every figure is the median of its runs,
-and the ratios are what counts: they hold on another machine too. Processor time is the whole
-machine's, from /proc/stat: what runs in PID namespaces is not in its starter's accounts. So the
-machine must have nothing else to do meanwhile.
+Figures are seconds of wall time ("wall") and processor time ("cpu"), each the median of its runs.
+The ratios matter because they also hold on other machines. Processor time is that of the whole
+machine, from /proc/stat, because a process is not charged for its children in PID namespaces. So
+the machine must be otherwise idle.
 """
 
 from __future__ import annotations
@@ -39,26 +39,26 @@ COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
 SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 ASSIGNMENT = load_assignment(COURSE)
 PLAIN_TICKS = 5
-PLAIN_LIMIT = 10.0  # seconds for a line to come; what never comes would be waited for for ever
+PLAIN_LIMIT = 10.0  # seconds to wait for a line, as a missing one must not block the benchmark
 
 
 @dataclass(frozen=True)
 class Cost:
-    """What something took: seconds of wall time and of processor time."""
+    """Seconds of wall time and of processor time."""
 
     wall: float
     cpu: float
 
 
 def main() -> int:
-    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    """Measure and print; return 1 if a bound of the project is not kept."""
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--runs", type=int, default=7, help="verdicts to take the median of")
     options.add_argument("--starts", type=int, default=100, help="starts of the node to time")
     asked = options.parse_args()
     ros = proven_ros(find_distro("jazzy"))
     submission = take_in(SOLUTION, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
-    # a warm machine has the byte code, also where PYTHONDONTWRITEBYTECODE keeps it from writing it
+    # a warm machine has the byte code, even if PYTHONDONTWRITEBYTECODE prevents writing it
     compileall.compile_dir(str(stage.ROOT / "grader"), quiet=1, rx=re.compile("/keys/"))
     verdict_once()
     verdict = middle(verdict_once, asked.runs)
@@ -106,26 +106,26 @@ def main() -> int:
 
 
 def bound(name: str, value: float, most: float) -> bool:
-    """Print a figure next to its bound and return whether it is kept."""
+    """Print a figure next to its upper bound and return whether it is kept."""
     kept = value <= most
     print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at most {most:g})")
     return kept
 
 
 def at_least(name: str, value: float, least: float) -> bool:
-    """Print a figure next to its bound and return whether it is reached."""
+    """Print a figure next to its lower bound and return whether it is reached."""
     kept = value >= least
     print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at least {least:g})")
     return kept
 
 
 def middle(measure: Callable[[], Cost], runs: int) -> Cost:
-    """Return the medians of several runs."""
+    """Return the median costs of several runs."""
     return middle_of([measure() for _ in range(runs)])
 
 
 def middle_of(costs: Sequence[Cost]) -> Cost:
-    """Return the medians."""
+    """Return the median costs."""
     return Cost(
         statistics.median(cost.wall for cost in costs),
         statistics.median(cost.cpu for cost in costs),
@@ -133,7 +133,7 @@ def middle_of(costs: Sequence[Cost]) -> Cost:
 
 
 def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
-    """Run a command and return what its whole process tree took."""
+    """Run a command and return the cost of its whole process tree."""
     before = machine_cpu()
     begin = time.monotonic()
     done = subprocess.run(command, input=stdin, cwd=stage.ROOT, capture_output=True, check=False)
@@ -144,22 +144,22 @@ def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
 
 
 def machine_cpu() -> float:
-    """Return the seconds that this machine's processors have been busy since it started."""
+    """Return the seconds for which this machine's processors have been busy since boot."""
     with Path("/proc/stat").open() as stream:
         user, nice, system, _, _, irq, softirq = map(int, stream.readline().split()[1:8])
     return (user + nice + system + irq + softirq) / os.sysconf("SC_CLK_TCK")
 
 
 def verdict_once(sandbox: str = "bubblewrap") -> Cost:
-    """One verdict, as a user gets it: a process of its own, with report and terminal text."""
+    """Mark once as a user does: in a separate process, with report and terminal text."""
     with tempfile.TemporaryDirectory() as out:
         return timed(stage.grader("grade", SOLUTION, "--sandbox", sandbox, "--out", out))
 
 
 def containers_overhead(runs: int) -> tuple[Cost, float]:
-    """Return a verdict's cost in containers, and its seconds beyond the same under bubblewrap.
+    """Return a verdict's cost in containers, and the seconds by which it exceeds bubblewrap's.
 
-    The two take turns, so that what else the machine does falls on both.
+    The two take turns, so that other load on the machine affects both.
     """
     os.environ[images.REPOSITORY_VARIABLE] = engine.REPOSITORY
     client = images.connect()
@@ -185,19 +185,19 @@ def _tar(submission: Submission) -> bytes:
 
 
 def bare_build(ros: Ros, submission: Submission) -> Cost:
-    """`colcon build` alone, in the same sandbox, for it cannot be run anywhere else."""
+    """Run `colcon build` alone, in the same sandbox, since it cannot run anywhere else."""
     setup = f". {ros.inside}/setup.bash; tar -xf -; colcon build --symlink-install < /dev/null"
     return _shell(ros, setup, _tar(submission))
 
 
 def bare_import(ros: Ros) -> Cost:
-    """A Python that imports rclpy and makes a node: what the probe cannot do without."""
+    """Run a Python that imports rclpy and makes a node: the minimum that the probe needs."""
     code = "import rclpy; rclpy.init(); rclpy.create_node('probe')"
     return _shell(ros, f'. {ros.inside}/setup.bash; python3 -c "{code}"')
 
 
 def bare_run(ros: Ros, submission: Submission) -> Cost:
-    """`ros2 run` on a terminal until its node is up, then Ctrl+C, and nothing else."""
+    """Run `ros2 run` on a terminal until its node is up, then press Ctrl+C."""
     with Bubblewrap(ros, Limits()) as sandbox:
         build(sandbox, submission, package=ASSIGNMENT.package)
         script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec "
@@ -215,7 +215,7 @@ def bare_run(ros: Ros, submission: Submission) -> Cost:
 
 
 def plain_grader(ros: Ros, submission: Submission) -> Cost:
-    """The yardstick: build, run, wait for five ticks of the wall clock, Ctrl+C."""
+    """Mark as a simple grader does: build, run, wait for five wall-clock ticks, press Ctrl+C."""
     before = machine_cpu()
     begin = time.monotonic()
     with Bubblewrap(ros, Limits()) as sandbox:
@@ -240,7 +240,7 @@ def _watch_ticks(sandbox: Bubblewrap, ros: Ros) -> None:
 
 
 def starts(ros: Ros, submission: Submission, count: int) -> tuple[list[float], float]:
-    """Start the node many times; return the seconds to each first line, and a run's ticks' time."""
+    """Start the node `count` times; return the seconds to each first line and of a run's ticks."""
     firsts, ticking = [], []
     with Bubblewrap(ros, Limits()) as sandbox:
         build(sandbox, submission, package=ASSIGNMENT.package)

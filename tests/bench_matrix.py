@@ -1,6 +1,6 @@
 """`python -m tests.bench_matrix`: the solution, the starter and every mutant of hello_time, marked.
 
-It ends with 1 where something is not as expected, or takes longer than an instructor waits.
+It exits with 1 if something is not as expected or takes longer than an instructor would wait.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LEAST_MUTANTS = 120
 
 
 def main() -> int:
-    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    """Measure and print; return 1 if a bound of the project is not kept."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "matrix.json"
         begin = time.monotonic()

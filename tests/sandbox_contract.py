@@ -1,4 +1,4 @@
-"""What every sandbox must hold; the tests of each take these over, with fixtures of their own."""
+"""Tests that every sandbox must pass; each sandbox's tests import them with own fixtures."""
 
 from __future__ import annotations
 
@@ -44,10 +44,10 @@ def test_the_network_is_loopback_only(sandbox: Sandbox) -> None:
     status, said = shell(sandbox, "tail -n +3 /proc/net/dev | cut -d: -f1; cat /proc/net/route")
     assert status == 0
     assert said.split()[0] == "lo"
-    assert len(said.strip().splitlines()) == 2  # lo, and the heading of an empty routing table
+    assert len(said.strip().splitlines()) == 2  # lo, and the header of an empty routing table
     status, _ = shell(
         sandbox, "exec 3<>/dev/tcp/127.0.0.1/9", seconds=10
-    )  # refused at once: loopback is up
+    )  # refused at once, so loopback is up
     assert status == 1
 
 
@@ -105,7 +105,7 @@ def terminal(sandbox: Sandbox, script: str, *, most: int = 100_000) -> Terminal:
 
 
 def test_ctrl_c_reaches_the_command_and_its_last_output_is_read(sandbox: Sandbox) -> None:
-    code = (  # sigwait: a signal that comes just before time.sleep would not end it
+    code = (  # sigwait, since a signal just before time.sleep would not end it
         "import signal, sys\n"
         "signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])\n"
         "print('up', flush=True)\n"
@@ -138,7 +138,7 @@ DOTS = "trap '' INT; while :; do printf .; sleep 0.01; done"
 
 
 def test_output_without_a_line_end_extends_no_wait(sandbox: Sandbox) -> None:
-    opened = terminal(sandbox, DOTS, most=400)  # (four seconds of them)
+    opened = terminal(sandbox, DOTS, most=400)  # (for four seconds)
     while "." not in opened.transcript:
         assert opened.read(0.2) == []
     begin = time.monotonic()
@@ -153,7 +153,7 @@ def test_output_without_a_line_end_extends_no_wait(sandbox: Sandbox) -> None:
 
 
 def test_a_pipe_without_a_complete_line_extends_no_wait(sandbox: Sandbox) -> None:
-    """On stdout it is read in pieces; what comes on stderr alone is nothing that is waited for."""
+    """stdout is read in pieces; output on stderr alone does not end or extend the wait."""
     pipe = sandbox.pipe(["bash", "-c", f"{DOTS} >&2"], role="probe")
     begin = time.monotonic()
     assert pipe.read(0.5) is None
@@ -164,7 +164,7 @@ def test_a_pipe_without_a_complete_line_extends_no_wait(sandbox: Sandbox) -> Non
 
 
 def test_unread_stderr_does_not_block_a_pipe(sandbox: Sandbox) -> None:
-    """(A full pipe would stop a probe that a node has brought to complain.)"""
+    """A full pipe would block a probe that a node causes to print warnings."""
     pipe = sandbox.pipe(["bash", "-c", "head -c 300000 /dev/zero >&2; echo done"], role="probe")
     assert pipe.read(20) == b"done\n"
     pipe.finish(1)

@@ -1,4 +1,4 @@
-"""An assignment is data: another course asks for another text, package, node, period, start, step."""
+"""An assignment is data: another course has another text, package, node, period, start, step."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def write_assignment(folder: Path) -> Path:
 
 
 def write_solution(folder: Path) -> Path:
-    """Write the package that the other course asks for."""
+    """Write the package that the other course requires."""
     root = write(RIGHT[0], folder)
     node = root / "my_robot_controller" / "my_first_node.py"
     node.write_text(replaced(node.read_text(), NODE))
@@ -127,7 +127,7 @@ def test_a_self_check_says_how_many_checks_are_hidden(course: Path, package: Pat
 
 @pytest.fixture
 def keys(course: Path, tmp_path: Path) -> Path:
-    """An instructor's folder: what the node prints is asked for there, and announced here."""
+    """An instructor's folder with a hidden check of the output, which the assignment announces."""
     text = course.read_text().replace("hidden_checks: 0", "hidden_checks: 1")
     checks = "checks:\n  - {id: package.found, points: 1}\n"
     course.write_text(text[: text.index("\nchecks:") + 1] + checks)

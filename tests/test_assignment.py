@@ -1,4 +1,4 @@
-"""Loading an assignment: what a wrong one is told, with file and line."""
+"""Loading an assignment: errors with file and line."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def load(tmp_path: Path, text: str | bytes, hidden: str | None = None) -> Assign
 
 
 def refused(tmp_path: Path, text: str | bytes, hidden: str | None = None) -> str:
-    """Return the message with the folder taken off."""
+    """Return the error message without the folder."""
     with pytest.raises(AssignmentError) as caught:
         load(tmp_path, text, hidden)
     assert caught.value.exit_status == 2

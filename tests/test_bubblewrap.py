@@ -1,4 +1,4 @@
-"""The bubblewrap sandbox keeps a submission in, and lets a person's Ctrl+C through."""
+"""The bubblewrap sandbox confines a submission and passes Ctrl+C on to it."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_kill_9_of_the_grader_leaves_nothing() -> None:
     assert grader.stdout.readline() == b"up\n"
     grader.send_signal(signal.SIGKILL)
     grader.wait()
-    # the pipe's write ends are the sandbox's: its end is the end of every process in it
+    # the sandbox has the pipe's write ends: it closes when every process in it has ended
     assert grader.stdout.read() == b""
     grader.stdout.close()
     assert [line for line in stage.alive(mark) if "bash -c" not in line] == []

@@ -1,4 +1,4 @@
-"""What `build.colcon` says of a setup.py that fails, told from what the real colcon printed."""
+"""The result of `build.colcon` for a failing setup.py, from real colcon output."""
 
 from __future__ import annotations
 

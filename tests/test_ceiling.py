@@ -1,4 +1,4 @@
-"""A verdict has one ceiling, whatever is repeated in it, and a limit of the student's ends it."""
+"""A verdict has a total time limit, and is not retried after a student's limit was hit."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ def test_the_ceiling_allows_a_build_and_two_runs_at_their_limits() -> None:
 
 
 class Clock:
-    """The time of a session whose runs are not real; each takes as long as it is told."""
+    """The clock of a session with simulated runs; each run takes a given time."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *results: Run | ProbeError) -> None:
         self.now = 1000.0
         self.runs = 0
         self.proofs: list[Sandbox] = []
-        self.seconds: float | None = None  # of each run; None: all that it may
+        self.seconds: float | None = None  # of each run; None: until its time limit
         self._results = results
         monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: self.now))
         monkeypatch.setattr(session, "observe", self._observe)
@@ -86,7 +86,7 @@ def unheard(event: Event) -> None:
 
 
 def doubtful() -> Run:
-    """A run in which ticks were missing: a second opinion is due."""
+    """Return a run with missing ticks, which requires a second run."""
     return Run("", Watch(clock="virtual", events=[LONG], missing=[1]), started=True)
 
 
@@ -142,7 +142,7 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
     overlay: str,
     met: str,
 ) -> None:
-    """(One that has ended has not: that the probe is silent is our fault then.)"""
+    """If the node has ended, the silent probe is our fault."""
     silent = "import time; print('{}', flush=True); time.sleep(100)"
     limits = Limits().override({"run_seconds": 0.5, "start_seconds": 0.5, "stop_seconds": 0.2})
     with make_sandbox(limits) as opened:
@@ -154,7 +154,7 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
         link = ProbeLink(opened)
         link.ready()
         begin = time.monotonic()
-        until = begin + 12  # of which an end has ten
+        until = begin + 12  # of which ending the node may take ten
         if met:
             run = observe(opened, ASSIGNMENT, link, unheard, until=until)
             assert (run.resource, run.started) == (met, False)

@@ -1,4 +1,4 @@
-"""The contract of the `grader` command: exit statuses, messages, and what it leaves behind."""
+"""The contract of the `grader` command: exit statuses, messages, files and processes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def solution(folder: Path) -> Path:
 
 
 def waiting(folder: Path, mark: str) -> Path:
-    """A package whose setup.py starts a marked program and waits for it."""
+    """Write a package whose setup.py starts a program with `mark` and waits for it."""
     code = f"import subprocess\nsubprocess.run({mark.split()!r})\n"
     return write(Package(name="waiting", edits=(Write("setup.py", code),)), folder)
 
@@ -112,7 +112,7 @@ def test_a_signal_ends_everything(tmp_path: Path, number: signal.Signals, status
         text=True,
     )
     assert process.stderr is not None
-    for line in process.stderr:  # a stage a line, as nobody looks at a terminal
+    for line in process.stderr:  # one line for each stage, because it is not a terminal
         if "colcon" in line:
             break
     process.send_signal(number)

@@ -1,4 +1,4 @@
-"""Virtual time with a terminal that is slower than the network, as a container's is."""
+"""Virtual time with a terminal that is slower than the network, as in a container."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ OUTPUT = load_assignment(COURSE).output
 
 @dataclass
 class SlowConsole(Console):
-    """A terminal on which what was written shows at the second look, or to one who waits."""
+    """A terminal whose output arrives at the second read, or after a wait."""
 
     pieces: list[bytes] = field(default_factory=list)
     shown: bytes = b""
-    looks: int = 0  # since the last piece
+    looks: int = 0  # since the last output
 
     def wait(self, seconds: float) -> bool:
         self.looks += bool(self.pieces)
@@ -48,7 +48,7 @@ class SlowConsole(Console):
 
 
 class Node(ProbeLink):
-    """A node that counts on /clock, as its probe sees it, with prints around each log line."""
+    """A node that counts on /clock, as seen by its probe, with prints around each log line."""
 
     def __init__(self, console: SlowConsole, *, before: str, after: str) -> None:
         self._console = console

@@ -1,4 +1,4 @@
-"""What a student's commands say of themselves, and of wrong words, in the reader's language."""
+"""Help and usage errors of the students' commands in the reader's language."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_usage_errors_are_reported_in_the_readers_language(
         (("check", "--lang=ko", "x"), "ko"),
         (("check", "--lang", "fr"), "en"),
         (("check", "--lang"), "en"),
-        (("lab", "--", "--lang", "ko"), "en"),  # the command's, in the lab
+        (("lab", "--", "--lang", "ko"), "en"),  # `check` is a command of its own in the lab
         ((), "en"),
     ],
 )

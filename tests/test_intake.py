@@ -1,4 +1,4 @@
-"""Intake of real trees: what is left out, within which bounds, and what is said about it."""
+"""Intake of real folders: left out files, limits and notes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What intake knows of a submission: its hash, its name, its exec bits."""
+"""What intake finds out about a submission: hash, name, exec bits."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def git(folder: Path, *words: str) -> None:
 
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
-    """A checkout with the exec bit in its index and none in its files."""
+    """A checkout with the exec bit in its index but not on its files."""
     root = tmp_path / "clone"
     make(root / "src" / PACKAGE)
     git(root, "init", "-q")
@@ -169,7 +169,7 @@ def test_the_index_is_read_as_git_wrote_it(checkout: Path) -> None:
     assert len(modes) == 5
     git(checkout, "add", "--intent-to-add", "--all")
     (checkout / "later.py").touch()
-    git(checkout, "add", "--intent-to-add", "later.py")  # an extended flag: version 3
+    git(checkout, "add", "--intent-to-add", "later.py")  # an extended flag requires version 3
     assert struct.unpack(">I", (checkout / ".git/index").read_bytes()[4:8]) == (3,)
     assert len(git_modes(checkout)) == 6
 

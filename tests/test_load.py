@@ -1,4 +1,4 @@
-"""A verdict does not depend on how busy the machine is."""
+"""A verdict does not depend on the load of the machine."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TIMES = 30
 
 @pytest.fixture
 def busy_cores() -> Iterator[None]:
-    """Keep every core busy with other work until the test is done."""
+    """Keep every core busy with other work during the test."""
     work = [
         subprocess.Popen([sys.executable, "-c", "while True: pass"])
         for _ in range(os.cpu_count() or 1)
@@ -32,7 +32,7 @@ def busy_cores() -> Iterator[None]:
 
 
 def verdict(report: Report) -> list[tuple[str, str, float, list[str]]]:
-    """Return what makes two verdicts equal: statuses, scores and mistake ids."""
+    """Return what must be equal in two verdicts: statuses, scores and mistake ids."""
     return [(c.id, c.status, c.score, [m.id for m in c.mistakes]) for c in report.checks]
 
 

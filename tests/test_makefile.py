@@ -1,4 +1,4 @@
-"""The front door: `make` gives help, and its variables are data, never shell or make code."""
+"""The Makefile: `make` prints help, and variables are data, never shell or make code."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_grade_without_a_student_says_how() -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_name_is_passed_as_data(name: str, tmp_path: Path) -> None:
-    """make, the shell and the grader all get it as it is: the path that is missed is this one."""
+    """make, the shell and the grader all get it unchanged: the missing path is this one."""
     missing = tmp_path / name
     status, out, err = make("grade", f"STUDENT={missing}", "OUT=HACKED")
     assert status == 2
@@ -186,7 +186,7 @@ def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
 
 
 def copy_checkout(folder: Path) -> Path:
-    """Copy of this checkout what marking needs, without what was made in it."""
+    """Copy the files of this checkout that marking needs, without generated ones."""
     folder.mkdir(parents=True)
     for name in ("Makefile", "grader", "lab", "tests"):
         source = stage.ROOT / name
@@ -198,7 +198,7 @@ def copy_checkout(folder: Path) -> Path:
 
 
 def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
-    """A set-up that was killed half-way has no stamp, and is not taken for a whole one."""
+    """A set-up that was killed half-way has no stamp, so it does not count as complete."""
     checkout = copy_checkout(tmp_path / "checkout")
     half = checkout / ".venv" / "bin"
     half.mkdir(parents=True)
@@ -215,7 +215,7 @@ def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
 
 
 def test_a_path_that_venv_refuses_is_reported(tmp_path: Path) -> None:
-    """venv refuses a colon, since PATH is a list with colons between its folders."""
+    """venv refuses a colon, because PATH separates folders with colons."""
     folder = tmp_path / "a:b"
     for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -245,7 +245,7 @@ def test_a_bare_machine_can_mark_in_a_checkout_with_a_path_too_long_for_a_sheban
     assert "setting up the grader's Python environment" in first.stderr
     (prefix,) = (place / "cache" / "ros2_teaching_lab" / "prefixes").glob("jazzy-*")
     assert "is ready in" in first.stderr
-    # nothing in it needs the checkout that made it
+    # nothing in it depends on the checkout that made it
     shutil.rmtree(checkout / ".venv")
     programs = [path for path in (prefix / "bin").iterdir() if path.is_file()]
     assert [path.name for path in programs if b".venv" in path.read_bytes()] == []

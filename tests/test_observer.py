@@ -1,4 +1,4 @@
-"""What is taken for the count, and which lines are judged, however the pieces of a run arrive."""
+"""Which lines of a run are the count and which are judged, however the output is split."""
 
 from __future__ import annotations
 

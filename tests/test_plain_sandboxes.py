@@ -1,4 +1,4 @@
-"""`account` and `none`: what they promise without namespaces, and what they refuse."""
+"""`account` and `none`: their guarantees without namespaces, and their refusals."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> 
 def test_without_a_sandbox_every_process_still_ends(ros_jazzy: Ros) -> None:
     mark = f"sleep 94{secrets.randbelow(10**6)}"
     with Bare(ros_jazzy, Limits()) as opened:
-        # it says up when it has left the group, which ends with the command
+        # it prints "up" after leaving the process group, which ends with the command
         escaped = f"setsid sh -c 'echo up; exec {mark} > /dev/null 2>&1 < /dev/null'"
         outcome = opened.run(["bash", "-c", f"read < <({escaped}); pwd"], seconds=10)
         folder = Path(opened.workspace).parent.parent
@@ -135,7 +135,7 @@ def test_without_a_sandbox_the_environment_has_only_listed_variables(
 def test_without_a_sandbox_odd_paths_work(
     name: str, ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Neither of the prefix nor for temporary files: the student's own scripts name a short one."""
+    """Both the prefix and TMPDIR may be odd: the student's own scripts have a short path."""
     odd = tmp_path / name
     monkeypatch.setenv("GRADER_CACHE", str(odd / "cache"))
     prefix = prefix_path(find_distro("jazzy"))

@@ -1,4 +1,4 @@
-"""The ROS prefix made of wheels: made once, whole or not at all, and with ROS's own environment."""
+"""The ROS prefix made of wheels: made once, completely or not at all, with ROS's environment."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_setup_bash_works_in_every_folder(name: str, jazzy_prefix: Path, tmp_pat
 
 
 def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_path: Path) -> None:
-    # the wheels' .pth marks the second start by a variable
+    # the wheels' .pth marks a second start with a variable
     code = (
         "import os, rclpy; rclpy.init(); print(rclpy.create_node('a').get_name(), "
         "'_ROS_WHEELS_BOOTSTRAP_COMPLETE' in os.environ)"
@@ -98,7 +98,7 @@ def test_colcon_and_ros2_are_on_the_path(jazzy_prefix: Path) -> None:
 def test_our_ros2_is_never_installed_beside_the_real_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A system's own /opt/ros is taken as it is; nothing is written into it."""
+    """A system's /opt/ros is used unchanged; nothing is written into it."""
     from grader.ros import prefix
 
     system = tmp_path / "opt" / "ros" / "jazzy"
@@ -126,7 +126,7 @@ def test_a_lock_pins_every_package_with_a_hash() -> None:
 
 
 def test_a_distros_row_has_its_documentation_and_its_fast_dds_variable() -> None:
-    """(Fast DDS 3, from kilted on, fails if the older variable is set.)"""
+    """Fast DDS 3, from kilted on, fails if the older variable is set."""
     old = {name for name, row in distros().items() if row.dds_profile.startswith("FASTRTPS_")}
     assert old == {"humble", "jazzy"}
     for name, row in distros().items():
@@ -221,7 +221,7 @@ def test_a_full_disk_is_reported_with_its_fix(tmp_path: Path) -> None:
 
 @pytest.mark.full
 def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
-    """From the network, as on a bare machine: killed while it unpacks, then made by two at once."""
+    """From the network, as on a new machine: killed while unpacking, then made by two at once."""
     env = {**os.environ, "GRADER_CACHE": str(tmp_path), "PYTHONUNBUFFERED": "1"}
     command = stage.grader("prefix", "--distro", "jazzy")
     with subprocess.Popen(

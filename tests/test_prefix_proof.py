@@ -1,4 +1,4 @@
-"""A prefix is proven before it counts as made, and a broken one is made again."""
+"""A prefix is tested before it counts as made, and a broken one is made again."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ JAZZY = find_distro("jazzy")
 
 
 def small_prefix(folder: Path, *, python: Path | None = None) -> Path:
-    """Put what a prefix must have at least into a folder: programs that say nothing and succeed."""
+    """Write a minimal prefix into a folder: programs that print nothing and succeed."""
     (folder / "bin").mkdir(parents=True)
     (folder / "bin" / "python3").symlink_to(python or base_interpreter())
     for name in ("colcon", "ros2"):
@@ -36,7 +36,7 @@ def small_prefix(folder: Path, *, python: Path | None = None) -> Path:
 
 
 class Maker:
-    """Makes small prefixes where pip would make real ones; the first `broken` fail their proof."""
+    """Makes small prefixes instead of pip's; the first `broken` ones fail their proof."""
 
     def __init__(self, broken: int = 0) -> None:
         self.broken = broken
@@ -45,11 +45,11 @@ class Maker:
         self.heard: list[str] = []
 
     def make(self, distro: Distro, staging: Path, interpreter: Path, *, say: object) -> None:
-        assert list(staging.iterdir()) == []  # nothing is left of one that failed
+        assert list(staging.iterdir()) == []  # nothing is left of a failed one
         self.made.append(small_prefix(staging))
 
     def prove(self, ros: Ros) -> None:
-        assert not prefix.prefix_path(JAZZY).exists()  # it does not count before that
+        assert not prefix.prefix_path(JAZZY).exists()  # it does not count before its proof
         self.proven.append(ros.path)
         if len(self.made) <= self.broken:
             raise BrokenRosError("colcon does not run", remedy="Do this.")
@@ -144,7 +144,7 @@ def test_a_damaged_prefix_that_cannot_be_removed_is_reported(
 
 @pytest.fixture(params=["bubblewrap", "none"])
 def surroundings(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
-    """What the proof is run in; `none` if bubblewrap does not open."""
+    """The sandbox in which the proof runs; `none` if bubblewrap does not open."""
     if request.param == "none":
         real = shutil.which
         monkeypatch.setattr("shutil.which", lambda name: None if name == "bwrap" else real(name))
@@ -205,8 +205,8 @@ def test_an_unfinished_proof_removes_nothing(
 def own_cache(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Callable[[str, str], Path]]:
-    """What puts a prefix into a cache of its own and replaces one of its programs there."""
-    # (the lab's is never touched: other graders use it)
+    """A function that copies the prefix to a separate cache and replaces a program there."""
+    # (the shared prefix is never touched, because other graders use it)
     monkeypatch.setenv("GRADER_CACHE", str(tmp_path / "cache"))
 
     def damaged(program: str, text: str) -> Path:
@@ -224,7 +224,7 @@ def own_cache(
 def _link(source: str, target: str) -> None:
     try:
         os.link(source, target, follow_symlinks=False)
-    except OSError:  # another disk
+    except OSError:  # the cache may be on another disk
         shutil.copy2(source, target, follow_symlinks=False)
 
 
@@ -232,7 +232,7 @@ def _link(source: str, target: str) -> None:
 @pytest.mark.parametrize(
     ("program", "text"),
     [
-        # what the grader itself left behind in a checkout whose path was long
+        # as made by an earlier version in a checkout with a long path
         ("colcon", "#!/bin/sh\n'''exec' \"/no/such/.venv/bin/python\" \"$0\" \"$@\"\n' '''\n"),
         ("colcon", "#!/no/such/python\n"),
         ("colcon", "#!/bin/sh\nexec python3 -c 'import no_such_colcon'\n"),
@@ -251,4 +251,4 @@ def test_a_broken_program_of_the_prefix_is_a_surroundings_error(
     assert "Run the command again: it makes a new one first." in done.stderr
     assert "Traceback (most recent call last)" not in done.stdout
     assert list((tmp_path / "out").rglob("report.json")) == []
-    assert not folder.exists()  # so the next command makes it anew
+    assert not folder.exists()  # so the next command makes it again

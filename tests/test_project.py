@@ -1,4 +1,4 @@
-"""The project is itself an ament_python package: colcon builds it and its command works."""
+"""The project itself is an ament_python package: colcon builds it and its command works."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_the_command_runs_under_the_python_of_colcon(overlay: Path, jazzy_prefix
 
 
 def test_run_time_data_files_are_installed(overlay: Path, jazzy_prefix: Path) -> None:
-    """The installed copy, not this checkout, marks the solution: data files and all."""
+    """The installed copy, not this checkout, marks the solution, including its data files."""
     share = overlay / "install/ros2_teaching_lab/share/ros2_teaching_lab"
     assert (share / "course/hello_time/assignment.yaml").is_file()
     solution = stage.ROOT / "grader/keys/hello_time/solution/my_robot_controller"
@@ -117,7 +117,7 @@ def test_the_wheels_image_has_all_modules_that_make_a_prefix(tmp_path: Path) -> 
 
 
 def test_all_printing_goes_through_the_gate() -> None:
-    """(See grader.base.gate: what is printed with styles has a console that is a gate, too.)"""
+    """See grader.base.gate; styled output uses a console that is a gate as well."""
     ways = (
         "rich.console import Console",
         "sys.__std",
@@ -129,7 +129,7 @@ def test_all_printing_goes_through_the_gate() -> None:
         "grader/base/gated_console.py",
         "grader/run/probe.py",
         "lab/keeper.py",
-    }  # two translate to a program
+    }  # two of them talk to another program
     found = {
         path.relative_to(stage.ROOT).as_posix()
         for folder in ("grader", "lab")

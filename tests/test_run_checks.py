@@ -1,4 +1,4 @@
-"""The checks of a run, before runs that were put together: what each says of what it sees."""
+"""The run checks on constructed runs."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def on_time(walls: Sequence[float]) -> Run:
 
 
 def ended(transcript: str, status: int) -> Run:
-    """Return a run that Ctrl+C has ended."""
+    """Return a run that ended by Ctrl+C."""
     return Run(
         "ros2 run",
         started=True,

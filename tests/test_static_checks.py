@@ -1,4 +1,4 @@
-"""The static checks of the package: each way to be wrong, and what it is told."""
+"""The static checks of the package: each mistake and its report."""
 
 from __future__ import annotations
 

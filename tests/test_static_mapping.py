@@ -1,4 +1,4 @@
-"""The entry point as it is written: each way to be wrong, and what it is told."""
+"""The static check of the entry point: each mistake and its report."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def test_values_known_only_by_running_setup_py_are_not_judged(
     bench: Bench, old: str, new: str
 ) -> None:
     bench.change("setup.py", old, new)
-    if "settings" in new:  # the entry points come from there then
+    if "settings" in new:  # then the entry points are defined there
         bench.change("setup.py", "entry_points=", "nothing=")
     assert bench.maps() is None
 

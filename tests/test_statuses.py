@@ -1,4 +1,4 @@
-"""A status that a submission ends with is never taken for one of the grader's own, nor the reverse."""
+"""Exit statuses of a submission and of the grader's own commands are never confused."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def taken_in(path: Path) -> Submission:
 
 
 class Told:
-    """A sandbox whose commands end as they are told: laying out, colcon, the listing."""
+    """A sandbox whose commands (laying out, colcon, the listing) end with given statuses."""
 
     limits = Limits()
     ros_path = "/opt/ros/jazzy"

@@ -1,4 +1,4 @@
-"""Intake of real trees: where the package lies, and which one it is."""
+"""Intake of real folders: finding the package and choosing between several."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is read from a terminal: lines, within the time that was given, whatever is printed."""
+"""Reading lines from a terminal within the time limit, whatever is printed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RECORD = "[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0"
 
 
 class Endless(Console):
-    """A console on which there is always more to read, and which nothing ends."""
+    """A console with endless output that never ends."""
 
     def __init__(self, piece: bytes) -> None:
         self._piece = piece
@@ -37,7 +37,7 @@ class Endless(Console):
 
 @pytest.mark.parametrize("piece", [b".", b"x\n"])
 def test_endless_output_extends_no_deadline(piece: bytes) -> None:
-    terminal = Terminal(Endless(piece), most=5_000)  # (seconds of it)
+    terminal = Terminal(Endless(piece), most=5_000)  # (several seconds of output)
     begin = time.monotonic()
     lines = terminal.read()
     assert time.monotonic() - begin < 0.5

@@ -1,5 +1,8 @@
-"""The verdicts on the whole corpus: right variants get full marks; each broken package fails where,
-and why, it must, and only what depends on that is skipped; hostile ones harm nothing."""
+"""The verdicts on the whole corpus.
+
+Right variants get full marks; each broken package fails the expected checks for the expected reason,
+and only checks that depend on these are skipped; hostile ones harm nothing.
+"""
 
 from __future__ import annotations
 
@@ -28,10 +31,10 @@ from tests.corpus.right import RIGHT
 
 COURSE = stage.ROOT / "lab" / "course" / "hello_time"
 ASSIGNMENT = load_assignment(COURSE / "assignment.yaml")
-# one verdict takes two to four seconds: `make test` has every seventh package, `test-all` each
+# a verdict takes two to four seconds: `make test` has every seventh package, `test-all` all
 QUICK = 7
 LIMITS = Limits().override({"build_seconds": 20, "start_seconds": 8, "run_seconds": 40})
-PATIENCE = 120.0  # seconds in which the worst package must have its verdict
+PATIENCE = 120.0  # seconds within which the worst package must have its verdict
 
 
 def mark(
@@ -52,7 +55,7 @@ def mark(
 
 
 def packages(corpus: tuple[Package, ...], quick: int = QUICK) -> list[object]:
-    """Return the parameters of a test over a corpus; all but each n-th wait for `test-all`."""
+    """Return the parameters of a test over a corpus; all but each n-th are for `test-all`."""
     return [
         pytest.param(package, id=package.name, marks=() if k % quick == 0 else pytest.mark.full)
         for k, package in enumerate(corpus)
@@ -60,7 +63,7 @@ def packages(corpus: tuple[Package, ...], quick: int = QUICK) -> list[object]:
 
 
 def told(report: Report) -> str:
-    """Return what a failing test shows of a report."""
+    """Return the summary of a report that a failing test shows."""
     rows = [
         f"{check.id}: {check.status} {[m.id for m in check.mistakes]} {check.actual[:300]}"
         for check in report.checks
@@ -98,7 +101,7 @@ def test_a_hostile_package_harms_nothing(package: Package, tmp_path: Path) -> No
 
 
 def verdict_is(package: Package, report: Report) -> None:
-    """Assert that a report says of a package what the corpus expects."""
+    """Assert that a report has the verdict that the corpus expects for a package."""
     failed = {check.id for check in report.checks if check.status == "failed"}
     skipped = {check.id for check in report.checks if check.status == "skipped"}
     assert failed - package.undecided == set(package.expect_failed), told(report)
@@ -205,7 +208,7 @@ def test_an_ordinary_user_gets_the_same_verdict(open_folder: Path) -> None:
 
 @pytest.fixture
 def open_folder() -> Iterator[Path]:
-    """A folder that every user may read and write; pytest's own are closed to the others."""
+    """A folder that every user may read and write; pytest's own are private."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         folder.chmod(0o777)

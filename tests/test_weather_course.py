@@ -1,4 +1,4 @@
-"""Students of another course read nothing of ours: texts, commands and links are their lesson's."""
+"""Students of another course read only texts, commands and links of their own lesson."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def env(course: Path, **more: str) -> dict[str, str]:
 
 
 def sources() -> Iterator[Path]:
-    """Yield the grader's and the lab's files but for the lesson's own: its course and its keys."""
+    """Yield the files of the grader and the lab, except the lesson's course and keys."""
     listed = stage.run(["git", "ls-files", "-z", "grader", "lab"]).stdout.split("\0")
     for name in filter(None, listed):
         if not name.startswith(("grader/keys/", "lab/course/")) and not name.endswith(".mo"):
@@ -91,12 +91,12 @@ def test_the_lesson_fills_in_the_catalogues_entries(kind: Kind, tmp_path: Path) 
         assert "docs.ros.org" not in link or f"/en/{name}/" in link
 
 
-# typical mistakes, judged by the checks on runs that were put together
+# typical mistakes, judged by the checks on constructed runs
 
 
 @dataclass(frozen=True)
 class Mistake:
-    """A broken package: its edits, what a run of it shows, the check that fails, and for what."""
+    """A broken package: its edits, its run, the check that fails and the mistake."""
 
     edits: tuple[Edit, ...]
     check: str
@@ -106,7 +106,7 @@ class Mistake:
 
 
 def counted(text: str, *, node: NodeSeen = STATION) -> Run:
-    """Return a run whose lines come on time, each with the next number in place of {n}."""
+    """Return a run whose lines come on time, with the next number for {n} in each."""
     numbers = range(1, 5)
     events = [
         Event(text.replace("{n}", str(k)), k / 10, k / 2, "logger", _number(text, k), k - 1)
@@ -219,7 +219,7 @@ MISTAKES = {
 
 
 def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) -> CheckResult:
-    """Return what the check says of a broken package, with the change that fixes it."""
+    """Return the check's result for a broken package, with the patch that fixes it."""
     submission = weather.taken(folder, *mistake.edits)
     run = mistake.run or counted("Reading {n}")
     evidence = Evidence(assignment, submission, build=lambda: BUILT, run=lambda: run)
@@ -229,7 +229,7 @@ def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) ->
 
 
 def texts(result: CheckResult) -> str:
-    """Return all that a student reads of a result, without the student's own lines of a patch."""
+    """Return all texts of a result that a student reads, without their own lines in a patch."""
     given = result.model_dump(include={"title", "rationale", "expected", "actual", "fix", "advice"})
     added = [line for line in result.patch.splitlines() if line.startswith("+")]
     params = [mistake.params for mistake in result.mistakes]
@@ -253,7 +253,7 @@ def test_a_mistake_is_explained_with_the_lessons_texts(
 
 
 def test_the_right_package_passes_every_run_check(tmp_path: Path) -> None:
-    """(The stand-in runs above fail for the mistake alone.)"""
+    """This shows that the constructed runs above fail because of the mistake only."""
     wanted = weather.assignment(tmp_path)
     run = counted("Reading {n}")
     evidence = Evidence(wanted, weather.taken(tmp_path), build=lambda: BUILT, run=lambda: run)
@@ -383,7 +383,7 @@ def test_a_lesson_that_the_guide_cannot_use_is_reported(
     assert "Traceback" not in errors
 
 
-# which lesson is meant
+# choosing the lesson
 
 COMMANDS = {
     "grade": ("grade", "."),
@@ -446,7 +446,7 @@ def test_the_environment_selects_the_lesson(tmp_path: Path) -> None:
 
 
 def test_our_keys_are_not_searched_for_another_courses_solution(tmp_path: Path) -> None:
-    """(A lesson may be called as one of ours is.)"""
+    """A lesson may have the name of one of ours."""
     course = weather.write_course(tmp_path)
     (course / "readings").rename(course / "hello_time")
     status, errors = run("validate", tmp_path, **env(course))

@@ -1,4 +1,4 @@
-"""Archives that students hand in: what is in them is marked, as if it were a folder."""
+"""Submitted archives: their content is marked like a folder."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ TARS = [("w", "jane.tar"), ("w:gz", "jane.tgz"), ("w:xz", "jane.tar.xz"), ("w:bz
 
 
 def is_the_package(found: Submission, root: str) -> None:
-    """The package of `package()`, whole, with the exec bit on the node's file."""
+    """Assert that this is the complete package of `package()`, with the node's exec bit set."""
     assert (found.problem, found.root) == ("", root)
     assert {f.path: f.data for f in found.files if f.kind == "file"} == package()
     assert found.modes == "recorded"
@@ -79,7 +79,7 @@ def test_the_archive_type_is_detected_by_content_not_by_name(tmp_path: Path, nam
 
 
 def test_archives_of_info_zip_and_gnu_tar_have_the_hash_of_the_folder(tmp_path: Path) -> None:
-    """The three ways to hand the same work in are the same work."""
+    """The same package has one hash in a folder, a zip and a tar."""
     folder = write(tmp_path / "jane" / PACKAGE, package())
     (folder / "setup_link").symlink_to("setup.py")
     (folder / "empty").mkdir()
@@ -125,7 +125,7 @@ def test_a_zip_made_on_windows_has_unknown_exec_bits(tmp_path: Path) -> None:
 
 
 def test_unknown_and_missing_exec_bits_have_different_hashes(tmp_path: Path) -> None:
-    """They are marked differently, so that one may not stand for the other."""
+    """They are marked differently, so one verdict must not be reused for the other."""
     folder = write(tmp_path / "jane", package())
     (folder / NODE_PATH).chmod(0o644)
     found = hand_in(tmp_path, zipped(package(), system=WINDOWS), "windows.zip")
@@ -135,7 +135,7 @@ def test_unknown_and_missing_exec_bits_have_different_hashes(tmp_path: Path) -> 
 
 
 def test_exec_bits_are_known_in_the_zip_that_github_makes(tmp_path: Path) -> None:
-    """git archive says "made by Unix" of executable files only, and names the commit."""
+    """`git archive` sets "made by Unix" only on executable files, and names the commit."""
     repository = write(tmp_path / "repository", package())
     commit = ["-c", "user.name=j", "-c", "user.email=j@x", "commit", "-qm", "x"]
     for words in (["init", "-q"], ["add", "."], commit, ["archive", "-o", "../jane.zip", "HEAD"]):
@@ -179,7 +179,7 @@ def test_the_assignments_policy_decides_what_unknown_exec_bits_cost(tmp_path: Pa
     assert "tar" in Diagnosis.of(caught.value).fix
 
 
-# what tools and systems add
+# files that tools and operating systems add
 
 
 def test_files_that_macos_adds_are_left_out_and_noted(tmp_path: Path) -> None:
@@ -204,7 +204,7 @@ def test_backslashes_in_a_windows_zip_separate_folders(tmp_path: Path) -> None:
 
 
 def test_names_in_code_page_437_and_in_unflagged_utf8_are_read(tmp_path: Path) -> None:
-    """zipfile writes what is not ASCII as marked UTF-8: the mark is taken off again."""
+    """zipfile sets the UTF-8 flag on non-ASCII names, so the test clears it."""
     made = zipped({**package(), "grüße.txt": b"x"})
     unmarked = bytearray(made)
     for start, flags in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
@@ -276,7 +276,7 @@ def test_archives_nested_too_deeply_are_a_mistake(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_holds_only_an_archive_is_opened(tmp_path: Path) -> None:
-    """So Moodle's folders come: one for each student, with the zip in it."""
+    """Moodle's download has such a folder for each student, with the zip in it."""
     (tmp_path / "Ann_1_assignsubmission_file").mkdir()
     found = hand_in(tmp_path / "Ann_1_assignsubmission_file", zipped(package()), "hw.zip")
     assert take(tmp_path / "Ann_1_assignsubmission_file").root == "hw.zip"
@@ -315,7 +315,7 @@ def test_an_office_document_is_not_opened_as_a_zip(tmp_path: Path) -> None:
     assert "report.docx" in found.problem
 
 
-# what is no archive, or none that can be opened
+# files that are not archives, or cannot be opened
 
 
 @pytest.mark.parametrize(
@@ -340,7 +340,7 @@ def test_an_office_document_is_not_opened_as_a_zip(tmp_path: Path) -> None:
         (zipped({"notes.txt": b"x"}), "a.zip", "package.no_manifest", "notes.txt"),
         (zipped({NODE: b"x"}), "a.zip", "package.only_node", NODE),
     ],
-    # an archive may hold the moment at which it was made, and a test's name may not
+    # explicit ids: an archive may contain the time of its creation, and a test id must not
     ids=lambda value: value[:4].hex() if isinstance(value, bytes) else None,
 )
 def test_an_archive_that_cannot_be_opened_is_a_mistake_with_a_fix(
@@ -392,7 +392,7 @@ def test_an_unsupported_zip_compression_is_named(tmp_path: Path, method: int) ->
 def test_an_archive_is_read_without_writing_to_disk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Small archives never touch the disk, so that no killed run leaves anything."""
+    """Small archives are never written to disk, so a killed run leaves nothing."""
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
     is_the_package(hand_in(tmp_path, tarred(package(), "w:xz"), "jane.tar.xz"), ".")
 

@@ -1,4 +1,4 @@
-"""The archive of a whole class: unpacked once, and hostile members cost only their own student."""
+"""The archive of a whole class: unpacked once; hostile members affect only their own student."""
 
 from __future__ import annotations
 
@@ -180,7 +180,7 @@ def test_a_hard_link_becomes_a_copy_of_its_file(tmp_path: Path) -> None:
 
 
 def test_a_damaged_file_affects_only_its_student(tmp_path: Path) -> None:
-    """The other students' are whole; a student whose archive is lost is not lost himself."""
+    """Other students are complete, and a student whose archive is damaged is still listed."""
     files = {**two(), "kim.zip": os.urandom(300), "max/ws/setup.py": os.urandom(300)}
     data = bytearray(zipped(files))
     with zipfile.ZipFile(io.BytesIO(bytes(data))) as archive:
@@ -252,7 +252,7 @@ def test_a_name_that_is_not_utf8_is_kept(tmp_path: Path) -> None:
 @pytest.mark.parametrize("cut", [10, 300, -30])
 @pytest.mark.parametrize("packing", ["zip", "tar.gz"])
 def test_a_truncated_class_archive_is_refused(tmp_path: Path, packing: str, cut: int) -> None:
-    """Half a class must not pass for a class."""
+    """A part of a class must not be taken for the whole."""
     data = zipped(two()) if packing == "zip" else tarred(two(), "w:gz")
     with pytest.raises(UsageError, match="class' archive cannot be unpacked") as error:
         found_in(tmp_path, data[:cut], f"class.{packing}")

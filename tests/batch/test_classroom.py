@@ -1,4 +1,4 @@
-"""Clones of GitHub Classroom: whose they are, and what tells when they were handed in."""
+"""Clones of GitHub Classroom: their students and their submission times."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ def found_in(path: Path, roster: Path | None = None) -> ClassFolder:
 
 
 def grades(path: Path, **times: str) -> Path:
-    """Write what Classroom's "Download grades" gives: a line for each user, with the time."""
+    """Write Classroom's "Download grades" file: a line with the time for each user."""
     lines = (f"hw,u,s,{user},,org/hw-{user},r,{time},0,100\n" for user, time in times.items())
     path.write_text(HEADER + "".join(lines), encoding="utf-8")
     return path
 
 
 def judged(given: HandedIn) -> Entry:
-    """Return what a right package gets under the policy."""
+    """Return the gradebook entry of a right package under the policy."""
     attempt = Attempt(1, given.submitted, given.late, report(), notes=given.notes)
     return standing(given.student, [attempt], [], POLICY, 100)
 
@@ -62,7 +62,7 @@ def test_a_single_clone_is_identified_by_the_folder_that_gh_makes(tmp_path: Path
 
 @pytest.mark.parametrize("days", [-3, 3])
 def test_the_commit_time_does_not_decide_lateness(tmp_path: Path, days: int) -> None:
-    """The student's own computer sets it: `git commit --date` makes any commit early."""
+    """The student's computer sets it: `git commit --date` can backdate any commit."""
     at = (DUE + timedelta(days=days)).isoformat()
     for user in ("ann", "joe"):
         repository(tmp_path / "hw" / f"hw-{user}", at=at)
@@ -101,7 +101,7 @@ def test_an_invalid_time_in_the_grades_file_is_ignored(tmp_path: Path) -> None:
 
 
 def test_no_program_that_a_repository_configures_is_run(tmp_path: Path) -> None:
-    """A fsmonitor, hooks, an alias and a pager that would leave a mark."""
+    """An fsmonitor, hooks, an alias and a pager that would leave a file."""
     trap = tmp_path / "trap.sh"
     trap.write_text(f"#!/bin/sh\ntouch {tmp_path}/sprung\n")
     trap.chmod(0o755)

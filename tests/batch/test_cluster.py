@@ -1,4 +1,4 @@
-"""A real Dask scheduler with real worker processes: one is killed, one is another grader."""
+"""A real Dask scheduler with real worker processes, some of which are killed or unusable."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ pytestmark = [pytest.mark.prefix, pytest.mark.full]
 def process(
     *words: str, ready: str, env: dict[str, str] | None = None
 ) -> Iterator[tuple[int, str]]:
-    """Start a program of Dask's; yield its process id and the line that says that it is ready."""
+    """Start a Dask program; yield its process id and the line that announces it is ready."""
     with subprocess.Popen(
         [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]],
         cwd=ROOT,
@@ -126,7 +126,7 @@ def test_a_scheduler_that_ends_during_the_wait_is_reported(
         wait = cluster._wait
 
         def waits(futures: list[Future[str]]) -> list[Future[str]]:
-            # (a verdict takes seconds: this is in the middle of the wait for it)
+            # a verdict takes seconds, so this is in the middle of the wait
             Timer(0.2, os.kill, (scheduler, signal.SIGKILL)).start()
             return wait(futures)
 
@@ -165,7 +165,7 @@ def test_verdicts_from_the_cluster_are_kept_in_the_local_ledger(
     done = grade_all(folder, tmp_path / "out", "--scheduler", scheduler)
     assert done.returncode == 1, done.stderr
     assert "marks in bubblewrap" in done.stderr
-    # and what the cluster has marked is not marked again on this machine
+    # what the cluster has marked is not marked again on this machine
     again = grade_all(folder, tmp_path / "out")
     assert "0 to mark, 2 marked before" in again.stderr
     with Ledger(tmp_path / "out" / "ledger.sqlite") as ledger:

@@ -1,4 +1,4 @@
-"""Folders and archives that an instructor named: whose they are, and what is told about them."""
+"""Discovery of submissions in folders and archives: their students and the notes about them."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def test_a_folder_around_the_class_is_entered(course: Path, tmp_path: Path) -> N
 
 
 def test_the_folder_of_the_only_student_is_not_entered(tmp_path: Path) -> None:
-    """What is in it is the student's: two packages of their own names, or a workspace."""
+    """Its folders belong to the student: two differently named packages, or a workspace."""
     write(tmp_path / "a" / "jane", package(below=PACKAGE))
     other = package(below="other")
     other["other/package.xml"] = b"<package><name>other</name></package>"
@@ -192,7 +192,7 @@ def test_a_system_can_be_forced(tmp_path: Path) -> None:
 
 
 def test_exec_bits_are_unknown_if_no_student_has_any(tmp_path: Path) -> None:
-    """A class whose files came by a way that loses them; one student who has it proves otherwise."""
+    """They were lost in transfer, unless at least one student has an exec bit."""
     for name in ("ann", "joe"):
         write(tmp_path / "c" / name, package())
         (tmp_path / "c" / name / NODE_PATH).chmod(0o644)
@@ -212,7 +212,7 @@ def test_exec_bits_are_missing_if_other_students_have_them(tmp_path: Path) -> No
     assert given.modes_kept
 
 
-# whatever the names are
+# arbitrary names
 
 NAME = st.one_of(
     st.text(min_size=1, max_size=40),
@@ -245,7 +245,7 @@ def test_no_submission_is_lost_because_of_its_name(
             (root / name / "setup.py").write_text("")
             made.add(name)
         except (OSError, UnicodeEncodeError):
-            continue  # no name of this file system
+            continue  # not a valid name on this file system
     for name in sorted(files):
         try:
             if not os.path.lexists(root / name):

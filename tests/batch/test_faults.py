@@ -1,4 +1,4 @@
-"""One submission never decides how a class run ends: what our side fails on is one student's line."""
+"""A grader failure on one submission is reported for that student and does not end the run."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ REASON = "tar: \x1b[31mCannot write: No space left on device"
 
 
 class Marks:
-    """A pool without workers: it fails on those that are named, and says whether all else works."""
+    """A pool without workers that fails on the named students; `works` is its proof's result."""
 
     def __init__(self, *failing: str, works: bool = True) -> None:
         self.failing = failing
@@ -69,7 +69,7 @@ def ledger(tmp_path: Path) -> Iterator[Ledger]:
 
 
 def a_class(folder: Path, count: int) -> ClassFolder:
-    """A class of so many students: s0, s1, …"""
+    """Write a class of `count` students: s0, s1, …"""
     names = [f"s{number}" for number in range(count)]
     handed_in = []
     for name in names:

@@ -1,4 +1,4 @@
-"""The command on a real class: out comes what goes back in, and nothing is marked twice."""
+"""`grader grade-all` on a real class: outputs are complete and nothing is marked twice."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ absent,Émile Zola,emile@example.org
 
 @dataclass(frozen=True)
 class Class:
-    """A class that was marked: its folder, its roster, where everything was written."""
+    """A marked class: its folder, its roster and its output folder."""
 
     folder: Path
     roster: Path
@@ -60,7 +60,7 @@ class Class:
 
 @pytest.fixture(scope="module")
 def marked(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> Class:
-    """A class of five: three packages, a corrupt archive, and one who handed in nothing."""
+    """A class of five: three packages, a corrupt archive, and one missing submission."""
     place = tmp_path_factory.mktemp("class")
     folder = of_corpus(place / "handed in", NAMES)
     (folder / "corrupt.zip").write_bytes(b"PK\x03\x04 this ends in the middle")
@@ -73,7 +73,7 @@ def marked(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> Class:
 
 @pytest.fixture
 def copy(marked: Class, tmp_path: Path) -> Class:
-    """The same class, to be changed."""
+    """A copy of the same class that a test may change."""
     shutil.copytree(marked.folder, tmp_path / "handed in", symlinks=True)
     shutil.copytree(marked.out, tmp_path / "out")
     return Class(tmp_path / "handed in", marked.roster, tmp_path / "out", marked.first)
@@ -129,7 +129,7 @@ def test_the_summary_names_the_first_reasons(marked: Class) -> None:
 
 
 def test_an_unchanged_class_is_neither_marked_nor_written_again(copy: Class) -> None:
-    assert copy.again().returncode == 1  # (the outputs are in another place now)
+    assert copy.again().returncode == 1  # the outputs are in another folder now
     before = {path: path.stat().st_mtime_ns for path in copy.out.rglob("*.html")}
     again = copy.again()
     assert again.returncode == 1
@@ -153,7 +153,7 @@ def test_only_changed_submissions_are_marked_and_earlier_attempts_kept(copy: Cla
     row = copy.rows()["s2-text_other_capital"]
     assert (row["final"], row["attempt"]) == ("100", "2")
     assert copy.verdicts() == 5
-    # and handed in worse again: the best attempt still counts
+    # a later, worse attempt: the best one still counts
     path.write_text(path.read_text(encoding="utf-8").replace("Hello time", "Hallo"))
     copy.again()
     assert copy.rows()["s2-text_other_capital"]["final"] == "100"
@@ -270,7 +270,7 @@ def test_usage_errors_are_reported_before_anything_is_marked(
 
 @pytest.fixture
 def begun(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str], Path, Path]]:
-    """A class whose marking has begun: its process, its folder, where it writes."""
+    """A class that is being marked: its process, its folder and its output folder."""
     folder = of_corpus(tmp_path / "class", ["solution"] * 6)
     out = tmp_path / "out"
     command = grader("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", "--workers", "2")

@@ -1,4 +1,4 @@
-"""Submissions of groups: who is in them, and that nobody gets another group's verdict."""
+"""Group submissions: their members, and that nobody gets another group's verdict."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.batch.handed_out import package, write
 
 
 def grouped(*sizes: tuple[str, int]) -> list[Person]:
-    """Return participants, so many in each group."""
+    """Return participants, with the given number in each group."""
     names = [name for name, size in sizes for _ in range(size)]
     return [replace(one, group=name) for one, name in zip(people(len(names)), names, strict=True)]
 
@@ -36,14 +36,14 @@ def found_for(
     *folders: tuple[str, int | None],
     words: Words = ENGLISH,
 ) -> ClassFolder:
-    """Discover a download of these folders, with the worksheet as the roster."""
+    """Discover a download with these folders, with the worksheet as the roster."""
     (tmp_path / "roster.csv").write_bytes(worksheet(class_, words))
     path = moodle_zip(tmp_path / "class.zip", [(name, n, scored(90)) for name, n in folders])
     return discover(path, roster=tmp_path / "roster.csv", unpack=tmp_path / "work")
 
 
 def members(found: ClassFolder) -> dict[str, list[str]]:
-    """Return the folders whose submissions each student has."""
+    """Return the folders of each student's submissions."""
     whose: dict[str, list[str]] = {}
     for given in found.handed_in:
         place = given.path.parent.name if given.path.is_file() else given.path.name
@@ -89,11 +89,11 @@ def test_a_group_without_a_submission_is_missing(tmp_path: Path) -> None:
 
 
 def test_a_group_number_is_not_a_participant_number(tmp_path: Path) -> None:
-    """Group 1003 is not participant 1003, who is in another group."""
+    """Group 1003 is not participant 1003, who belongs to another group."""
     class_ = grouped(("Blue", 2), ("Red", 3))
     found = found_for(tmp_path, class_, ("Blue", class_[3].number), ("Red", class_[0].number))
     assert [place for (place,) in members(found).values()] == ["Blue_1003"] * 2 + ["Red_1000"] * 3
-    # nor if the roster does not know the group
+    # the same if the roster does not have the group
     (tmp_path / "other").mkdir()
     unknown = found_for(tmp_path / "other", class_, ("Green", class_[3].number), ("Red", 5))
     assert members(unknown)["Green"] == ["Green_1003"]
@@ -101,12 +101,12 @@ def test_a_group_number_is_not_a_participant_number(tmp_path: Path) -> None:
 
 
 def test_a_number_without_the_matching_name_identifies_nobody(tmp_path: Path) -> None:
-    """A list without the column of groups: every group's number may be somebody's."""
+    """A roster without a group column: any group number may also be a participant's."""
     class_ = people(6)
     found = found_for(tmp_path, class_, ("Blue", 1003), ("Red", 1000), ("Green", 8))
     assert members(found).keys() == {"Blue", "Red", "Green"}
     assert len(found.missing) == 6
-    # one student who is called otherwise now is still known by the number
+    # a student whose name has changed is still identified by the number
     (tmp_path / "married").mkdir()
     folders = [(p.name, p.number) for p in class_[:3]]
     one = found_for(tmp_path / "married", class_, ("Bo Fox", 1003), *folders)
@@ -137,7 +137,7 @@ def test_group_names_that_differ_only_in_case_are_distinguished(tmp_path: Path) 
 
 
 def test_ambiguous_groups_get_no_verdict(tmp_path: Path) -> None:
-    """Moodle calls the folders of `Team_1` and `Team 1` alike."""
+    """Moodle gives the folders of `Team_1` and `Team 1` the same name."""
     class_ = grouped(("Team_1", 2), ("Team 1", 2), ("Red", 3))
     found = found_for(tmp_path, class_, ("Team_1", 7), ("Team 1", 8), ("Red", 9))
     own = {p.name for p in class_[4:]}
@@ -174,7 +174,7 @@ def test_a_folder_named_after_a_group_belongs_to_its_members(tmp_path: Path) -> 
 
 
 def test_a_student_with_the_name_of_a_group_is_not_the_group(tmp_path: Path) -> None:
-    """The others of that group have not handed in what he did."""
+    """The other members of that group do not get that student's submission."""
     class_ = people(4)
     lines = [f"{p.name},{p.email},Lab A" for p in class_]
     roster = tmp_path / "roster.csv"

@@ -1,4 +1,4 @@
-"""Archives made to do harm: each is a clear line on its student, and nothing else happens."""
+"""Hostile archives: each gives a clear message for its student and has no other effect."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from .handed_out import (
 )
 
 OUT = ["../evil", "a/../../evil", "/tmp/evil", "//evil", "C:/evil", "c:\\evil", "..\\evil", ".."]
-SECONDS = 20  # in which a bomb must be told, on a machine that is busy with other things
+SECONDS = 20  # in which a bomb must be reported, on a busy machine
 
 
 @pytest.mark.parametrize("name", OUT)
@@ -85,7 +85,7 @@ def test_devices_and_pipes_are_left_out_and_noted(tmp_path: Path, kind: bytes) -
 
 
 def test_a_file_below_a_link_or_a_file_is_left_out(tmp_path: Path) -> None:
-    """The old trick: a link to /etc, then a file that is to be written through it."""
+    """The attack: a link to /etc, then a file written through it."""
     link = odd_member("way", tarfile.SYMTYPE, "/etc")
     found = hand_in(tmp_path, tar_with(link, odd_member("way/cron.d", tarfile.REGTYPE)))
     assert found.file("way/cron.d") is None
@@ -110,7 +110,7 @@ def test_names_that_would_break_a_terminal_are_left_out(tmp_path: Path) -> None:
     names = {"\x1b[2J.py": b"", "a\nb.py": b"", "x\u202egp.py": b"", "n" * 3000: b""}
     for data in (zipped({**package(), **names}), tarred({**package(), **names})):
         found = hand_in(tmp_path, data)
-        assert len(found.files) == len(package()) + 2  # and its two folders
+        assert len(found.files) == len(package()) + 2  # the file and its two folders
         assert all(line.isprintable() for line in found.notes)
         assert len(found.notes) >= 2
 
@@ -128,7 +128,7 @@ def bomb(tmp_path: Path, data: bytes, name: str) -> str:
 
 
 def test_ten_gigabytes_of_zeros_in_a_small_tar_xz_are_not_unpacked(tmp_path: Path) -> None:
-    """Made of many xz streams one after the other, so that it is small and soon made."""
+    """Made of many concatenated xz streams, so that it is small and quick to make."""
     header = tarfile.TarInfo("zeros")
     header.size = 10_000_000_000
     zeros = lzma.compress(bytes(10_000_000))
@@ -138,7 +138,7 @@ def test_ten_gigabytes_of_zeros_in_a_small_tar_xz_are_not_unpacked(tmp_path: Pat
 
 
 def test_a_bomb_needs_bounded_memory(tmp_path: Path) -> None:
-    """In a process of its own, as its peak cannot be told from ours."""
+    """In a separate process, because the peak memory is that of the whole process."""
     header = tarfile.TarInfo("zeros")
     header.size = 10_000_000_000
     data = lzma.compress(header.tobuf()) + lzma.compress(bytes(50_000_000), preset=9) * 200
@@ -170,13 +170,13 @@ def test_a_zip_that_declares_too_large_a_size_is_refused(tmp_path: Path) -> None
 def test_a_zip_with_a_false_size_is_damaged(tmp_path: Path) -> None:
     data = bytearray(zipped({**package(), "zeros": bytes(30_000_000)}))
     size = struct.pack("<I", 30_000_000)
-    assert data.count(size) == 2  # in the file's own header, and in the directory
+    assert data.count(size) == 2  # in the local header and in the central directory
     lied = bytes(data).replace(size, struct.pack("<I", 1_000))
     assert bomb(tmp_path, lied, "jane.zip") == "package.archive_corrupt"
 
 
 def test_overlapping_zip_members_are_a_bomb(tmp_path: Path) -> None:
-    """Overlapping members, as in David Fifield's zip bombs: small files, very many of them."""
+    """Overlapping members, as in David Fifield's zip bombs: very many small files."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("0", bytes(4_900_000))
@@ -211,7 +211,7 @@ def test_an_archive_with_too_many_files_is_not_read(tmp_path: Path) -> None:
 
 
 def test_a_central_directory_with_too_many_names_is_not_read(tmp_path: Path) -> None:
-    """A million members would be a gigabyte of memory before the first of them is seen."""
+    """A million members would take a gigabyte of memory before the first one is read."""
     entry = struct.pack("<4s24sH16s", b"PK\x01\x02", b"", 1, b"") + b"x"
     count = 1_000_000
     end = struct.pack("<4s4H2LH", b"PK\x05\x06", 0, 0, 65535, 65535, len(entry) * count, 4, 0)
@@ -220,7 +220,7 @@ def test_a_central_directory_with_too_many_names_is_not_read(tmp_path: Path) -> 
 
 
 def test_a_package_may_be_too_large_though_each_file_is_not(tmp_path: Path) -> None:
-    noise = bytes(range(256)) * 20_000  # 5.12 MB, of which one file may have 5
+    noise = bytes(range(256)) * 20_000  # 5.12 MB; a file may have 5
     found = hand_in(tmp_path, tarred({**package(), "bag.db3": noise}), "jane.tar")
     bag = found.file("bag.db3")
     assert bag is not None
@@ -276,7 +276,7 @@ def test_pax_headers_with_many_digits_take_bounded_time(tmp_path: Path) -> None:
     assert bomb(tmp_path, data + tarred(package()), "jane.tar") == "package.archive_corrupt"
 
 
-# whatever else there is
+# arbitrary archives
 
 
 @settings(
@@ -317,7 +317,7 @@ def test_any_archive_is_read_or_refused(
         for given_bytes in (data, data[:at] + noise + data[at + len(noise) :]):
             before = everything_below(tmp_path)
             if not given_bytes.startswith((b"PK", b"package.xml")):
-                continue  # no archive any more
+                continue  # not an archive any more
             found = hand_in(tmp_path, given_bytes, name)
             assert everything_below(tmp_path) - before <= {name}
             assert (found.root is None) == bool(found.problem)

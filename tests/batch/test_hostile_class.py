@@ -1,4 +1,4 @@
-"""A class with students in it who mean harm: everybody has a line, and nobody steers the terminal."""
+"""A class with hostile students: everybody has a line, and none controls the terminal."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from tests.report.test_hostile import unfit
 pytestmark = pytest.mark.prefix
 
 MEAN = ("deaf_and_prints_dots", "setup_paints_and_ends_with_250")
-BIG = "\x1b]0;owned\x07bob\u202e"  # a folder's name; what is in it does not fit into the workspace
+BIG = "\x1b]0;owned\x07bob\u202e"  # a folder name; its content does not fit into the workspace
 
 
 @pytest.fixture
 def mean_class(tmp_path: Path) -> Path:
-    """A right package, a broken one, two that mean harm, and one on which the grader fails."""
+    """A right package, a broken one, two hostile ones, and one on which the grader fails."""
     folder = of_corpus(tmp_path / "class", ["solution", "entry_missing", "solution"])
     (folder / "s2-solution").rename(folder / BIG)
     (folder / BIG / "my_robot_controller" / "big.bin").write_bytes(b"x" * 4_000_000)

@@ -1,4 +1,4 @@
-"""A class is marked in the language that was asked for, and each language keeps its verdicts."""
+"""A class is marked in the chosen language, and each language has its own verdicts."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_a_class_marked_in_english_and_then_in_korean_is_korean(
     assert (english["lang"], korean["lang"]) == ("en", "ko")
     assert (korean["score"], korean["status"]) == (english["score"], english["status"])
     feedback = sorted((out / "feedback").iterdir())
-    assert len(feedback) == 4  # also who handed in nothing reads Korean
+    assert len(feedback) == 4  # a missing student's text is Korean as well
     for path in feedback:
         text = path.read_text(encoding="utf-8")
         assert re.search("만점에|아직 점수가 없습니다", text), path.name

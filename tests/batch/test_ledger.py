@@ -1,4 +1,4 @@
-"""The ledger: what is recorded stays, is never changed, and nobody else's file is touched."""
+"""The ledger: records are durable and never changed, and other programs' files are untouched."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ def test_a_verdict_of_several_students_is_recorded_for_all_or_none(ledger: Ledge
     ledger.record_for_all("k1", {"ann": worse(), "kim": worse(), "bob": worse()})
     found = {student: row.score for (student, _), row in ledger.verdicts().items()}
     assert found == {"kim": 100, "ann": 90, "bob": 90}, "who has one keeps it"
-    with pytest.raises(UnicodeEncodeError):  # no database keeps this key
+    with pytest.raises(UnicodeEncodeError):  # SQLite cannot store this key
         ledger.record_for_all("k2", {"ann": worse(), "b\ud800b": worse()})
     assert {key for _, key in ledger.verdicts()} == {"k1"}
 
 
 def test_a_recorded_verdict_is_on_disk(path: Path) -> None:
-    """Another process is killed, without closing anything, right after it has said "done"."""
+    """Another process is killed right after it has printed "done", without closing anything."""
     code = (
         "import os, sys; from pathlib import Path; from grader.batch.ledger import Ledger;"
         "from tests.report.samples import report;"
@@ -83,7 +83,7 @@ def test_the_same_submission_is_not_marked_twice(ledger: Ledger) -> None:
     with pytest.raises(AlreadyMarkedError):
         ledger.record("kim", "k1", worse())
     assert ledger.verdicts()["kim", "k1"].score == report().score
-    ledger.record("lee", "k1", worse())  # the same content of somebody else
+    ledger.record("lee", "k1", worse())  # the same content from another student
     ledger.record("kim", "k2", worse())  # other content
     assert ledger.count() == 3
 
@@ -150,7 +150,7 @@ def test_the_ledger_is_readable_by_its_owner_only(path: Path, ledger: Ledger) ->
 def test_a_second_grader_on_the_ledger_is_refused(path: Path, ledger: Ledger) -> None:
     with pytest.raises(UsageError, match="another grader"):
         Ledger(path)
-    ledger.record("kim", "k1", report())  # and the first one goes on
+    ledger.record("kim", "k1", report())  # the first one goes on
 
 
 def test_a_missing_ledger_is_created_only_on_request(path: Path) -> None:

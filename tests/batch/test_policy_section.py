@@ -1,4 +1,4 @@
-"""An assignment's `policy:` as it is written: what is read from it, and what is refused where."""
+"""The `policy:` section of an assignment: what is read, and what is refused with which line."""
 
 from __future__ import annotations
 

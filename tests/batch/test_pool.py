@@ -46,14 +46,14 @@ def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path
 
 
 def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
-    """Both workers are killed in the middle of a verdict; others take their places."""
+    """Both workers are killed in the middle of a verdict and replaced."""
     killed: list[int] = []
     waiting = tasks(tmp_path, ["solution"] * 4)
 
     def handed_out() -> Iterator[Task]:
         yield next(waiting)
         yield next(waiting)
-        # both are at work now: whoever comes for more does so since one of them has died
+        # both workers are busy now: a third task is only requested after one of them has ended
         for worker in own_workers():
             os.kill(worker, signal.SIGKILL)
             killed.append(worker)
@@ -92,7 +92,7 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
 def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
     tmp_path: Path,
 ) -> None:
-    """(A program that is no worker at all: what it says last is what the instructor reads.)"""
+    """The command is not a worker at all; its last output is shown to the instructor."""
     command = (sys.executable, "-c", "import sys; sys.exit('no memory is left')")
     pool = LocalPool(JOB, 2, command=command)
     found = list(pool.run(tasks(tmp_path, ["solution"] * 3), started=_unheard))
@@ -142,5 +142,5 @@ def _again(folder: Path) -> list[Task]:
 
 
 def _left() -> dict[int, str]:
-    """Return what runs below this process and is a sandbox or in one."""
+    """Return the descendants of this process that are a sandbox or run in one."""
     return {pid: line for pid, line in descendants().items() if "bwrap" in line or "ros" in line}

@@ -1,4 +1,4 @@
-"""The list of a class' students, and how submissions are found on it."""
+"""The roster of a class, and how submissions are matched with it."""
 
 from __future__ import annotations
 
@@ -191,7 +191,7 @@ def test_any_roster_is_read_or_refused(
             assert len({other.key for other in found.students if other == student}) == 1
 
 
-# joined
+# matching
 
 
 def handed(tmp_path: Path, names: Sequence[str], content: str) -> ClassFolder:
@@ -257,7 +257,7 @@ def test_two_submissions_for_one_line_are_both_kept(tmp_path: Path) -> None:
 
 
 def test_a_user_name_outranks_a_full_name(tmp_path: Path) -> None:
-    """A student whose user name is another one's name is still himself."""
+    """A student whose user name is another student's full name is still identified correctly."""
     found = handed(tmp_path, ["joe", "x"], "name,username\njoe,ann\nAnn Lee,joe\n")
     assert names_of(found)[0] == ("joe", "Ann Lee")
 
@@ -292,7 +292,7 @@ def test_classroom_repositories_match_by_github_name(tmp_path: Path) -> None:
 
 
 def test_a_common_prefix_of_user_names_is_not_part_of_the_assignment(tmp_path: Path) -> None:
-    """`hw-ann-lee` and `hw-ann-ray` begin alike: the roster knows where the name begins."""
+    """`hw-ann-lee` and `hw-ann-ray` share a prefix: the roster decides where the name begins."""
     for user in ("hw-ann-lee", "hw-ann-ray"):
         repository(tmp_path / "class" / user)
     content = "identifier,github_username,name\n1,ann-ray,Ray\n2,ann-lee,Lee\n"

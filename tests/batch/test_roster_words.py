@@ -1,4 +1,4 @@
-"""Rosters in Korean, in the encodings of spreadsheets, and in languages whose words are unknown."""
+"""Rosters in Korean, in the encodings of spreadsheets, and in unknown languages."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_columns_with_unknown_names_are_recognised_by_content(tmp_path: Path) ->
     (note,) = found.notes
     for taken in ("'Tunniste' as key", "'Koko nimi' as name", "'Osoite' as email"):
         assert taken in note
-    # who has no time of a submission has none
+    # without a submission time there is no submission
     assert [bool(line.evidence) for line in found.lines] == [True, True, False, True, True]
 
 

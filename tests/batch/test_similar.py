@@ -1,4 +1,4 @@
-"""The same but for white space and comments: what is found, and what is not."""
+"""Submissions that are equal apart from white space and comments: which are found."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def having(files: dict[str, bytes]) -> Submission:
 
 
 def changed(path: str, old: str, new: str) -> Submission:
-    """Return the solution with something else in one file."""
+    """Return the solution with one text replaced in one file."""
     files = []
     for file in solution().files:
         text = file.data.decode()

@@ -1,4 +1,4 @@
-"""What Moodle, Canvas and Gradescope give to download, as folders and as zips."""
+"""Downloads of Moodle, Canvas and Gradescope, as folders and as zips."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ WAYS = ["folder", "zip"]
 
 
 def downloaded(tmp_path: Path, files: Mapping[str, bytes], way: str) -> ClassFolder:
-    """Discover what a system gives: its zip, or the folder that it was unpacked to."""
+    """Discover a system's download: its zip, or the folder with its unpacked files."""
     if way == "zip":
         path = class_zip(tmp_path / "course-hw1-42.zip", files)
     else:

@@ -1,4 +1,4 @@
-"""A class of two thousand: what it costs the process that coordinates it. The sandbox is a stub."""
+"""The coordinating process' memory for a class of two thousand, with stub workers."""
 
 from __future__ import annotations
 

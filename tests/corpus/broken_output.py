@@ -1,4 +1,4 @@
-"""The node runs and counts, but not what, when, how or as whom it should."""
+"""Nodes that run and count, but with a wrong text, period, logger or node name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The corpus itself: its edits apply, its numbers add up. What it deserves is tested elsewhere."""
+"""The corpus itself: its edits apply and its points add up. Verdicts are tested elsewhere."""
 
 from __future__ import annotations
 

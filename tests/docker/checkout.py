@@ -1,4 +1,4 @@
-"""A copy of what Docker's own commands build from, with this machine's extra certificate."""
+"""A copy of the build context of Docker's own commands, with this machine's extra certificate."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ARGUMENTS = {"BASE": engine.STANDIN, "ROS": "image", "VERSION": grader.__version
 
 
 def copy_to(folder: Path) -> Path:
-    """Make the copy in `folder` and return it; the real checkout gets no certificate."""
+    """Make the copy in `folder` and return its path; the real checkout gets no certificate."""
     for name in FOLDERS:
         shutil.copytree(
             stage.ROOT / name,

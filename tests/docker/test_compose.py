@@ -1,4 +1,4 @@
-"""The compose and the bake file say what distros.toml says, and compose opens the lab."""
+"""The compose and bake files agree with distros.toml, and compose opens the lab."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def service(env: dict[str, str]) -> dict[str, Any]:
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Path:
-    """A workspace of the student's."""
+    """A student's workspace."""
     folder = tmp_path / "a workspace"
     folder.mkdir()
     os.chown(folder, 1000, 1000)
@@ -113,7 +113,7 @@ def test_a_user_with_another_id_can_use_composes_lab(tmp_path: Path) -> None:
 
 @pytest.fixture
 def built(client: DockerClient) -> Iterator[str]:
-    """The repository for what a test builds, cleared away after it."""
+    """The repository for images that a test builds, removed after it."""
     repository = f"{engine.REPOSITORY}-{PROJECT}"
     yield repository
     for image in client.images.list(repository):

@@ -1,4 +1,4 @@
-"""A Docker daemon that cannot be used is said in words, with what to do, and soon."""
+"""An unusable Docker daemon is reported quickly, with a fix."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ pytestmark = [pytest.mark.docker]
 
 
 class OldDaemon(BaseHTTPRequestHandler):
-    """Answers as Docker 18.09 does."""
+    """A server that answers like Docker 18.09."""
 
     def do_GET(self) -> None:
         """Answer `GET /version`."""
@@ -33,7 +33,7 @@ class OldDaemon(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def log_message(self, format: str, *args: object) -> None:
-        """Say nothing."""
+        """Log nothing."""
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""Verdicts in containers are those of bubblewrap; many of them leave nothing behind."""
+"""Verdicts in containers equal those in bubblewrap and leave nothing behind."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def test_the_report_names_the_image_and_what_is_in_it(tmp_path: Path) -> None:
     found = report.environment
     assert found.ros == "image"
     assert found.image.startswith(f"{engine.REPOSITORY}:grade-jazzy@sha256:")
-    assert found.rclpy.startswith("7.1.")  # as REP 2000 has it for jazzy
+    assert found.rclpy.startswith("7.1.")  # as in REP 2000 for jazzy
     assert found.colcon
     assert found.python.startswith("3.")
     assert found.limits["memory"].held_by == found.limits["cpus"].held_by == "cgroup"
@@ -103,7 +103,7 @@ def test_fifty_verdicts_leave_the_daemon_as_it_was(client: DockerClient, tmp_pat
 
 
 def everything(client: DockerClient) -> set[tuple[str, str, str]]:
-    """Return every container, network and volume: what it is, its id, and whose it is."""
+    """Return every container, network and volume as kind, id and owner."""
     containers = {
         ("container", str(each["Id"]), owner(each["Labels"]))
         for each in client.api.containers(all=True)
@@ -121,7 +121,7 @@ def owner(labels: dict[str, str] | None) -> str:
 
 
 def is_anothers(left: tuple[str, str, str]) -> bool:
-    """Whether it is of a test that runs beside this one: a living grader's, or a lab's."""
+    """Return whether it belongs to a concurrent test: to a running grader or a lab."""
     labels = json.loads(left[2] or "{}")
     if orphans.OWNER in labels:
         return not orphans.is_orphan(labels)

@@ -1,4 +1,4 @@
-"""The `docker` sandbox holds what every sandbox must, and leaves nothing behind."""
+"""The `docker` sandbox meets the sandbox contract and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robo
 
 
 def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
-    """Return the containers and volumes that a process has made and that are still there."""
+    """Return the remaining containers and volumes that a process has made."""
 
     def is_its(labels: dict[str, str] | None) -> bool:
         return (labels or {}).get(orphans.OWNER, "").split()[1:2] == [str(pid)]
@@ -48,7 +48,7 @@ def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
 def wait_until_gone(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
     deadline = time.monotonic() + GONE_SECONDS
     while (left := made_by(client, pid, state=state)) and time.monotonic() < deadline:
-        time.sleep(0.05)  # the daemon removes them by itself
+        time.sleep(0.05)  # the daemon removes them itself
     return left
 
 
@@ -67,7 +67,7 @@ def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> No
         assert not host["Binds"]
         assert host["Privileged"] is False
         assert host["NetworkMode"].split(":")[0] in ("none", "container")
-        assert host["SecurityOpt"] == ["no-new-privileges"]  # and Docker's own seccomp filter
+        assert host["SecurityOpt"] == ["no-new-privileges"]  # and Docker's default seccomp filter
         assert host["Memory"] == host["MemorySwap"] == Limits().memory
         assert host["PidsLimit"] == Limits().processes
         assert host["NanoCpus"] > 0
@@ -114,7 +114,7 @@ SLOW = 'import time\nprint("building", flush=True)\ntime.sleep(300)\n'
 
 @pytest.fixture
 def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
-    """What starts a grader, in Docker, on a package whose build does not end."""
+    """A function that starts a grader in Docker on a package whose build does not end."""
     from pathlib import Path
     from shutil import copytree
 
@@ -156,7 +156,7 @@ def test_nothing_is_left_however_the_grader_ends(
     assert grader.wait(30) == status, said
     assert "Traceback" not in said
     assert wait_until_gone(client, grader.pid, state="running") == []
-    orphans.clear_away(client)  # as the next grader does: one that was never started is left
+    orphans.clear_away(client)  # as the next grader does; a never started one is left
     assert wait_until_gone(client, grader.pid) == []
 
 

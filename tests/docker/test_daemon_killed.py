@@ -1,4 +1,4 @@
-"""A Docker daemon that is killed in the middle of a verdict: a clear message, and nothing stays."""
+"""A Docker daemon killed in the middle of a verdict: a clear message, and nothing is left."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ START_SECONDS = 60.0
 
 
 class Daemon:
-    """A daemon of the test's own, beside the one that the other tests use."""
+    """A separate daemon for the test, beside the one that the other tests use."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -35,11 +35,11 @@ class Daemon:
 
     def start(self) -> None:
         folder = self.folder
-        # in a network of its own: two daemons in one would fight over their bridge
+        # in a separate network namespace: two daemons in one would conflict over their bridge
         command = ["unshare", "--net", "dockerd", "-H", self.address]
         command += ["--data-root", f"{folder}/data", "--exec-root", f"{folder}/exec"]
         command += ["--pidfile", f"{folder}/pid", "--iptables=false", "--ip6tables=false"]
-        # (where nobody collects dead processes, a killed daemon's containerd looks alive by its pid)
+        # (without an init that reaps zombies, a killed daemon's containerd looks alive by its pid)
         for pid in (folder / "pid", folder / "exec" / "containerd" / "containerd.pid"):
             pid.unlink(missing_ok=True)
         with (folder / "log").open("ab") as log:
@@ -53,7 +53,7 @@ class Daemon:
             except SurroundingsError:
                 if self._process.poll() is not None or time.monotonic() > deadline:
                     pytest.fail((folder / "log").read_text()[-3000:])
-                time.sleep(0.1)  # until its socket answers
+                time.sleep(0.1)  # wait until its socket answers
             else:
                 return
 
@@ -80,7 +80,7 @@ class Daemon:
             self._process.wait(30)
         except subprocess.TimeoutExpired:
             self.kill()
-        for entry in Path("/proc").iterdir():  # what a killed daemon has left of its own
+        for entry in Path("/proc").iterdir():  # the remains of a killed daemon
             if entry.name.isdigit():
                 try:
                     if str(self.folder) in (entry / "cmdline").read_bytes().decode(

@@ -1,4 +1,4 @@
-"""The dev container comes up with the dev containers' own command, and is the lab."""
+"""The dev container starts with the `devcontainer` command and contains the lab."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Inside = Callable[..., subprocess.CompletedProcess[str]]
 
 
 def configuration(*variables: str) -> dict[str, Any]:
-    """Return the configuration as the command reads it, its variables filled in."""
+    """Return the configuration as the command reads it, with variables substituted."""
     words = ["read-configuration", "--workspace-folder", str(stage.ROOT)]
     done = stage.run(["env", "-u", "DISTRO", *variables, *devcontainer_cli.command(), *words])
     assert done.returncode == 0, done.stderr
@@ -33,12 +33,12 @@ def configuration(*variables: str) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def inside(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Inside]:
-    """What runs a command in the dev container; made of the stand-in, on a volume of its own."""
+    """A function that runs a command in the dev container, built from the stand-in image."""
     folder = checkout.copy_to(tmp_path_factory.mktemp("dev") / NAME)
     own = json.loads((folder / CONFIG).read_text())
     own["build"]["args"].update(checkout.ARGUMENTS)
     own["workspaceMount"] = own["workspaceMount"].replace("source=ros2_ws", f"source={NAME}")
-    assert NAME in own["workspaceMount"]  # never the user's own
+    assert NAME in own["workspaceMount"]  # never the user's volume
     (folder / CONFIG).write_text(json.dumps(own))
     cli = devcontainer_cli.command()
     mine = ["--workspace-folder", str(folder), "--id-label", f"tests={NAME}"]
@@ -96,7 +96,7 @@ def test_jazzy_is_the_default() -> None:
 
 
 def test_its_base_is_the_official_image_of_the_distro(tmp_path: Path) -> None:
-    """(No registry is reached here: the command says which image it would have had.)"""
+    """No registry is reachable here; the command names the image that it would pull."""
     folder = checkout.copy_to(tmp_path / "checkout")
     words = ["up", "--workspace-folder", str(folder), "--id-label", f"tests={NAME}-none"]
     docker_path = tmp_path / "docker"

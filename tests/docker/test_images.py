@@ -1,4 +1,4 @@
-"""The images are what docs/images.md says, and building them fails with words that help."""
+"""The images match docs/images.md, and a failed build has a helpful message."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def layers(request: pytest.FixtureRequest) -> Layers:
 
 
 def said_in(client: DockerClient, image: Image, script: str) -> str:
-    """Return what a script says in a container of the image, as the image's own user."""
+    """Return the output of a script in a container of the image, run as the image's user."""
     out: bytes = client.containers.run(str(image.id), ["bash", "-c", script], remove=True)
     return out.decode()
 
@@ -85,7 +85,7 @@ def test_nothing_runs_as_root_and_nobody_can_become_it(client: DockerClient, ima
     assert lines[:3] == ["student", "1000", "/home/student/ros2_ws"]
     assert [line.split(":")[0] for line in lines[3:]] == ["probe", "holder"]
     writable = said_in(client, image, "find / -xdev -type f -perm -4000 -newer /etc/passwd; true")
-    assert writable == ""  # nothing of ours is set-user-id
+    assert writable == ""  # none of our files is set-user-id
 
 
 def test_no_image_contains_a_solution_or_a_hidden_check(layers: Layers) -> None:
@@ -103,7 +103,7 @@ def test_no_layer_contains_the_extra_certificate(layers: Layers) -> None:
     assert not [name for name in names if "extra.crt" in name or "ca-certificates/docker" in name]
     extra = engine.network().extra_ca
     given = certificates_in(extra.read_bytes()) if extra else frozenset()
-    public = certificates_in(Path(certifi.where()).read_bytes())  # what pip's packages bring
+    public = certificates_in(Path(certifi.where()).read_bytes())  # from pip's packages
     assert not (given - public) & layers.certificates
 
 
@@ -111,7 +111,7 @@ def test_ros_is_where_the_tutorial_expects_it(client: DockerClient, image: Image
     distro = image.labels["ros2-teaching-lab.distro"]
     script = f". /opt/ros/{distro}/setup.bash && ros2 pkg prefix rclpy && colcon --help > /dev/null"
     assert said_in(client, image, script).strip() == f"/opt/ros/{distro}"
-    # (the wheel of 7.1.6 carries the manifest of 7.1.5, and the stand-in knows no other)
+    # (the wheel of 7.1.6 contains the manifest of 7.1.5, and the stand-in has no other)
     major, minor, _ = find_distro(distro).rclpy.split(".")
     assert images.image_versions(client, image)["rclpy"].startswith(f"{major}.{minor}.")
 
@@ -140,7 +140,7 @@ def test_the_build_context_has_no_keys_and_no_generated_files() -> None:
 def test_docker_itself_interprets_the_ignore_file_the_same_way(
     client: DockerClient, tmp_path: Path
 ) -> None:
-    """The build context of the docker command holds no file that ours would leave out."""
+    """The docker command's build context has no file that ours would leave out."""
     dockerfile = tmp_path / "Dockerfile"
     dockerfile.write_text("FROM scratch\nCOPY . /context\n")
     tag = f"{engine.REPOSITORY}:context-{tmp_path.name.lower()[-20:].strip('-_')}"
@@ -214,7 +214,7 @@ def test_an_invalid_certificate_is_refused(client: DockerClient, tmp_path: Path)
 
 
 def test_a_second_build_uses_the_cache(client: DockerClient) -> None:
-    """On the official image too, whose entry point the classic builder stumbles over."""
+    """Also on the official image, whose entry point is a problem for the classic builder."""
     lines: list[str] = []
     made = [
         build_image(

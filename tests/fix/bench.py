@@ -1,4 +1,4 @@
-"""What the tests of fixes stand on: packages of the corpus, fixed in memory and by real tools."""
+"""Helpers for the tests of fixes: corpus packages, fixed in memory and with real tools."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def edited(folder: Path, *edits: Edit, name: str = "edited") -> Path:
 
 
 def plan_of(path: Path) -> Plan:
-    """Return what the files alone have fixed."""
+    """Return the fixes that are found in the files alone."""
     return fix_files(taken(path), ASSIGNMENT)
 
 

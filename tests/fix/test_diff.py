@@ -1,4 +1,4 @@
-"""The diff is one from which git and patch make the new bytes, whatever the bytes are."""
+"""Diffs: git and patch recreate any new bytes from them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def files(found: dict[str, bytes], mode: int = 0o644) -> Files:
 
 
 def made_by(tool: tuple[str, ...], old: dict[str, bytes], patch: bytes) -> dict[str, bytes]:
-    """Return the files that a tool makes of the old ones."""
+    """Return the files that a tool makes of the old ones by applying a patch."""
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for path, found in old.items():

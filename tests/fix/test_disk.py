@@ -20,7 +20,7 @@ ENTRY = Replace(SETUP, "my_first_node:main", "my_frist_node:main")
 
 
 def tree(root: Path) -> dict[str, tuple[bytes, int]]:
-    """Return all that is in a folder, with modes."""
+    """Return everything in a folder, with modes."""
     return {
         str(path.relative_to(root)): (
             str(path.readlink()).encode() if path.is_symlink() else path.read_bytes(),
@@ -138,7 +138,7 @@ def test_a_failure_half_way_restores_everything(
     rename = os.rename
 
     def full(old: str, new: str, **folders: int) -> None:
-        if new == SETUP:  # the last one, in the order of names
+        if new == SETUP:  # the last file by name
             raise failure
         rename(old, new, **folders)
 

@@ -1,4 +1,4 @@
-"""The change in a report is the one that fixes: applied by git, the check that failed passes."""
+"""The fix in a report, applied with git, makes the failed check pass."""
 
 from __future__ import annotations
 

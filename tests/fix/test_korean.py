@@ -1,4 +1,4 @@
-"""`grader fix` in Korean: what it says is Korean, what it writes and prints for tools is the same."""
+"""`grader fix` in Korean: messages are Korean, files and diffs are the same."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PROSE = re.compile(r"(?:\b[a-z]{2,}\b[ ,]+){2}[a-z]{2,}\b")
 
 
 def prose(text: str) -> list[str]:
-    """Return what reads as English in what was said."""
+    """Return the English prose in a message."""
     return PROSE.findall(re.sub(r"'[^'\n]*'|`[^`\n]*`|<[^>\n]*>", " ", text))
 
 

@@ -1,4 +1,4 @@
-"""A fix changes what it fixes: line ends, encodings, tabs, marks and last lines stay as they are."""
+"""A fix preserves line ends, encodings, tabs, byte order marks and last lines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CFG_BIN = Replace(CFG, "script_dir=$base/lib/my_robot_controller\n[", "script_di
 
 
 def change(root: Path, path: str) -> tuple[bytes, bytes]:
-    """Return a file's bytes before and after the fix of all that is wrong in its package."""
+    """Return a file's bytes before and after fixing everything in its package."""
     plan = plan_of(root)
     assert not plan.left
     for tool in TOOLS:

@@ -1,4 +1,4 @@
-"""Fixes of what only a build or a run shows, by the mistake that the real verdict names."""
+"""Fixes of mistakes that only a build or a run shows, as named by the real verdict."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tests.corpus.model import NODE, SETUP, Package
 from tests.fix.bench import TOOLS, edited, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
-# The one fix of these is the solution, letter by letter.
+# The only fix of these is exactly the solution.
 BACK_TO_SOLUTION = (
     *("setup_syntax_error", "setup_prints", "import_misspelt", "import_of_node"),
     *("import_node_missing", "super_missing", "super_after_timer", "super_without_name"),
@@ -47,9 +47,9 @@ OTHERWISE = {
     "f_prefix_missing": "f'Hello time: {self.counter_}'",
     "number_padded": "f'Hello time: {self.counter_}'",
 }
-# A verdict takes seconds: `make test` has one of each kind, `test-all` every one.
+# A verdict takes seconds: `make test` has one of each kind, `test-all` has all.
 QUICK = ("setup_prints", "counter_not_set")
-# What these should be, nobody but the student knows.
+# Only the student knows what these should be.
 NOT_MENDED = {
     *("import_unknown", "raises_at_import", "exception_in_init", "name_error_in_callback"),
     *("timer_in_callback", "three_then_exit", "text_of_another_course", "python_logging"),
@@ -63,7 +63,7 @@ def package(name: str) -> Package:
 
 
 def patches(name: str, folder: Path) -> list[str]:
-    """Return the patches of a corpus package's failed checks, as a report of it carries them."""
+    """Return the patches of a corpus package's failed checks, as in its report."""
     submission = taken(write(package(name), folder))
     found = []
     for check, mistake in package(name).expect_failed.items():

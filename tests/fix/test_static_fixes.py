@@ -1,4 +1,4 @@
-"""Fixes of what the files alone show: the check passes then, and the diff is one that tools take."""
+"""Fixes of static mistakes: the check passes afterwards, and tools accept the diff."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.fix.bench import NODE, TOOLS, contents, plan_of, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
 STATIC = ("package.", "source.", "entry_point.mapping")
-# Nothing tells what these should be, so nothing is offered.
+# Nothing shows what these should be, so no fix is offered.
 NOT_MENDED = {
     *("no_manifest", "manifest_empty", "manifest_not_utf8", "cmake_package", "setup_missing"),
     *("as_created", "node_not_written", "node_empty", "indentation", "tabs_and_spaces"),

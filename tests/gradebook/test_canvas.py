@@ -33,7 +33,7 @@ def student(number: int, grade: str = "") -> str:
 
 
 def canvas_reads(content: bytes) -> tuple[list[str], list[list[str]]]:
-    """Return header and students as the importer sees them; InvalidHeaderRow is an assertion."""
+    """Return header and students as the importer reads them; InvalidHeaderRow is an assertion."""
     lines = content.decode("utf-8-sig").splitlines()[:3]
     counts = {sep: {len(next(csv.reader([line], delimiter=sep))) for line in lines} for sep in ";,"}
     fields = {sep: found.pop() if len(found) == 1 else 0 for sep, found in counts.items()}

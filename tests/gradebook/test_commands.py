@@ -1,4 +1,4 @@
-"""The commands of this room: what they print, write and refuse, and with which exit status."""
+"""The conversion commands: output, files, refusals and exit statuses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One student's feedback: all that is theirs, nothing of others, and no text becomes markup."""
+"""A student's feedback: complete, nothing about others, and no text becomes markup."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TITLE = "Hello time"
 
 
 def spoken(text: str) -> str:
-    """Return what a reader of the Markdown sees, line by line."""
+    """Return the visible text of the Markdown, line by line."""
     tokens = MarkdownIt("commonmark").parse(text)
     lines = [token for token in tokens if token.type in ("inline", "fence")]
     return "\n".join(
@@ -104,7 +104,7 @@ def test_no_text_becomes_markup_in_markdown(text: str) -> None:
 
 
 class Markup(HTMLParser):
-    """Collects what a page consists of beside its text."""
+    """Collects the tags and attributes of a page."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -129,7 +129,7 @@ def test_no_text_becomes_markup_in_html(text: str) -> None:
     assert all((value or "").startswith("#") for name, value in found.attributes if name == "href")
 
 
-@pytest.mark.full  # Chromium is not there for `make test`
+@pytest.mark.full  # `make test` has no Chromium
 def test_the_page_loads_nothing_and_runs_nothing(visit: Open, tmp_path: Path) -> None:
     text = "\"'></pre><script>alert(1)</script><img src=http://x.example/ onerror=alert(2)>"
     path = tmp_path / "feedback.html"

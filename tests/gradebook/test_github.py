@@ -1,4 +1,4 @@
-"""The variable of GitHub Classroom's reporter: what its notice adds up is the final score."""
+"""The variable of GitHub Classroom's reporter: its notice adds up to the final score."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def read(variable: str) -> dict[str, Any]:
 
 
 def notice(found: dict[str, Any]) -> tuple[float, float]:
-    """Return what the classroom is told (src/notify-classroom.js), as the table has it as well."""
+    """Return the points sent to the classroom (src/notify-classroom.js) and shown in the table."""
     return sum(test["score"] for test in found["tests"]), found["max_score"]
 
 
@@ -94,6 +94,6 @@ def test_hostile_texts_change_no_points_and_print_no_workflow_command(text: str)
     for test in found["tests"]:
         assert test["name"].isprintable()
         for line in f"{test['name']}\n{test['message']}".split("\n"):
-            # GitHub's runner would obey such a line of the log
+            # GitHub's runner would execute such a line of the log
             assert not line.lstrip().startswith("::")
             assert "##[" not in line

@@ -1,4 +1,4 @@
-"""gradebook.csv: everybody is in it, its numbers are the reports', and no cell is a formula."""
+"""gradebook.csv: it has everybody with the points of their reports, and no cell is a formula."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_no_text_becomes_a_formula_or_a_new_row(found: list[str]) -> None:
     for row in rows:
         for name in ("name", "email", "username", "id_number", "section", "mistakes", "notes"):
             assert "\n" not in row[name]
-            # in a country whose spreadsheets split at semicolons
+            # in countries whose spreadsheets split at semicolons
             for piece in row[name].split(";"):
                 assert not FORMULA.match(piece) or piece.lstrip(' "').startswith("'")
             assert row[name].isprintable()

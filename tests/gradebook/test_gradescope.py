@@ -1,4 +1,4 @@
-"""Gradescope's results.json: the reader's fields, our points, and what a student may not see."""
+"""Gradescope's results.json: its fields, the points, and what students must not see."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""The autograder archive, unpacked as Gradescope does, marks real packages in a real container-like
-root: `results.json` is there and right, whatever happens.
+"""The autograder archive, unpacked as Gradescope does, marks real packages as root of a container.
+
+`results.json` is written and right, whatever happens.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ from tests.report import samples
 
 SOLUTION = Package(name="my_robot_controller", edits=())
 SECRETS = ("source/grader/keys", "submission_metadata.json", "results", "submission")
-# a setup.py that ends the build if it can read what is not the student's
+# a setup.py that fails the build if it can read files that are not the student's
 SPY = """import os
 for name in {places!r}:
     try:
@@ -68,7 +69,7 @@ def unpack(folder: Path, content: bytes) -> None:
 
 @pytest.fixture
 def autograder(ros_jazzy: Ros) -> Iterator[Path]:
-    """A folder that plays /autograder, open to all as there; our environment is its own."""
+    """A folder in the role of /autograder, open to all as there, with our own environment."""
     folder = Path(tempfile.mkdtemp(prefix="autograder-"))
     folder.chmod(0o755)
     unpack(folder, gradescope_zip())
@@ -78,7 +79,7 @@ def autograder(ros_jazzy: Ros) -> Iterator[Path]:
 
 
 def run(autograder: Path) -> tuple[int, dict[str, Any], str]:
-    """Run it as root of a container that is thrown away; return status, results and output."""
+    """Run it as root of a throwaway container; return status, results and output."""
     command = stage.as_root_of_a_container([str(autograder / "run_autograder")])
     done = stage.run(command, cwd=autograder, env={"PYTHONPATH": ""})
     written = (autograder / "results/results.json").read_bytes()
@@ -137,7 +138,7 @@ def test_a_grader_that_cannot_start_says_it_is_not_the_students_fault(autograder
 
 @pytest.mark.full
 def test_the_archives_setup_installs_all_that_it_needs(autograder: Path) -> None:
-    """`setup.sh` makes the environment from the archive alone, locked, without the tests' parts."""
+    """`setup.sh` makes the locked environment from the archive alone, without the tests' part."""
     (autograder / "source/.venv").unlink()
     done = stage.run([autograder / "source/setup.sh"], cwd=autograder, timeout=300)
     assert done.returncode == 0, done.stderr
@@ -273,7 +274,7 @@ def test_an_archive_without_a_checkout_or_assignment_is_refused(tmp_path: Path) 
 
 
 def policy(tmp_path: Path) -> Order:
-    """An order by an assignment that takes a tenth a day from 2026-11-20 12:00 in Los Angeles on."""
+    """Return an order with 10% off a day after 2026-11-20 12:00 in Los Angeles."""
     text = (stage.ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
     file = tmp_path / "assignment.yaml"
     file.write_text(f"{text}policy: {{due: 2026-11-20T12:00:00-08:00, late: {{per_day: 10%}}}}\n")

@@ -1,4 +1,4 @@
-"""JUnit XML, read by junitparser and by its schema's rules."""
+"""JUnit XML, read by junitparser and checked by the rules of its schema."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from grader.report.model import Report
 from tests.gradebook.texts import hostile_class, texts
 from tests.report import samples
 
-# what may stand in what, and the attributes that must be there (Jenkins' xunit plugin, junit-10.xsd)
+# the children that an element may have, and its required attributes (Jenkins' junit-10.xsd)
 PARTS = {
     "testsuites": {"testsuite"},
     "testsuite": {"properties", "testcase", "system-out", "system-err"},
@@ -40,7 +40,7 @@ KINDS = {
 
 
 def suites(content: bytes) -> list[Suite]:
-    """Parse with junitparser, after the schema's rules were checked."""
+    """Check the schema's rules, then parse with junitparser."""
     for element in ET.fromstring(content).iter():
         assert {child.tag for child in element} <= PARTS.get(element.tag, set())
         assert NEEDED.get(element.tag, set()) <= set(element.attrib)

@@ -1,4 +1,4 @@
-"""What systems and students are given of a Korean report: all of our prose in Korean."""
+"""Outputs of a Korean report for systems and students: all of our prose is Korean."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ LATIN = re.compile(r"[A-Za-z]{2,}")
 
 
 def korean(report: Report) -> Report:
-    """Return a report as if all of its prose, and what programs printed, were Korean."""
+    """Return a report with all prose and program output replaced by Korean."""
     checks = []
     for check in report.checks:
         prose = dict.fromkeys(("expected", "actual", "rationale", "fix", "patch"), "글")
@@ -73,7 +73,7 @@ def korean(report: Report) -> Report:
 
 
 def report_of(**statuses: str) -> Report:
-    """Return a Korean report in which the checks `run_output=` … have these statuses."""
+    """Return a Korean report whose checks have the given statuses (`run_output=` …)."""
     changed = []
     for name, status in statuses.items():
         check_id = name.replace("_", ".", 1)
@@ -94,7 +94,7 @@ CORRECTIONS = (
 
 
 def entries() -> Iterator[Entry]:
-    """Yield an entry of each kind: late, corrected, missing, ungradable, waiting, with our fault."""
+    """Yield an entry of each kind: late, corrected, missing, ungradable, pending, our fault."""
     usual: dict[str, Any] = {"student": classes.student(1), "lang": "ko"}
     usual["student"] = dataclasses.replace(usual["student"], name="김하나", section="가")
     late = {"penalty": 5, "late_seconds": 7_800, "attempt": 2, "attempts": 3}
@@ -120,7 +120,7 @@ ENTRIES = list(entries())
 
 
 class Texts(HTMLParser):
-    """Collects what a reader of a page sees or hears."""
+    """Collects the text of a page, visible or read aloud."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -140,7 +140,7 @@ class Texts(HTMLParser):
 
 
 def strings(part: Any) -> Iterator[str]:
-    """Yield every text of a JSON document that is a sentence or a name, not a word of its form."""
+    """Yield every text of a JSON document that is prose or a name, not a keyword of its format."""
     if isinstance(part, dict):
         for name, value in part.items():
             form = ("status", "visibility", "extra_data", "execution_time")
@@ -154,7 +154,7 @@ def strings(part: Any) -> Iterator[str]:
 
 
 def english(text: str) -> list[str]:
-    """Return the Latin words of a text that are no names."""
+    """Return the Latin words of a text that are not names."""
     return LATIN.findall(KNOWN.sub(" ", text.replace(samples.COMMAND, " ")))
 
 

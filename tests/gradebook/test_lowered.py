@@ -1,4 +1,4 @@
-"""What counts as lowering a grade that is there already."""
+"""What counts as lowering an existing grade."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def entry(final: float | None, *overrides: Override) -> Entry:
         ("80", 90, False),
         ("80", None, True),
         ("0", 0, False),
-        # what cannot be compared is not replaced unasked
+        # a grade that cannot be compared is not replaced without consent
         ("A-", 90, True),
         ("complete", 90, True),
     ],

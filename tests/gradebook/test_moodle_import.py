@@ -1,4 +1,4 @@
-"""Moodle's gradebook import: one unknown user would end it, so nobody doubtful is in the file."""
+"""Moodle's gradebook import: an unknown user would stop it, so ambiguous users are left out."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_each_student_has_one_row_by_id_number(mixed: ClassResult) -> None:
 
 
 def test_a_student_without_a_grade_has_no_row(mixed: ClassResult) -> None:
-    """grade/import/csv takes `-` and an empty cell for null, and writes it over what is there."""
+    """grade/import/csv reads `-` and an empty cell as null and overwrites the grade with it."""
     assert any(entry.final is None for entry in mixed.entries)
     assert {row[mixed.title] for row in rows(moodle_import(mixed, comment).content)}.isdisjoint(
         {"-", ""}

@@ -1,4 +1,4 @@
-"""The teacher's own worksheet comes back with Grade and Feedback filled in and nothing else."""
+"""The instructor's worksheet comes back with only Grade and Feedback filled in."""
 
 from __future__ import annotations
 
@@ -158,13 +158,13 @@ def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, said: str) ->
 def test_no_submission_text_breaks_a_cell_in_php_or_html(text: str) -> None:
     worksheet = english(0, 1)
     result = hostile_class(text)
-    # (whose row it is, is told by number and name)
+    # the row is identified by number and name
     student = dataclasses.replace(result.entries[0].student, name=classes.student(0).name)
     entry = dataclasses.replace(result.entries[0], student=student)
     result = dataclasses.replace(result, entries=(entry,))
     content = fill_worksheet(worksheet, result).content
     after = rows(content)
-    # PHP's fgetcsv takes a backslash for an escape; both readers must see the same
+    # PHP's fgetcsv reads a backslash as an escape; both readers must get the same
     escaping = csv.DictReader(
         io.StringIO(content.decode(), newline=""), escapechar="\\", doublequote=True
     )

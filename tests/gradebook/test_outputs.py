@@ -1,4 +1,4 @@
-"""The files of a class: all there, whole, for their owner only, and never half of them."""
+"""The output files of a class: complete, readable by their owner only, never partial."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_a_failing_output_does_not_prevent_the_others(
     written = write_outputs(mixed, tmp_path)
     assert (tmp_path / "junit.xml").is_file()
     assert len(list((tmp_path / "feedback").iterdir())) == 2 * len(mixed.entries)
-    with pytest.raises(KeyError):  # it is told with its traceback
+    with pytest.raises(KeyError):  # it is reported with its traceback
         raise_failures(written.failures)
 
 

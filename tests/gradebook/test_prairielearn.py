@@ -1,4 +1,4 @@
-"""PrairieLearn's results.json: gradable or not, points on all tests, one megabyte at most."""
+"""PrairieLearn's results.json: gradable or not, points of all tests, at most one megabyte."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A teacher's CSV file is read as `csv` reads it, and only the cells that we fill in change."""
+"""An instructor's CSV file is read as `csv` reads it, and only the filled cells change."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def test_bytes_around_a_filled_cell_stay() -> None:
         ("cp949", "김민지", "CP949"),
         ("cp949", "뷁 가나다라마", "CP949"),
         ("cp1252", "Änn Å€", "Windows-1252"),
-        # valid CP949 as well: a Hangul syllable that hardly anybody is called
+        # valid CP949 as well: a Hangul syllable that hardly occurs in names
         ("cp1252", "Åsa Berg", "Windows-1252"),
         ("latin-1", "Zo\xeb \x81", "Latin-1"),
         ("utf-16", "김민지", ""),

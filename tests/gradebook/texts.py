@@ -1,4 +1,4 @@
-"""Texts that are meant to break a reader, and classes made of them."""
+"""Hostile texts, and classes made of them."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ texts = st.one_of(
 
 
 def hostile_entry(text: str, *, number: int = 1) -> Entry:
-    """An entry in which every text, of the student and of the report, is `text`."""
+    """Return an entry in which every text, of student and report, is `text`."""
     poisoned = classes.poisoned(samples.failing_report(), text.replace("\ud800", "?"))
     entry = classes.entry(
         number,

@@ -16,7 +16,7 @@ IMAGES = ("lab-jazzy", "lab-jazzy-wheels")
     params=["bubblewrap", *(pytest.param(name, marks=pytest.mark.docker) for name in IMAGES)]
 )
 def kind(request: pytest.FixtureRequest, ros_jazzy: Ros) -> Iterator[Kind]:
-    """Each kind of lab in turn."""
+    """Each kind of lab."""
     yield from open_kind(request.param)
 
 

@@ -1,4 +1,4 @@
-"""A command that is run in the lab instead of a shell; the same in every kind of lab."""
+"""A command run in the lab instead of a shell, the same in every kind of lab."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A lab that is opened for another course's lesson: its guide, its check, and nothing beside it."""
+"""A lab for another course's lesson: its guide, its check, and nothing else."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def of_course(kind: Kind, course: Path, **more: str) -> Kind:
 
 
 def workspace_with(folder: Path, broken: bool) -> Path:
-    """Make a workspace with the package in it, the student's own to write to."""
+    """Make a workspace with the package in it, writable by the student."""
     source = folder / "ws" / "src"
     source.mkdir(parents=True)
     edits = [Replace(weather.SETUP, weather.ENTRY, "")] if broken else []
@@ -88,7 +88,7 @@ def test_the_default_course_is_opened_for_its_lesson(kind: Kind, tmp_path: Path)
 
 
 def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
-    """(What is mounted in a container cannot be changed any more.)"""
+    """The mounts of an existing container cannot be changed."""
     course = weather.write_course(tmp_path, "winds")
     workspace = prepare(tmp_path / "ws")
     found = find_distro("jazzy")
@@ -108,7 +108,7 @@ def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
 
 
 def test_a_home_folder_is_not_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All that a person has would be in the lab."""
+    """All files of the person would be visible in the lab."""
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     for folder in (tmp_path / "home", tmp_path):
         folder.mkdir(exist_ok=True)

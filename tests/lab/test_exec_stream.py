@@ -1,4 +1,4 @@
-"""The connection to a command in a container, against a daemon of our own that is quicker than any."""
+"""The connection to a command in a container, tested with our own very fast daemon."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lab.exec_stream import STDERR, STDOUT, ExecStream
 
 
 class _Daemon(socketserver.StreamRequestHandler):
-    """Answers `exec`; the command's first words come in one piece with the answer's head."""
+    """Answers `exec`; the command's first output arrives together with the response header."""
 
     def handle(self) -> None:
         while line := self.rfile.readline():

@@ -1,4 +1,4 @@
-"""The guide tells from the workspace where a student is, and what comes next."""
+"""The guide finds the student's current step from the workspace, and the next action."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_another_way_to_write_the_node_counts(tmp_path: Path) -> None:
 
 
 def test_files_in_a_wrong_state_are_reported(tmp_path: Path) -> None:
-    """Each fault by itself, in a workspace that is right otherwise."""
+    """Each mistake alone, in an otherwise right workspace."""
 
     def after(name: str) -> tuple[Path, Mapping[str, str]]:
         return tmp_path / name, after_step(tmp_path / name, 9, NODE)
@@ -139,7 +139,7 @@ def test_the_command_shows_the_current_step_and_one_next_action(tmp_path: Path) 
     assert re.findall("^Next: .*$", out, re.MULTILINE) == [
         "Next: Write the node in my_first_node.py."
     ]
-    assert guide(workspace=tmp_path / "ws", env=env)[1] == out  # nothing is counted
+    assert guide(workspace=tmp_path / "ws", env=env)[1] == out  # no state is kept
 
 
 def test_one_step_the_list_and_the_whole_lesson_can_be_shown(tmp_path: Path) -> None:
@@ -166,7 +166,7 @@ def test_the_commands_are_those_of_the_labs_distro(tmp_path: Path) -> None:
 
 
 def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
-    """A command that is broken into lines cannot be copied."""
+    """A command that is wrapped cannot be copied."""
     env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(stage.ROOT)}
     screen = pexpect.spawn(
         sys.executable,

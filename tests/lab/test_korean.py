@@ -36,12 +36,12 @@ def guide(*words: str, workspace: Path, env: dict[str, str]) -> subprocess.Compl
 
 
 def code_of(text: str) -> list[str]:
-    """Return what is to be typed, or is printed, word for word."""
+    """Return the texts to be typed, or printed, literally."""
     return BLOCK.findall(text)
 
 
 def names_in(text: str) -> set[str]:
-    """Return the names, commands and messages that a lesson sets as code within a line."""
+    """Return the names, commands and messages that a lesson formats as inline code."""
     return set(INLINE.findall(BLOCK.sub("", text)))
 
 
@@ -73,7 +73,7 @@ def test_the_lesson_has_the_same_steps_with_the_same_parts(lang: str) -> None:
     assert [(s.number, s.done) for s in same.steps] == [(s.number, s.done) for s in one.steps]
     for step, other in zip(one.steps, same.steps, strict=True):
         assert code_of(other.text) == code_of(step.text)
-        for part in (r"^\d\. ", r"^\|", r"^\*(?!\*)"):  # the guide names a list's parts by number
+        for part in (r"^\d\. ", r"^\|", r"^\*(?!\*)"):  # the guide refers to list items by number
             found = [re.findall(part, text, re.MULTILINE) for text in (step.text, other.text)]
             assert found[0] == found[1]
 
@@ -84,7 +84,7 @@ def test_a_language_without_a_lesson_has_the_english_one(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("step", range(2, 10))
 def test_the_guide_names_each_next_action_in_korean(step: int, tmp_path: Path) -> None:
-    """(A next thing that is nothing but a command is the same in every language.)"""
+    """A next action that is only a command is the same in every language."""
     env = after_step(tmp_path / "ws", step, NODE)
     done = guide(workspace=tmp_path / "ws", env=env)
     assert (done.returncode, done.stderr) == (0, "")
@@ -171,7 +171,7 @@ def test_the_welcome_is_in_the_language(kind: Kind, tmp_path: Path) -> None:
         assert "다음에 할 일을 한 단계씩" in told
         assert str(tmp_path / "ws") in lab.welcome
         assert PROSE.findall(told) == []
-        assert lab.type("echo $lab_welcome").strip() == ""  # the words are not left in the shell
+        assert lab.type("echo $lab_welcome").strip() == ""  # not left in the shell
         assert lab.leave() == 0
 
 
@@ -193,5 +193,5 @@ def test_usage_errors_of_the_lab_are_in_korean(ros_jazzy: Ros, tmp_path: Path) -
         assert done.returncode == status
         assert done.stderr.startswith("lab: ")
         assert HANGUL.search(done.stderr)
-        told = re.sub(r"\(.*?\)", "", done.stderr)  # (commands to be typed)
+        told = re.sub(r"\(.*?\)", "", done.stderr)  # commands to be typed
         assert PROSE.findall(told) == [], done.stderr

@@ -1,4 +1,4 @@
-"""Whichever way the lab ends, nothing of it is left running."""
+"""However the lab ends, none of its processes is left running."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def test_leaving_does_not_wait_for_background_jobs(kind: Kind, tmp_path: Path) -
 
 
 def test_the_caller_gets_the_terminal_back(kind: Kind, tmp_path: Path) -> None:
-    """A script that goes on after the lab reads from the terminal, in the mode that it was in."""
+    """A script that continues after the lab can read from the terminal in its original mode."""
     line = shlex.join(command("--sandbox", kind.sandbox, "--workspace", tmp_path / "ws"))
     script = (
         f'before=$(stty -g); {line}; [ "$before" = "$(stty -g)" ] && read -r x && echo "got $x"'

@@ -1,4 +1,4 @@
-"""What the lab opens, where the workspace is, and what it refuses."""
+"""Which lab is opened, where its workspace is, and what is refused."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def test_docker_without_an_image_names_the_command_that_builds_it(
 
 @pytest.mark.docker
 def test_a_daemon_on_another_machine_is_refused() -> None:
-    """(The daemon that is asked here is this machine's, under a name that is not.)"""
+    """The test uses this machine's daemon under another host name."""
     code = (
         "import docker, lab.container as c\n"
         "client = docker.from_env()\n"
@@ -138,7 +138,7 @@ def test_an_existing_workspace_is_used_and_not_changed(kind: Kind, tmp_path: Pat
         done = lab(*words, "sh", "-c", "id -u; id -g; whoami; cat src/notes", env=kind.env)
         uid, gid, name, text = done.stdout.splitlines()
         assert (name, text) == ("student", "mine")
-        if os.geteuid() == 0:  # root's lab is the owner's
+        if os.geteuid() == 0:  # root's lab belongs to the workspace's owner
             assert (uid, gid) == ("4321", "4322")
         after = {path: path.lstat() for path in (workspace, *workspace.rglob("*"))}
         assert {path: (s.st_mtime_ns, s.st_uid, s.st_mode) for path, s in before.items()} == {
@@ -214,7 +214,7 @@ def test_a_forbidden_bubblewrap_is_reported_with_cause_and_fix(
 def test_an_interactive_lab_does_not_exit_with_the_last_commands_status(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
-    """`make lab` would end with an error message otherwise."""
+    """Otherwise `make lab` would end with an error message."""
     with Lab(Kind("bubblewrap"), tmp_path / "ws") as opened:
         opened.type("false")
         assert opened.leave() == 0

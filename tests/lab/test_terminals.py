@@ -1,4 +1,4 @@
-"""Terminals in the lab: keys, sizes, completion, and a second one; the same in every kind of lab."""
+"""Terminals in every kind of lab: keys, sizes, completion, and a second terminal."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_the_welcome_is_shown_once(kind: Kind, tmp_path: Path) -> None:
 
 
 def _missing(lab: Lab) -> str:
-    """Return what bash says where the image brings no ~/.bashrc: it has /etc/bash.bashrc."""
+    """Return bash's message if the image has no ~/.bashrc but only /etc/bash.bashrc."""
     return "bash: /home/student/.bashrc: No such file or directory"
 
 
@@ -36,7 +36,7 @@ def test_the_tutorials_first_command_works_and_changes_nothing(kind: Kind, tmp_p
         before = lab.type("env | grep -v ^_ | sort")
         assert lab.type("source /opt/ros/jazzy/setup.bash") == ""
         assert lab.type("env | grep -v ^_ | sort") == before
-        assert "ros2_ws" not in lab.type("echo $AMENT_PREFIX_PATH")  # no overlay by itself
+        assert "ros2_ws" not in lab.type("echo $AMENT_PREFIX_PATH")  # not sourced automatically
 
 
 def test_ctrl_c_reaches_the_running_command_and_leaves_the_lab_open(
@@ -47,7 +47,7 @@ def test_ctrl_c_reaches_the_running_command_and_leaves_the_lab_open(
         lab.interrupt()
         assert lab.status() == 130
         lab.screen.sendintr()  # at an empty prompt
-        lab.screen.sendline()  # with it readline wakes where Ctrl+C came just before it slept
+        lab.screen.sendline()  # wakes readline if Ctrl+C came just before it slept
         lab.screen.sendline("echo still $((40 + 2))")
         lab.screen.expect_exact("still 42")
         assert lab.leave() == 0
@@ -87,7 +87,7 @@ def test_tab_completes_commands_verbs_and_packages(kind: Kind, tmp_path: Path) -
         ):
             lab.screen.send(typed)
             lab.screen.expect_exact(rest)
-            # no Ctrl+C: readline misses a signal that comes between drawing a line and reading on
+            # no Ctrl+C: readline misses a signal between drawing a line and the next read
             lab.screen.sendcontrol("u")
 
 

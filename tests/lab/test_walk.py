@@ -1,4 +1,4 @@
-"""The whole exercise, done in the lab by hand."""
+"""The whole exercise, typed in the lab."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
         assert (workspace / "src" / "my_robot_controller" / "setup.cfg").is_file()
         assert "lab.no_executable" in lab.type("echo No executable found | explain -")
         assert lab.leave() == 0
-    student = os.geteuid() or 1000  # root's lab is the machine's first ordinary user's
+    student = os.geteuid() or 1000  # root's lab runs as the machine's first ordinary user
     assert walk.owners(workspace) == {student}
     with Lab(kind, workspace) as lab:
         walk.run_and_stop(lab, walk.commands("jazzy")[9])

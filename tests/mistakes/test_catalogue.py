@@ -1,4 +1,4 @@
-"""The catalogue is complete: every mistake that is named anywhere has its entry, and can be read."""
+"""The catalogue is complete: every mistake that is named anywhere has a readable entry."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def entries() -> list[object]:
 
 
 def named_in_the_code() -> set[str]:
-    """Return every mistake id that a check, the intake or a recogniser names in its source."""
+    """Return every mistake id in the source of checks, intake and recognisers."""
     prefixes = {kind.partition(".")[0] for kind in CATALOGUE}
     files = {"setup.py", "setup.cfg", "setup.bash", "package.xml"}
     named: set[str] = set()

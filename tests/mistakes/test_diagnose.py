@@ -1,4 +1,4 @@
-"""A failed check says the root cause first, with its line; and looking for it costs next to nothing."""
+"""A failed check names the root cause first, with its line; finding it takes little time."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
-MOST_SECONDS = 0.15  # that a diagnosis may add to a verdict
+MOST_SECONDS = 0.15  # of a verdict that a diagnosis may take
 TRACEBACK = """\
 Traceback (most recent call last):
   File "/ws/install/my_robot_controller/lib/my_robot_controller/test_node", line 33, in <module>
@@ -39,7 +39,7 @@ Traceback (most recent call last):
 
 @dataclass
 class StandIn:
-    """The part of the evidence that a diagnosis looks at."""
+    """The part of the evidence that a diagnosis uses."""
 
     assignment: Assignment
     submission: Submission

@@ -1,4 +1,4 @@
-"""`grader explain`: an entry by its id, or the mistakes in what a terminal shows."""
+"""`grader explain`: an entry by its id, or the mistakes in a terminal's output."""
 
 from __future__ import annotations
 

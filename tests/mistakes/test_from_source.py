@@ -1,4 +1,4 @@
-"""The mistake behind a symptom is found in the source, however the node is written."""
+"""The mistake behind a symptom is found in the source of differently written nodes."""
 
 from __future__ import annotations
 

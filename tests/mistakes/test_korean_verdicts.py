@@ -1,4 +1,4 @@
-"""A whole verdict in Korean: the same ids, statuses and points, and no English prose in it."""
+"""A whole verdict in Korean: the same ids, statuses and points, without English prose."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from tests.corpus.model import Package
 from tests.report.samples import report as sample_report
 from tests.test_verdicts import ASSIGNMENT, LIMITS
 
-# one of each kind of mistake: handed in, manifest, setup.py, source, build, start, callback, text
+# one mistake of each kind: intake, manifest, setup.py, source, build, start, callback, text
 NAMES = ("only_the_node", "manifest_other_name", "comma_missing", "super_missing", "f_prefix_missing",
          "printed", "called_by_hand", "setup_prints", "colon_missing", "callback_misspelt")  # fmt: skip
 QUICK = 5
-# what programs print word for word, and commands to be typed
+# output of programs, and commands to be typed
 QUOTED = (
     "No executable found",
     "Package not found",
@@ -56,7 +56,7 @@ def mark(path: Path, lang: str, heard: list[events.Event]) -> Report:
 
 
 def prose(text: str, report: Report) -> list[str]:
-    """Return what reads as English prose in a text, program output and source code aside."""
+    """Return the English prose in a text, ignoring program output and source code."""
     params = [p for check in report.checks for m in check.mistakes for p in m.params.values()]
     printed = sorted((p for p in params if isinstance(p, str) and p), key=len, reverse=True)
     for words in (*printed, *QUOTED):

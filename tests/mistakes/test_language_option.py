@@ -1,4 +1,4 @@
-"""`--lang` and the environment decide the language of what `grader grade` and `check` say."""
+"""`--lang` and the environment choose the language of `grader grade` and `check`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Did you mean: the nearest name, and where two texts differ."""
+"""Suggestions of the nearest name, and marks where two texts differ."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from grader.base.nearest import compared, marks, meant, nearest, with_difference
 )
 def test_the_difference_is_marked_at_its_place(found: str, wanted: str, line: str) -> None:
     marked = marks(found, wanted)
-    if found == "my_frist_node":  # which of the two swapped letters is wrong is anybody's guess
+    if found == "my_frist_node":  # either of the two swapped letters may be the wrong one
         assert marked.strip() in ("^", "^^", "^ ^")
         assert marked.index("^") in (4, 5)
     else:

@@ -1,4 +1,4 @@
-"""Texts that are English and can be said in another language."""
+"""Messages: English texts that can be translated."""
 
 from __future__ import annotations
 

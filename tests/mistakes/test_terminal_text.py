@@ -1,4 +1,6 @@
-"""What a terminal shows is recognised. The texts are those that ROS 2, colcon, Python and the shell
+"""Mistakes are recognised in terminal output.
+
+The texts are those that ROS 2, colcon, Python and the shell
 print (recorded on rclpy 9.1.2, ros2cli and colcon-core 0.21.3; the table of beginners' mistakes).
 """
 

@@ -1,4 +1,4 @@
-"""Every text has its Korean: complete, with the same placeholders, compiled."""
+"""Every text has a Korean translation with the same placeholders, and it is compiled."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from grader.cli.localized import CLICK, CLICK_COUNTED
 from tests.stage import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
-# what is to be typed or written word for word, and what is all placeholders
+# texts to be typed or written literally, and texts of placeholders only
 CODE = (
     "'{entry}': {because}",
     "[develop] script_dir={wanted} and [install] install_scripts={wanted}",
@@ -57,7 +57,7 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
 
 
 def marked() -> Iterator[str]:
-    """Yield every text that the source marks, as Python reads it (Babel reads tokens)."""
+    """Yield every text marked in the source, found in Python's syntax tree (Babel reads tokens)."""
     for path in sorted(path for room in update.FOLDERS for path in (ROOT / room).rglob("*.py")):
         source = path.read_text(encoding="utf-8")
         if update.MARKS not in source:
@@ -70,7 +70,7 @@ def marked() -> Iterator[str]:
 
 
 def test_every_marked_text_is_extracted() -> None:
-    """(Babel does not see one within an f-string, or within another that is marked.)"""
+    """Babel misses one inside an f-string or inside another marked text."""
     gathered = {template for template, _ in update.templates()}
     assert set(marked()) - gathered == set()
 
@@ -91,7 +91,7 @@ def test_korean_texts_are_korean() -> None:
 
 
 def test_the_translated_texts_of_click_are_still_those_of_click() -> None:
-    """A new click may word it otherwise: the translation would be of nothing."""
+    """A new version of click may change its texts, which would leave them untranslated."""
     folder = Path(click.__file__).parent
     keywords: dict[str, tuple[int, ...] | None] = {"_": None, "ngettext": (1, 2)}
     said = {

@@ -1,4 +1,4 @@
-"""Reports on the disk: whole at every moment, private, and never in somebody else's place."""
+"""Reports on disk: always complete, private, and never in another submission's folder."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tests.report.samples import check, failing_report, of, report
 
 
 def suffix(path: str | Path) -> str:
-    """The eight hex digits by which the second of two namesakes is told from the first."""
+    """Return the eight hex digits that distinguish two submissions with the same name."""
     return hashlib.sha256(str(path).encode()).hexdigest()[:8]
 
 
@@ -100,7 +100,7 @@ def test_two_submissions_with_the_same_name_have_two_folders(tmp_path: Path) -> 
     assert two.parent.parent.name == f"anna-{suffix(second)}"
     assert other_distro.parent.parent == two.parent.parent
     assert json.loads(one.read_text())["submission"]["path"] == str(first)
-    # and each finds its own again, even when the first one's has gone
+    # each finds its own folder again, even if the first one is removed
     assert write_report(of(first), out, "anna") == one
     shutil.rmtree(one.parent.parent)
     assert write_report(of(second), out, "anna") == two

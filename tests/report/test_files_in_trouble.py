@@ -1,4 +1,4 @@
-"""Reports on the disk when things go wrong: killed, no room, no right, planted links."""
+"""Reports on disk in case of kills, a full disk, missing permissions and planted links."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ PADDING = 300_000  # characters, so that a write takes more than one block
 
 
 def suffix(path: str | Path) -> str:
-    """The eight hex digits by which the second of two namesakes is told from the first."""
+    """Return the eight hex digits that distinguish two submissions with the same name."""
     return hashlib.sha256(str(path).encode()).hexdigest()[:8]
 
 
 @pytest.fixture
 def ordinary_user(tmp_path: Path) -> Iterator[None]:
-    """Root can write anywhere: be somebody else for a while."""
+    """Become an ordinary user during the test, because root can write anywhere."""
     if os.geteuid() == 0:
         os.seteuid(65534)
         yield
@@ -75,7 +75,7 @@ def test_a_planted_report_is_neither_followed_nor_waited_for(tmp_path: Path, tar
     written = write_report(of("/s/anna", message="new"), tmp_path / "out", "anna")
     assert written.is_file()
     assert not written.is_symlink()
-    assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"  # whose is the other?
+    assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"  # owner unknown
     assert victim.exists() == (target == "file")
     assert before is None or victim.read_text() == before
 
@@ -91,7 +91,7 @@ def test_a_link_in_place_of_the_matrix_is_replaced_and_not_followed(tmp_path: Pa
 
 
 def write_until_killed(out: Path, marked: list[Report]) -> int:
-    """Start a process that writes the reports in turn; return its id once it has written all."""
+    """Start a process that writes the reports in turn; return its id after the first round."""
     reader, writer = os.pipe()
     pid = os.fork()
     if pid == 0:
@@ -116,13 +116,13 @@ def test_after_a_kill_the_old_or_the_new_report_is_complete(tmp_path: Path) -> N
     most_left_over = 0
     for _ in range(KILLS):
         pid = write_until_killed(tmp_path, marked)
-        time.sleep(chance.uniform(0, 0.02))  # any moment will do
+        time.sleep(chance.uniform(0, 0.02))  # kill at a random moment
         os.kill(pid, signal.SIGKILL)
         _, status = os.waitpid(pid, 0)
         assert os.WTERMSIG(status) == signal.SIGKILL
         assert json.loads(file.read_text())["evidence"]["build_log"] in whole
         most_left_over = max(most_left_over, len(list(file.parent.iterdir())) - 1)
-    assert most_left_over == 1  # some were killed in the middle; the next one swept it up
+    assert most_left_over == 1  # left by a kill, removed by the next process
     write_report(report(), tmp_path, "anna")
     assert [path.name for path in file.parent.iterdir()] == ["report.json"]
 
@@ -147,7 +147,7 @@ def test_on_a_full_disk_the_old_report_stays_and_nothing_else_is_left(tmp_path: 
     size, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     former = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     try:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # no file may be longer
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # limits the size of a file
         with pytest.raises(SurroundingsError, match="Free some space") as told:
             write_report(report(message="new" * 9_000), tmp_path, "anna")
     finally:

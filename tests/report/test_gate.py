@@ -1,4 +1,4 @@
-"""What goes to a terminal passes the gate: nothing from outside steers it, whatever prints it."""
+"""All terminal output passes the gate: no text from outside controls the terminal."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ WAYS = {
 
 
 def run(*ways: str, **more: str) -> str:
-    """Return what the ways put out, both streams together."""
+    """Return the output of the given ways, both streams together."""
     done = subprocess.run(
         [sys.executable, "-m", "tests.report.misbehaving", *ways],
         cwd=ROOT,
@@ -45,7 +45,7 @@ def run(*ways: str, **more: str) -> str:
 
 
 def by_way(said: str) -> dict[str, str]:
-    """Return what each way has put out; fail if one ended with another status than it must."""
+    """Return the output of each way; fail if one has an unexpected exit status."""
     parts = re.split(r"\n== (\w+) (\d+)\n", said)
     found = dict(zip(parts[1::3], parts[0::3], strict=False))
     statuses = {way: int(status) for way, status in zip(parts[1::3], parts[2::3], strict=True)}
@@ -64,7 +64,7 @@ def test_a_pipe_gets_no_control_bytes_however_text_is_printed() -> None:
 def test_a_terminal_gets_only_our_own_styles() -> None:
     terminal = on_a_terminal("misbehaving", *WAYS)
     terminal.expect(pexpect.EOF)
-    ours = {"console": "\x1b[1m", "page": "\x1b[1m"}  # bold, and not the green that is in the text
+    ours = {"console": "\x1b[1m", "page": "\x1b[1m"}  # bold, but not the green from the text
     for way, text in by_way(str(terminal.before).replace("\r\n", "\n")).items():
         assert "Score 100 / 100" in text, way
         assert unfit(text) == set(), way
@@ -128,7 +128,7 @@ def test_a_gate_behaves_like_its_stream() -> None:
     assert not made.isatty()
     assert not hasattr(made, "buffer"), "who finds one writes past the gate"
     with pytest.raises((TypeError, AttributeError)):
-        made.write(b"")  # type: ignore[arg-type]  # click finds out so what it is
+        made.write(b"")  # type: ignore[arg-type]  # click detects a text stream by this
     made.close()
     assert not file.closed
 

@@ -1,4 +1,4 @@
-"""Text that a submission decides is shown as text, whatever it holds."""
+"""Text from a submission is shown as plain text, whatever it contains."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ HOSTILE = {
 
 
 def everywhere(text: str) -> Report:
-    """A report with the text in every place that a submission, or anybody, can fill."""
+    """Return a report with the text in every field that anybody can fill."""
     fields: dict[str, Any] = {
         "title": text,
         "rationale": text,
@@ -94,7 +94,7 @@ def pages(marked: Report, width: int = 80) -> list[str]:
 
 
 def unfit(page: str) -> set[str]:
-    """The characters that do not belong on a page: neither printable nor of our own styles."""
+    """Return the characters of a page that are neither printable nor part of our styles."""
     text = OUR_STYLES.sub("", page)
     wrong = ("Cc", "Cf", "Cs", "Zl", "Zp")
     return {c for c in text if unicodedata.category(c) in wrong and c not in SURVIVING}

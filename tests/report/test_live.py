@@ -1,4 +1,4 @@
-"""The live line on real pseudo-terminals, and what stands for it elsewhere."""
+"""The live line on real pseudo-terminals, and its replacement elsewhere."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_the_live_line_shows_stage_tick_check_and_time_and_disappears() -> None:
     terminal.expect("Starting")
     terminal.sendline()
     terminal.expect("building with colcon.*?  [0-9] s")
-    terminal.expect("building with colcon.*?  [1-9] s")  # time goes on while nothing happens
+    terminal.expect("building with colcon.*?  [1-9] s")  # the time advances while nothing happens
     for _ in range(4):
         terminal.sendline()
     terminal.expect("running the node.*?  Hello time: 0.*?The node counts: Hello time: 0, 1")
@@ -36,7 +36,7 @@ def test_the_live_line_shows_stage_tick_check_and_time_and_disappears() -> None:
         terminal.sendline()
     terminal.expect("the end")
     last = str(terminal.before)
-    assert last.endswith("\x1b[2K")  # the line was erased before the next output
+    assert last.endswith("\x1b[2K")  # the line is erased before the next output
     terminal.expect(pexpect.EOF)
 
 
@@ -146,7 +146,7 @@ def test_a_closed_stream_does_not_interrupt_the_work() -> None:
     with os.fdopen(writer, "w") as gone, LiveProgress(gone) as progress:
         for _ in range(3):
             progress(StageStarted("build", "building"))
-        os.dup2(os.open(os.devnull, os.O_WRONLY), writer)  # what is still in the buffer
+        os.dup2(os.open(os.devnull, os.O_WRONLY), writer)  # takes what is still in the buffer
     closed = io.StringIO()
     closed.close()
     with LiveProgress(closed) as progress:

@@ -1,4 +1,4 @@
-"""The page of several distros: what differs, and why."""
+"""The page of several distros: the differences and their causes."""
 
 from __future__ import annotations
 

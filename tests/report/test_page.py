@@ -1,4 +1,4 @@
-"""The page of one report: what stands on it, and that a student can make use of it."""
+"""The page of one report: its content and its usefulness to a student."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.report.samples import COMMAND, TITLES, check, failing_report, misspel
 
 
 def words(text: str) -> str:
-    """The text with its line breaks and indentation taken out."""
+    """Return the text without its line breaks and indentation."""
     return " ".join(text.split())
 
 
@@ -52,7 +52,7 @@ def test_unknown_points_are_shown_and_are_not_zero() -> None:
     assert re.search(r"^\? +run\.period .* - / 4$", page, re.MULTILINE)
     assert "3 of 10 lines came late" in page
     assert "No points given or taken" in page
-    assert "next" not in page  # nothing is the student's to fix
+    assert "next" not in page  # there is nothing for the student to fix
 
 
 def test_fractions_of_points_are_written_naturally() -> None:
@@ -76,7 +76,7 @@ def test_a_failed_check_has_all_details(width: int) -> None:
     block = page.partition("FAIL entry_point.mapping:")[2].partition("Skipped because")[0]
     for said in (failed.title, failed.rationale, failed.fix):
         assert said in words(block)
-    # a narrow page may break these, which have no blanks to break at
+    # a narrow page may break these, which have no spaces to break at
     assert failed.expected.replace(" ", "") in re.sub(r"\s", "", block)
     assert failed.actual.replace(" ", "") in re.sub(r"\s", "", block)
     assert "setup.py:23" in block

@@ -1,4 +1,4 @@
-"""`report.schema.json`: what other people's programs rely on."""
+"""`report.schema.json`, the contract with other programs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SCHEMA = json.loads(PATH.read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 STATUSES = ["passed", "failed", "skipped", "inconclusive", "error"]
 
-# The fields of the published form, as README and docs promise them
+# The fields of the published format, as documented in README and docs
 CONTRACT: dict[str, set[str]] = {
     "": {"schema", "assignment", "submission", "environment", "status", "message", "score",
          "max_score", "lang", "attempts", "checks", "observed", "evidence", "timing", "started"},
@@ -106,7 +106,7 @@ def test_unknown_fields_are_accepted_everywhere() -> None:
         return value
 
     content = extend(dumped())
-    # maps, whose keys are names and not fields
+    # maps: their keys are data, not fields
     del content["environment"]["limits"]["from_2031"]
     for result in content["checks"]:
         for mistake in result["mistakes"]:

@@ -1,4 +1,4 @@
-"""The page on real pseudo-terminals and in pipes: what is coloured, what is plain, how wide."""
+"""The page on real pseudo-terminals and in pipes: colours and width."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.report.stage import ROOT, STYLES, on_a_terminal, piped
 
 
 def shown(columns: int = 80, env: dict[str, str] | None = None) -> str:
-    """All that `showing` writes on a terminal."""
+    """Return all that `showing` writes on a terminal."""
     terminal = on_a_terminal("showing", columns=columns, **(env or {}))
     terminal.expect(pexpect.EOF)
     terminal.close()

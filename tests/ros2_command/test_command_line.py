@@ -226,7 +226,7 @@ def test_usage_errors(jazzy: Surroundings, arguments: list[str], error: str) -> 
 
 
 def test_the_package_imports_nothing_else() -> None:
-    """It is copied into prefixes: nothing of the grader may be imported, nor anything third."""
+    """It is copied into prefixes, so it must not import the grader or third-party packages."""
     for path in PACKAGE.rglob("*.py"):
         imported = re.findall(r"^ *(?:from|import) ([\w.]+)", path.read_text(), re.MULTILINE)
         assert not {name.partition(".")[0] for name in imported} & {"grader", "lab", "yaml"}, path

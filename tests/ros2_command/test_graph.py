@@ -27,12 +27,12 @@ try:
 except (KeyboardInterrupt, ExternalShutdownException):
     pass
 """
-# a domain of its own for each test process; the grader's sandboxes take 1 to 100
+# a separate domain for each test process; the grader's sandboxes use 1 to 100
 DOMAIN = str(215 + int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")) % 15)
 
 
 class Graph:
-    """Nodes that are running, and a shell with the prefix sourced that may look at them."""
+    """Running nodes, and `ros2` commands in a shell with the prefix sourced."""
 
     def __init__(self, prefix: Path, folder: Path) -> None:
         self.folder = folder
@@ -75,7 +75,7 @@ def graph(jazzy_prefix: Path, tmp_path: Path) -> Iterator[Graph]:
 
 
 def until(look: Callable[[], tuple[int, str, str]], wanted: str) -> tuple[int, str, str]:
-    """Look again until something is discovered: lost announcements are repeated after 3 s."""
+    """Repeat until discovery is complete: lost announcements are repeated after 3 s."""
     answer = look()
     for _ in range(10):
         if wanted in answer[1]:

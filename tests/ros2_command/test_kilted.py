@@ -1,4 +1,4 @@
-"""What ros2cli 0.38 (kilted) does otherwise."""
+"""What ros2cli 0.38 (kilted) does differently."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.stage import wait_until_asleep
 from .surroundings import Surroundings, files
 
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
-# Tells of each SIGINT and SIGTERM, and ends at SIGTERM
+# Prints each SIGINT and SIGTERM, and ends at SIGTERM
 LISTENER = f"""\
 #!{sys.executable}
 import os, signal, sys
@@ -101,7 +101,7 @@ def test_ctrl_c_on_the_terminal_reaches_the_node_and_is_forwarded_too(kilted: Su
     said += terminal.before or ""
     terminal.wait()
     assert terminal.exitstatus == 5
-    # The two merge into one where the second comes before the node has run
+    # The two merge into one if the second comes before the node is scheduled
     assert said.count("heard SIGINT") in (1, 2)
 
 

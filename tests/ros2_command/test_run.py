@@ -144,7 +144,7 @@ def test_ros2_run_adds_little_time(jazzy: Surroundings) -> None:
 
 
 def _processor_seconds(jazzy: Surroundings) -> float:
-    """Return the processor time of a `ros2 run` from start to end, `true` in it included."""
+    """Return the processor time of a whole `ros2 run`, including the `true` that it runs."""
     ros2 = str(jazzy.prefix / "bin" / "ros2")
     arguments = [ros2, "run", "my_robot_controller", "true"]
     process = os.posix_spawn(ros2, arguments, jazzy.environment)

@@ -1,1 +1,1 @@
-"""The page of a class, looked at in a real browser."""
+"""The pages of a class, some tested in a real browser."""

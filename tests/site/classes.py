@@ -1,4 +1,4 @@
-"""Classes to make pages of: built from real reports, small or large, friendly or hostile."""
+"""Results of classes for the tests of outputs: from real reports, small, large or hostile."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tests.corpus.right import RIGHT
 
 COURSE = Path(__file__).parents[2] / "lab/course/hello_time/assignment.yaml"
 DUE = datetime(2026, 11, 20, 22, 0, tzinfo=timezone.utc)
-# of the corpus: right, wrong text, cannot be started, cannot be built, too fast, on the wall clock
+# of the corpus: right, wrong text, does not start, does not build, too fast, on the wall clock
 REAL = (
     "solution",
     "text_capital",
@@ -30,7 +30,7 @@ REAL = (
 )
 FIRST = ("Ann", "Bela", "Chidi", "Dörte", "Émile", "Farah", "Goran", "Hana", "Ines", "José")
 LAST = ("Lee", "Nagy", "Okafor", "Weiß", "Zola", "Aziz", "Ilić", "Mori", "Costa", "Núñez")
-# texts of a program are data, also where a value of the model is one of a few words
+# fields with fixed values, which are not texts of a student
 FIXED = {"status", "visibility", "origin", "modes", "ros", "sandbox", "clock", "lang"}
 
 
@@ -73,7 +73,7 @@ def result(entries: Sequence[Entry], **fields: Any) -> ClassResult:
 
 
 def marked(name: str, folder: Path) -> Report:
-    """Mark one package of the corpus for real."""
+    """Mark a package of the corpus for real."""
     package = next(package for package in (*RIGHT, *BROKEN) if package.name == name)
     order = Order(
         path=write(package, folder),
@@ -86,7 +86,7 @@ def marked(name: str, folder: Path) -> Report:
 
 
 def mixed(reports: Sequence[Report], count: int) -> ClassResult:
-    """A class of `count` with something of everything: late, missing, ungradable, corrected…"""
+    """Return a class with every kind of student: late, missing, ungradable, corrected, …"""
     entries = [_of_kind(number, reports[number % len(reports)]) for number in range(count)]
     keys = [e.student.key for e in entries if e.report is not None]
     pair = (keys[0], keys[len(reports)])
@@ -134,7 +134,7 @@ def _with(report: Report, changed: CheckResult) -> Report:
 
 
 def poisoned(report: Report, text: str) -> Report:
-    """Return the report with `text` in the place of every text that is not one of a fixed few."""
+    """Return the report with `text` in place of every text that has no fixed values."""
     return Report.model_validate(_poison(report.model_dump(by_alias=True), text))
 
 

@@ -1,7 +1,7 @@
-"""Fixtures that the tests of the page and of the feedback share: one browser, real reports.
+"""Fixtures shared by the tests of the pages and of the feedback: one browser, real reports.
 
-A plugin of tests/conftest.py: a session's fixture that is imported into two conftest.py is two
-fixtures, and a process in which tests of both run would start two browsers, which Playwright refuses.
+tests/conftest.py loads this as a plugin: a session fixture imported into two conftest.py files
+would be two fixtures, and a process would start two browsers, which Playwright refuses.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tests.site import browser, classes
 
 @pytest.fixture(scope="session")
 def reports(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, ...]:
-    """Reports of a solution and of packages with mistakes; several test processes mark them once."""
+    """Reports of the solution and of broken packages, marked once for all test processes."""
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
 
@@ -45,6 +45,6 @@ def chromium() -> Iterator[Browser]:
 
 @pytest.fixture
 def visit(chromium: Browser) -> Iterator[browser.Open]:
-    """Opens pages, each in a context of its own, and witnesses what they do."""
+    """A function that opens a page in a separate context and records what it does."""
     with browser.opening(chromium) as new:
         yield new

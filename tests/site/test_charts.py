@@ -88,7 +88,7 @@ def test_lines_at_one_instant_share_one_label() -> None:
 def test_the_plot_stays_small_and_in_its_frame_whatever_instants_a_node_claims(
     instants: list[float], period: float, on_the_wall: bool
 ) -> None:
-    """The stamps of log records are the student's own text."""
+    """The student controls the time stamps of log records."""
     made = wall if on_the_wall else virtual
     line = timeline(made(*instants, period=period))
     assert line is not None

@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 
 from tests.site.browser import Open
 
-pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+pytestmark = pytest.mark.full  # `make test` has no Chromium
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def page(visit: Open, site: Path) -> Page:
 
 
 def column(page: Page, number: int) -> list[str]:
-    """The texts of a column of the students' table, of the rows that are shown."""
+    """Return the texts of a column of the students' table, of visible rows only."""
     cells = page.locator(f"#all tbody tr:not([hidden]) > :nth-child({number})")
     return [text.strip() for text in cells.all_inner_texts()]
 

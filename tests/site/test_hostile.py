@@ -1,4 +1,4 @@
-"""Every text of a student is hostile: shown as it is, it does nothing."""
+"""Hostile texts of students are shown literally and do nothing."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.report.samples import failing_report
 from tests.site import classes
 from tests.site.browser import Open
 
-pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+pytestmark = pytest.mark.full  # `make test` has no Chromium
 
 PAYLOADS = [
     "<script>alert(1); window.ran = 1</script>",
@@ -37,7 +37,7 @@ PAYLOADS = [
 ]  # fmt: skip
 DIRECTIVES = ["script-src-elem", "script-src-attr", "style-src-elem", "style-src-attr", "img-src",
               "frame-src"]  # fmt: skip
-# adds what a hostile text would be as markup; returns what the policy has stopped of it
+# adds hostile markup to the page; returns the directives of the policy that blocked it
 INJECTED = """address => new Promise(done => {
     const seen = new Set();
     document.addEventListener("securitypolicyviolation", event => {
@@ -56,10 +56,10 @@ INJECTED = """address => new Promise(done => {
 
 
 def hostile_class(texts: list[str]) -> ClassResult:
-    """A class of students each of whom chose one of the texts for all that anybody could choose."""
+    """Return a class in which each student has one of the texts in every field they control."""
     entries = []
     for text in texts:
-        # a report is read from JSON, which can hold no lone surrogate
+        # a report is read from JSON, which cannot contain a lone surrogate
         bad = classes.poisoned(failing_report(), text.encode(errors="replace").decode())
         student = Student(text, text, text, text, text, text)
         override = Override(text, text, 5, text, text)
@@ -108,7 +108,7 @@ def test_hostile_text_does_not_run_load_or_become_markup(visit: Open, hostile_si
 
 
 def test_hostile_text_does_not_make_a_page_wide_or_large(visit: Open, hostile_site: Path) -> None:
-    """One word of a hundred thousand letters, twenty thousand empty lines."""
+    """A word of a hundred thousand letters, and twenty thousand empty lines."""
     witness = visit(viewport={"width": 320, "height": 640})
     for path in sorted(hostile_site.rglob("*.html")):
         assert path.stat().st_size < 500_000, path
@@ -132,7 +132,7 @@ def test_invisible_characters_are_spelled_out(visit: Open, tmp_path: Path) -> No
 
 
 def test_injected_markup_would_not_run(visit: Open, hostile_site: Path) -> None:
-    """The second wall: the policy stops what escaping would have let through."""
+    """The second defence: the policy blocks what escaping would have missed."""
     for path in (hostile_site / "index.html", next((hostile_site / "students").iterdir())):
         with socket.create_server(("127.0.0.1", 0)) as server:
             page = visit().open(path)
@@ -140,5 +140,5 @@ def test_injected_markup_would_not_run(visit: Open, hostile_site: Path) -> None:
             assert set(blocked) == set(DIRECTIVES)
             assert page.evaluate("window.ran") is None
             server.setblocking(False)
-            with pytest.raises(BlockingIOError):  # nobody has come
+            with pytest.raises(BlockingIOError):  # no request has arrived
                 server.accept()

@@ -1,4 +1,4 @@
-"""Whatever a student's key is, the page has a safe name of its own."""
+"""Each student's page has a safe and unique name, whatever the student's key is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the overview counts: worked out by hand for small classes."""
+"""The counts of the overview, calculated by hand for small classes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The pages can be read by everybody: by ear, by keyboard, in the dark, on a phone, on paper."""
+"""Accessibility of the pages: screen readers, keyboard, dark mode, phones, paper."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.site import classes
 from tests.site.axe import violations
 from tests.site.browser import Open
 
-pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+pytestmark = pytest.mark.full  # `make test` has no Chromium
 
 # one page of each kind in a class of `classes.mixed`
 KINDS = {
@@ -57,7 +57,7 @@ def test_axe_finds_no_violation_after_search_and_sort_on_a_narrow_screen(
 
 
 def test_axe_finds_a_planted_violation(visit: Open, site: Path, axe_source: str) -> None:
-    """So that nothing found says something."""
+    """This shows that axe works in these tests."""
     page = visit().open(site / "students/1001.html")
     page.evaluate(
         "document.querySelector('caption').closest('.scroll').removeAttribute('tabindex')"
@@ -70,7 +70,7 @@ def test_axe_finds_a_planted_violation(visit: Open, site: Path, axe_source: str)
 
 @pytest.mark.parametrize("width", [320, 640, 1280])
 def test_a_page_is_never_wider_than_the_screen(width: int, visit: Open, site: Path) -> None:
-    """320 is a phone, and 1280 at a zoom of 400 % (WCAG 1.4.10); 640 is 1280 at 200 %."""
+    """320 is a phone, or 1280 at a zoom of 400 % (WCAG 1.4.10); 640 is 1280 at 200 %."""
     witness = visit(viewport={"width": width, "height": 800}, device_scale_factor=1280 / width)
     for kind, path in KINDS.items():
         page = witness.open(site / path)

@@ -1,4 +1,4 @@
-"""What a student's page says of the points and of the checks."""
+"""The texts of a student's page about points and checks."""
 
 from __future__ import annotations
 

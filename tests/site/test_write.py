@@ -1,4 +1,4 @@
-"""The folder: what is in it, who may read it, how long it takes."""
+"""The folder of pages: its content, its permissions, the time to write it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tests.site import classes
 
 
 class Links(html.parser.HTMLParser):
-    """Collects every address that a page names, and every id."""
+    """Collects every link and every id of a page."""
 
     def __init__(self, text: str) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""An instructor's own assignment, another package with another text: it is validated alike."""
+"""Validating an instructor's own assignment with another package and text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Automatic mutants: always the same, all different, and one of each kind of mistake."""
+"""Automatic mutants: reproducible, all different, and at least one of each kind of mistake."""
 
 from __future__ import annotations
 

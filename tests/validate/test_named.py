@@ -1,4 +1,4 @@
-"""mutants.yaml: what it may say, and errors with file and line for all else."""
+"""mutants.yaml: its format, and errors with file and line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The edits that make a mutant: each does what its name says, and none that does not fit passes."""
+"""The edits that make a mutant: each does what its name says, or raises an error."""
 
 from __future__ import annotations
 

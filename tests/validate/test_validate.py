@@ -1,4 +1,4 @@
-"""`grader validate`: every mutant fails where it must, and an assignment that does not is told of."""
+"""`grader validate`: mutants fail the expected checks, and deviations are reported."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from grader.sandbox.processes import adopt_orphans
 from tests import stage
 
 HELLO = KEYS / "hello_time"
-QUICK = 20.0  # seconds of one core in which the files of all mutants are looked at
+QUICK = 20.0  # seconds of one core for the static checks of all mutants
 CHECKED = """\
 schema: 1
 mutants:
@@ -33,7 +33,7 @@ def validate(*words: str | Path, timeout: float = 120) -> tuple[int, str, str]:
 
 
 def processor_seconds() -> float:
-    """Return what our children took: what else the machine does has no part in it."""
+    """Return the processor time of our children, which excludes other load."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
@@ -163,7 +163,7 @@ def test_ctrl_c_ends_validate_and_all_its_processes() -> None:
 
 @pytest.mark.full
 def test_each_mutant_of_the_node_fails_or_is_explained(tmp_path: Path) -> None:
-    """(The whole matrix takes minutes: `make bench` has it.)"""
+    """The whole matrix takes minutes and is part of `make bench`."""
     file = tmp_path / "m.json"
     status, shown, errors = validate("hello_time", "--only", "drop*", "--json", file, timeout=600)
     assert status == 0, shown[-4000:] + errors[-1000:]
