@@ -33,10 +33,10 @@ from grader.run.workspace import build
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
-from tests import engine, stage
+from tests import engine, processes
 
-COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
-SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+COURSE = processes.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
+SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 ASSIGNMENT = load_assignment(COURSE)
 PLAIN_TICKS = 5
 PLAIN_LIMIT = 10.0  # seconds to wait for a line, as a missing one must not block the benchmark
@@ -59,16 +59,16 @@ def main() -> int:
     ros = proven_ros(find_distro("jazzy"))
     submission = take_in(SOLUTION, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
     # a warm machine has the byte code, even if PYTHONDONTWRITEBYTECODE prevents writing it
-    compileall.compile_dir(str(stage.ROOT / "grader"), quiet=1, rx=re.compile("/keys/"))
+    compileall.compile_dir(str(processes.ROOT / "grader"), quiet=1, rx=re.compile("/keys/"))
     verdict_once()
-    verdict = middle(verdict_once, asked.runs)
-    colcon = middle(lambda: bare_build(ros, submission), asked.runs)
-    node = middle(lambda: bare_run(ros, submission), asked.runs)
-    imported = middle(lambda: bare_import(ros), asked.runs)
+    verdict = median_of_runs(verdict_once, asked.runs)
+    colcon = median_of_runs(lambda: bare_build(ros, submission), asked.runs)
+    node = median_of_runs(lambda: bare_run(ros, submission), asked.runs)
+    imported = median_of_runs(lambda: bare_import(ros), asked.runs)
     plain = plain_grader(ros, submission)
     firsts, virtual = starts(ros, submission, asked.starts)
     in_containers, overhead = containers_overhead(asked.runs)
-    help_ = middle(lambda: timed(stage.grader("--help")), asked.runs)
+    help_ = median_of_runs(lambda: timed(processes.grader("--help")), asked.runs)
     memory = peak_memory()
     own = max(0.0, verdict.cpu - colcon.cpu - node.cpu - imported.cpu)
     late = sum(1 for seconds in firsts if seconds > 1.0)
@@ -119,12 +119,12 @@ def at_least(name: str, value: float, least: float) -> bool:
     return kept
 
 
-def middle(measure: Callable[[], Cost], runs: int) -> Cost:
+def median_of_runs(measure: Callable[[], Cost], runs: int) -> Cost:
     """Return the median costs of several runs."""
-    return middle_of([measure() for _ in range(runs)])
+    return median_cost([measure() for _ in range(runs)])
 
 
-def middle_of(costs: Sequence[Cost]) -> Cost:
+def median_cost(costs: Sequence[Cost]) -> Cost:
     """Return the median costs."""
     return Cost(
         statistics.median(cost.wall for cost in costs),
@@ -136,7 +136,9 @@ def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
     """Run a command and return the cost of its whole process tree."""
     before = machine_cpu()
     begin = time.monotonic()
-    done = subprocess.run(command, input=stdin, cwd=stage.ROOT, capture_output=True, check=False)
+    done = subprocess.run(
+        command, input=stdin, cwd=processes.ROOT, capture_output=True, check=False
+    )
     wall = time.monotonic() - begin
     if done.returncode not in (0, 1):
         sys.exit(f"{command} ended with {done.returncode}:\n{done.stderr.decode()[-2000:]}")
@@ -153,7 +155,7 @@ def machine_cpu() -> float:
 def verdict_once(sandbox: str = "bubblewrap") -> Cost:
     """Mark once as a user does: in a separate process, with report and terminal text."""
     with tempfile.TemporaryDirectory() as out:
-        return timed(stage.grader("grade", SOLUTION, "--sandbox", sandbox, "--out", out))
+        return timed(processes.grader("grade", SOLUTION, "--sandbox", sandbox, "--out", out))
 
 
 def containers_overhead(runs: int) -> tuple[Cost, float]:
@@ -168,7 +170,7 @@ def containers_overhead(runs: int) -> tuple[Cost, float]:
     client.close()
     verdict_once("docker")
     pairs = [(verdict_once("docker"), verdict_once("bubblewrap")) for _ in range(runs)]
-    inside = middle_of([docker for docker, _ in pairs])
+    inside = median_cost([docker for docker, _ in pairs])
     return inside, statistics.median(docker.wall - bwrap.wall for docker, bwrap in pairs)
 
 
@@ -269,7 +271,7 @@ def peak_memory() -> float:
         command = [sys.executable, "-c", code, "grade", str(SOLUTION), "--out", str(Path(out))]
         done = subprocess.run(
             command,
-            cwd=stage.ROOT,
+            cwd=processes.ROOT,
             capture_output=True,
             text=True,
             check=True,

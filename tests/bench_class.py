@@ -43,7 +43,7 @@ def main() -> int:
 
 def compared(ros: Ros, place: Path, count: int) -> list[bool]:
     """Mark a class, and every fourth package of it with the simple grader."""
-    folder = classes.of_corpus(place / "class", classes.mixed_names(count))
+    folder = classes.corpus_class(place / "class", classes.mixed_names(count))
     before, begin = machine_cpu(), time.monotonic()
     done = classes.grade_all(folder, place / "out", "--quiet")
     wall, cpu = time.monotonic() - begin, machine_cpu() - before
@@ -63,7 +63,7 @@ def compared(ros: Ros, place: Path, count: int) -> list[bool]:
 
 def large(place: Path, count: int) -> list[bool]:
     """Mark a large class, then run again with nothing left to mark."""
-    folder = classes.of_corpus(place / "large", classes.mixed_names(count))
+    folder = classes.corpus_class(place / "large", classes.mixed_names(count))
     begin = time.monotonic()
     status, peak = classes.measured(folder, place / "large-out")
     print(f"class of {count}: {time.monotonic() - begin:.1f} s, exit status {status}")
@@ -80,7 +80,7 @@ def large(place: Path, count: int) -> list[bool]:
 
 def stubbed(place: Path, count: int, report: Path) -> list[bool]:
     """Run a very large class with workers that all return the same report."""
-    folder = classes.of_many(place / "many", count)
+    folder = classes.large_class(place / "many", count)
     begin = time.monotonic()
     _, peak = classes.measured(folder, place / "many-out", report=report)
     print(f"class of {count} without a sandbox: {time.monotonic() - begin:.1f} s")

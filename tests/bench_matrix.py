@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests import stage
+from tests import processes
 from tests.bench import at_least, bound
 
 MOST_SECONDS = 600.0
@@ -25,8 +25,8 @@ def main() -> int:
         file = Path(folder) / "matrix.json"
         begin = time.monotonic()
         done = subprocess.run(
-            stage.grader("validate", "hello_time", "--json", file),
-            cwd=stage.ROOT,
+            processes.grader("validate", "hello_time", "--json", file),
+            cwd=processes.ROOT,
             stdout=subprocess.PIPE,
             text=True,
             check=False,

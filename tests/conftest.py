@@ -18,7 +18,7 @@ from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent
-pytest_plugins = ["tests.site.fixtures"]
+pytest_plugins = ["tests.pages.fixtures"]
 
 # A shell ignores SIGINT in background jobs, and all processes that the tests start would inherit it
 signal.signal(signal.SIGINT, signal.default_int_handler)

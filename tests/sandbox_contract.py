@@ -12,7 +12,7 @@ import pytest
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Role, Sandbox
 from grader.sandbox.limits import MEGABYTE, Limits
-from tests import stage
+from tests import processes
 
 Make = Callable[[Limits], Sandbox]
 
@@ -35,7 +35,7 @@ def test_only_the_workspace_and_scratch_folders_are_writable(sandbox: Sandbox) -
 
 def test_files_of_the_host_are_not_visible(sandbox: Sandbox, tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("x")
-    for path in (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", stage.ROOT):
+    for path in (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", processes.ROOT):
         status, _ = shell(sandbox, f'test -r "{path}"')
         assert status == 1, path
 
@@ -66,7 +66,7 @@ def test_nothing_of_a_command_remains_for_the_next(sandbox: Sandbox) -> None:
     assert status == 0
     _, said = shell(sandbox, "cat /proc/[0-9]*/cmdline | tr '\\0' ' '")
     assert mark not in said
-    assert stage.alive(mark) == []
+    assert processes.alive(mark) == []
 
 
 def test_student_and_probe_cannot_reach_each_other(sandbox: Sandbox) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from grader.batch.systems.gradescope.archive import gradescope_zip
-from tests import stage
+from tests import processes
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
 from tests.test_verdicts import ASSIGNMENT, COURSE
@@ -77,8 +77,8 @@ def package(tmp_path: Path) -> Path:
 
 
 def test_its_own_package_gets_full_marks(course: Path, package: Path, tmp_path: Path) -> None:
-    done = stage.run(
-        stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 / 100" in done.stdout
@@ -90,8 +90,8 @@ def test_an_assignment_may_ask_for_the_output_alone(
     text = course.read_text()
     checks = "checks:\n  - {id: package.found, points: 1}\n  - {id: run.output, points: 2}\n"
     course.write_text(text[: text.index("\nchecks:") + 1] + checks)
-    done = stage.run(
-        stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 / 3" in done.stdout
@@ -101,8 +101,8 @@ def test_the_package_of_the_first_course_does_not_get_full_marks(
     course: Path, tmp_path: Path
 ) -> None:
     solution = write(RIGHT[0], tmp_path)
-    done = stage.run(
-        stage.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 1
     assert "turtle_counter" in done.stdout
@@ -111,8 +111,8 @@ def test_the_package_of_the_first_course_does_not_get_full_marks(
 def test_a_course_folder_is_named_by_the_environment(
     course: Path, package: Path, tmp_path: Path
 ) -> None:
-    done = stage.run(
-        stage.grader("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
+    done = processes.run(
+        processes.grader("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
         env={"GRADER_COURSE": str(course.parent.parent)},
     )
     assert done.returncode == 0, done.stdout + done.stderr
@@ -120,7 +120,7 @@ def test_a_course_folder_is_named_by_the_environment(
 
 def test_a_self_check_says_how_many_checks_are_hidden(course: Path, package: Path) -> None:
     course.write_text(course.read_text().replace("hidden_checks: 0", "hidden_checks: 2"))
-    done = stage.run(stage.grader("check", package, "--assignment", course))
+    done = processes.run(processes.grader("check", package, "--assignment", course))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "2 hidden checks" in done.stdout
 
@@ -141,7 +141,7 @@ def test_hidden_checks_are_read_from_the_instructors_folder(
     course: Path, package: Path, keys: Path, tmp_path: Path
 ) -> None:
     words = ("grade", package, "--assignment", course, "--keys", keys, "--out", tmp_path / "o")
-    done = stage.run(stage.grader(*words))
+    done = processes.run(processes.grader(*words))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 / 3" in done.stdout
     (file,) = (tmp_path / "o").rglob("report.json")
@@ -163,7 +163,7 @@ def test_announced_hidden_checks_are_required_without_that_folder(
         "validate": (course, "--keys", keys),
         "gradescope-zip": (tmp_path / "a.zip", "--assignment", course),
     }[command]
-    done = stage.run(stage.grader(command, *words))
+    done = processes.run(processes.grader(command, *words))
     assert done.returncode == 2, done.stderr
     assert "hidden_checks is 1" in done.stderr
     assert "--keys" in done.stderr
@@ -184,7 +184,7 @@ def test_validate_runs_the_hidden_checks(
     package.rename(keys / "solution" / "turtle_counter")
     out = tmp_path / "m.json"
     words = ("validate", course, "--keys", keys, "--static", "--only", "drop*", "--json", out)
-    done = stage.run(stage.grader(*words))
+    done = processes.run(processes.grader(*words))
     assert done.returncode in (0, 1), done.stderr
     assert json.loads(out.read_text())["checks"] == ["package.found", "run.output"]
 

@@ -20,7 +20,7 @@ from grader.run.run import Run, observe
 from grader.run.session import Session, Unobserved
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT, tasks
+from tests.batch.pool_tasks import ASSIGNMENT, tasks
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.report.samples import check, report
@@ -77,15 +77,15 @@ class NoSandbox:
         return Outcome(0 if self._works else 1, b"", seconds)
 
 
-def begun(*, works: bool = True) -> Session:
+def new_session(*, works: bool = True) -> Session:
     return Session(cast("Sandbox", NoSandbox(works=works)), ASSIGNMENT)
 
 
-def unheard(event: Event) -> None:
+def ignore(event: Event) -> None:
     del event
 
 
-def doubtful() -> Run:
+def run_with_missing_ticks() -> Run:
     """Return a run with missing ticks, which requires a second run."""
     return Run("", Watch(clock="virtual", events=[LONG], missing=[1]), started=True)
 
@@ -94,9 +94,9 @@ def test_runs_at_their_time_limit_are_repeated_within_the_ceiling(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock = Clock(monkeypatch, ProbeError("no answer"))
-    opened, begin = begun(), clock.now
+    opened, begin = new_session(), clock.now
     with pytest.raises(Unobserved, match="no answer"):
-        opened.run(unheard)
+        opened.run(ignore)
     assert clock.runs == 2
     assert clock.proofs == [opened.sandbox], "what failed may be ros2 itself"
     assert clock.now - begin <= LIMITS.verdict_seconds
@@ -105,11 +105,11 @@ def test_runs_at_their_time_limit_are_repeated_within_the_ceiling(
 def test_a_build_at_its_limit_leaves_time_for_a_second_run(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    first, second = doubtful(), doubtful()
+    first, second = run_with_missing_ticks(), run_with_missing_ticks()
     clock = Clock(monkeypatch, first, second)
-    opened, begin = begun(), clock.now
+    opened, begin = new_session(), clock.now
     clock.now += LIMITS.build_seconds
-    assert opened.run(unheard) is first
+    assert opened.run(ignore) is first
     assert clock.runs == 2
     assert clock.now - begin <= LIMITS.verdict_seconds
 
@@ -118,16 +118,16 @@ def test_quick_grader_faults_are_tried_three_times(monkeypatch: pytest.MonkeyPat
     clock = Clock(monkeypatch, ProbeError("it has ended"))
     clock.seconds = 1.0
     with pytest.raises(Unobserved, match="it has ended"):
-        begun().run(unheard)
+        new_session().run(ignore)
     assert clock.runs == 3
 
 
 def test_no_run_starts_without_enough_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    clock = Clock(monkeypatch, doubtful())
-    opened = begun()
+    clock = Clock(monkeypatch, run_with_missing_ticks())
+    opened = new_session()
     clock.now += LIMITS.verdict_seconds - 1
     with pytest.raises(Unobserved, match="used up"):
-        opened.run(unheard)
+        opened.run(ignore)
     assert clock.runs == 0
 
 
@@ -156,11 +156,11 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
         begin = time.monotonic()
         until = begin + 12  # of which ending the node may take ten
         if met:
-            run = observe(opened, ASSIGNMENT, link, unheard, until=until)
+            run = observe(opened, ASSIGNMENT, link, ignore, until=until)
             assert (run.resource, run.started) == (met, False)
         else:
             with pytest.raises(ProbeError, match="no answer"):
-                observe(opened, ASSIGNMENT, link, unheard, until=until)
+                observe(opened, ASSIGNMENT, link, ignore, until=until)
         assert time.monotonic() - begin < 12
         link.close()
 

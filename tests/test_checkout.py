@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import stage
+from tests import processes
 
 LIKE_WINDOWS = ("-c", "core.autocrlf=true", "-c", "core.eol=crlf", "-c", "core.symlinks=false")
 LIKE_LINUX = ("-c", "core.autocrlf=false", "-c", "core.symlinks=true")
@@ -21,7 +21,7 @@ def git(*words: str | Path, cwd: Path) -> bytes:
 def windows_clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A clone of this repository, as Git for Windows makes it."""
     clone = tmp_path_factory.mktemp("windows") / "clone"
-    git(*LIKE_WINDOWS, "clone", "--quiet", stage.ROOT, clone, cwd=stage.ROOT)
+    git(*LIKE_WINDOWS, "clone", "--quiet", processes.ROOT, clone, cwd=processes.ROOT)
     return clone
 
 

@@ -10,7 +10,7 @@ import pytest
 from grader.validate.tree import Replace, Write
 from tests.corpus.build import write
 from tests.corpus.model import NODE, SETUP, Package
-from tests.test_verdicts import mark, told
+from tests.test_verdicts import mark, summary
 
 IMPORT = "from setuptools import setup\n"
 INSTALLING = """
@@ -56,7 +56,7 @@ def package(*edits: Replace | Write) -> Package:
 def test_a_status_of_setup_py_counts_for_the_student(status: int, tmp_path: Path) -> None:
     report = mark(write(package(installing(status)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
-    assert found.status == "failed", told(report)
+    assert found.status == "failed", summary(report)
     assert f"exited with code {status}" in found.actual
 
 
@@ -64,7 +64,7 @@ def test_a_status_of_setup_py_counts_for_the_student(status: int, tmp_path: Path
 def test_a_setup_py_that_writes_files_everywhere_gains_nothing(tmp_path: Path) -> None:
     report = mark(write(package(installing(127, SPOIL)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
-    assert found.status == "failed", told(report)
+    assert found.status == "failed", summary(report)
     assert "exited with code 127" in found.actual
 
 
@@ -73,6 +73,6 @@ def test_a_setup_py_that_writes_files_everywhere_gains_nothing(tmp_path: Path) -
 def test_a_status_of_the_node_counts_for_the_student(status: int, tmp_path: Path) -> None:
     report = mark(write(package(Write(NODE, UNREADY.format(status=status), 0o755)), tmp_path))
     found = next(check for check in report.checks if check.id == "run.starts")
-    assert found.status == "failed", told(report)
+    assert found.status == "failed", summary(report)
     assert "run.exits_at_once" in [mistake.id for mistake in found.mistakes]
     assert f"with status {status}" in found.actual

@@ -12,7 +12,7 @@ import pytest
 
 from grader.cli.localized import language_of, said_in
 from grader.cli.main import commands
-from tests import stage
+from tests import processes
 
 KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""}
 ENGLISH = {**KOREAN, "LANG": "C.UTF-8"}
@@ -27,23 +27,23 @@ HELPS = [
 ]
 
 
-def said(*words: str, env: dict[str, str]) -> tuple[int, str]:
-    done = stage.run([sys.executable, "-m", *words], env=env)
+def run(*words: str, env: dict[str, str]) -> tuple[int, str]:
+    done = processes.run([sys.executable, "-m", *words], env=env)
     return done.returncode, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, ...]) -> None:
-    status, english = said(*words, "--help", env=ENGLISH)
+    status, english = run(*words, "--help", env=ENGLISH)
     assert status == 0
     assert not HANGUL.search(english)
-    status, korean = said(*words, "--help", env=KOREAN)
+    status, korean = run(*words, "--help", env=KOREAN)
     assert status == 0
     assert not PROSE.search(korean), korean
     options = re.compile(r"^ +(-\S.*?)(?:  |$)", re.MULTILINE)
     assert options.findall(korean) == options.findall(english)
-    assert said(*words, "--lang", "ko", "--help", env=ENGLISH) == (0, korean)
-    assert said(*words, "--lang=en", "--help", env=KOREAN) == (0, english)
+    assert run(*words, "--lang", "ko", "--help", env=ENGLISH) == (0, korean)
+    assert run(*words, "--lang=en", "--help", env=KOREAN) == (0, english)
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, .
 def test_usage_errors_are_reported_in_the_readers_language(
     words: tuple[str, ...], wrong: str
 ) -> None:
-    status, told = said("grader", *words, env=KOREAN)
+    status, told = run("grader", *words, env=KOREAN)
     assert status == 2
     last = told.splitlines()[-1]
     assert wrong in last

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from .handed_in import NODE, NODE_PATH, PACKAGE, make, notes, paths, take, write
+from .small_package import NODE, NODE_PATH, PACKAGE, make, notes, paths, take, write
 
 
 def test_links_to_the_outside_are_left_out_and_inner_ones_kept(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 from grader.package.intake.modes import git_ignores_modes, git_modes, keeps_modes
 from grader.package.intake.naming import sanitise, submission_name
 
-from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take
+from .small_package import NODE, NODE_PATH, PACKAGE, make, paths, take
 
 
 def test_the_hash_depends_on_content_and_exec_bit_only(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 from grader.report.model import Report
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
-from tests.test_verdicts import mark, told
+from tests.test_verdicts import mark, summary
 
 TIMES = 30
 
@@ -43,7 +43,7 @@ def test_thirty_verdicts_on_a_busy_machine_are_equal(tmp_path: Path) -> None:
     root = write(tutorial, tmp_path)
     reports = [mark(root) for _ in range(TIMES)]
     for report in reports:
-        assert report.score == 100, told(report)
+        assert report.score == 100, summary(report)
         assert report.observed.clock == "virtual"
     assert all(verdict(report) == verdict(reports[0]) for report in reports)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from grader.validate.tree import Replace
-from tests import stage, weather
+from tests import processes, weather
 from tests.test_cli import solution
 
 HOSTILE = [
@@ -35,8 +35,8 @@ HOSTILE = [
 ]
 
 
-def make(*words: str, cwd: Path = stage.ROOT) -> tuple[int, str, str]:
-    done = stage.run(["make", "--no-print-directory", *words], cwd=cwd)
+def make(*words: str, cwd: Path = processes.ROOT) -> tuple[int, str, str]:
+    done = processes.run(["make", "--no-print-directory", *words], cwd=cwd)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -63,7 +63,7 @@ def test_a_hostile_name_is_passed_as_data(name: str, tmp_path: Path) -> None:
     assert str(missing).split("\n")[0] in err.replace("\\n", "\n")
     assert "Traceback" not in err
     assert out == ""
-    assert not (stage.ROOT / "HACKED").exists()
+    assert not (processes.ROOT / "HACKED").exists()
     assert not (tmp_path / "HACKED").exists()
 
 
@@ -170,7 +170,7 @@ def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
 
 
 def test_an_environment_variable_works(tmp_path: Path) -> None:
-    done = stage.run(["make", "grade"], env={"STUDENT": f"{tmp_path}/$(touch HACKED)"})
+    done = processes.run(["make", "grade"], env={"STUDENT": f"{tmp_path}/$(touch HACKED)"})
     assert done.returncode == 2
     assert "$(touch HACKED)" in done.stderr
 
@@ -182,14 +182,14 @@ def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
     assert status == 0, err
     assert "100" in out
     assert len(list((tmp_path / "out put").rglob("report.json"))) == 1
-    assert not (stage.ROOT / "HACKED").exists()
+    assert not (processes.ROOT / "HACKED").exists()
 
 
 def copy_checkout(folder: Path) -> Path:
     """Copy the files of this checkout that marking needs, without generated ones."""
     folder.mkdir(parents=True)
     for name in ("Makefile", "grader", "lab", "tests"):
-        source = stage.ROOT / name
+        source = processes.ROOT / name
         if source.is_dir():
             shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
         else:
@@ -219,8 +219,8 @@ def test_a_path_that_venv_refuses_is_reported(tmp_path: Path) -> None:
     folder = tmp_path / "a:b"
     for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(stage.ROOT / name, folder / name)
-    done = stage.run([sys.executable, folder / "grader/bootstrap.py"])
+        shutil.copy(processes.ROOT / name, folder / name)
+    done = processes.run([sys.executable, folder / "grader/bootstrap.py"])
     assert done.returncode == 3
     assert done.stderr.splitlines() == [
         f"The path of this checkout has a ':', which no Python environment can have: {folder}",
@@ -239,7 +239,7 @@ def test_a_bare_machine_can_mark_in_a_checkout_with_a_path_too_long_for_a_sheban
     environment = {"GRADER_CACHE": "", "XDG_CACHE_HOME": str(place / "cache")}
     command = ["make", "--no-print-directory", "grade", "SANDBOX=bubblewrap"]
     command += [f"STUDENT={solution(place)}", f"OUT={place / 'out'}"]
-    first = stage.run(command, cwd=checkout, env=environment, timeout=600)
+    first = processes.run(command, cwd=checkout, env=environment, timeout=600)
     assert first.returncode == 0, first.stdout + first.stderr
     assert "100 / 100" in first.stdout
     assert "setting up the grader's Python environment" in first.stderr

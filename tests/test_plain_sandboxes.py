@@ -18,8 +18,8 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
 from grader.sandbox.plain import Bare
+from tests import processes
 from tests import sandbox_contract as contract
-from tests import stage
 from tests.test_cli import solution
 
 ACCOUNT = """
@@ -50,8 +50,8 @@ print(json.dumps(out))
 @pytest.mark.full  # needs root, which `make test` does not
 def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> None:
     mark = f"sleep 95{secrets.randbelow(10**6)}"
-    command = stage.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
-    done = stage.run(command, env={"SECRET_TOKEN": "abc"})
+    command = processes.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
+    done = processes.run(command, env={"SECRET_TOKEN": "abc"})
     assert done.returncode == 0, done.stderr
     said = json.loads(done.stdout)
     student, probe = said["uids"]
@@ -64,7 +64,7 @@ def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> No
     assert said["ros"].strip() == "rclpy"
     assert "SECRET_TOKEN" not in said["env"]
     assert "all" not in said["bomb"].split() or "unavailable" in said["bomb"]
-    assert stage.alive(mark) == []
+    assert processes.alive(mark) == []
     assert not Path(said["folder"]).exists()
 
 
@@ -91,8 +91,8 @@ for _ in range(2):
 
 @pytest.mark.full  # needs root, which `make test` does not
 def test_two_graders_with_accounts_do_not_depend_on_each_others_link(ros_jazzy: Ros) -> None:
-    command = stage.as_root_of_a_container([sys.executable, "-c", TWO_ACCOUNTS])
-    done = stage.run(command)
+    command = processes.as_root_of_a_container([sys.executable, "-c", TWO_ACCOUNTS])
+    done = processes.run(command)
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == ["True", "True"]
 
@@ -112,8 +112,8 @@ def test_without_a_sandbox_every_process_still_ends(ros_jazzy: Ros) -> None:
         outcome = opened.run(["bash", "-c", f"read < <({escaped}); pwd"], seconds=10)
         folder = Path(opened.workspace).parent.parent
         assert outcome.output.decode().strip() == opened.workspace
-        assert stage.alive(mark) != []
-    assert stage.alive(mark) == []
+        assert processes.alive(mark) != []
+    assert processes.alive(mark) == []
     assert not folder.exists()
 
 
@@ -141,8 +141,10 @@ def test_without_a_sandbox_odd_paths_work(
     prefix = prefix_path(find_distro("jazzy"))
     prefix.parent.mkdir(parents=True)
     prefix.symlink_to(ros_jazzy.path)
-    command = stage.grader("grade", solution(tmp_path), "--sandbox", "none", "--out", odd / "out")
-    done = stage.run(command, env={"TMPDIR": str(odd)})
+    command = processes.grader(
+        "grade", solution(tmp_path), "--sandbox", "none", "--out", odd / "out"
+    )
+    done = processes.run(command, env={"TMPDIR": str(odd)})
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 / 100" in done.stdout
 

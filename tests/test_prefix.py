@@ -16,7 +16,7 @@ from grader.base.errors import SurroundingsError, UsageError
 from grader.ros.distro import distros, find_distro
 from grader.ros.prefix import Ros, prefix_path
 from grader.sandbox.proof import proven_ros
-from tests import stage
+from tests import processes
 
 SETUP_VARIABLES = {
     "ROS_DISTRO": "jazzy",
@@ -176,7 +176,7 @@ def maker(folder: Path) -> subprocess.Popen[str]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
     )
 
 
@@ -223,9 +223,14 @@ def test_a_full_disk_is_reported_with_its_fix(tmp_path: Path) -> None:
 def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
     """From the network, as on a new machine: killed while unpacking, then made by two at once."""
     env = {**os.environ, "GRADER_CACHE": str(tmp_path), "PYTHONUNBUFFERED": "1"}
-    command = stage.grader("prefix", "--distro", "jazzy")
+    command = processes.grader("prefix", "--distro", "jazzy")
     with subprocess.Popen(
-        command, cwd=stage.ROOT, env=env, stderr=subprocess.PIPE, text=True, start_new_session=True
+        command,
+        cwd=processes.ROOT,
+        env=env,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
     ) as first:
         assert first.stderr is not None
         for line in first.stderr:
@@ -236,7 +241,7 @@ def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
     pair = [
         subprocess.Popen(
             command,
-            cwd=stage.ROOT,
+            cwd=processes.ROOT,
             env=env,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

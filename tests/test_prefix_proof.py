@@ -17,7 +17,7 @@ from grader.sandbox import proof
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.proof import prove_again, prove_ros
-from tests import stage
+from tests import processes
 from tests.test_cli import solution
 
 JAZZY = find_distro("jazzy")
@@ -244,8 +244,8 @@ def test_a_broken_program_of_the_prefix_is_a_surroundings_error(
     program: str, text: str, own_cache: Callable[[str, str], Path], tmp_path: Path
 ) -> None:
     folder = own_cache(program, text)
-    command = stage.grader("grade", solution(tmp_path), "--sandbox", "bubblewrap")
-    done = stage.run([*command, "--out", tmp_path / "out"])
+    command = processes.grader("grade", solution(tmp_path), "--sandbox", "bubblewrap")
+    done = processes.run([*command, "--out", tmp_path / "out"])
     assert done.returncode == 3, done.stdout + done.stderr
     assert "a program of ROS jazzy does not run" in done.stderr
     assert "Run the command again: it makes a new one first." in done.stderr

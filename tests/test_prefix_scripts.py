@@ -64,7 +64,7 @@ def environment(folder: Path) -> Path:
     return python
 
 
-def said(command: list[str | Path], *, path: str = "", **variables: str) -> str:
+def output_of(command: list[str | Path], *, path: str = "", **variables: str) -> str:
     done = subprocess.run(
         command,
         env={"PATH": f"{path}:/usr/bin:/bin", "LANG": "C.UTF-8", **variables},
@@ -81,7 +81,7 @@ def installed(folder: Path, wheel: Path) -> tuple[Path, Path]:
     python = environment(folder / ".venv")
     words = ["--quiet", "--no-index", "--no-deps", "--no-warn-script-location", "--prefix"]
     ours = sysconfig.get_path("purelib")
-    said([python, "-m", "pip", "install", *words, folder / "prefix", wheel], PYTHONPATH=ours)
+    output_of([python, "-m", "pip", "install", *words, folder / "prefix", wheel], PYTHONPATH=ours)
     return folder / "prefix", python
 
 
@@ -110,10 +110,10 @@ def test_programs_written_by_pip_run_wherever_the_prefix_is(
     for program in PROGRAMS:
         script = prefix / "bin" / program
         wanted = f"{[str(prefix / 'bin' / 'python3'), str(script), *words]}\n"
-        assert said([script, *words], PYTHONPATH=packages) == wanted
+        assert output_of([script, *words], PYTHONPATH=packages) == wanted
     by_name = ["sh", "-c", f'exec {script.name} "$@"', "sh"]
     for start in (by_name, ["python3", script]):  # (it is still a Python program)
-        assert said([*start, *words], path=str(script.parent), PYTHONPATH=packages) == wanted
+        assert output_of([*start, *words], path=str(script.parent), PYTHONPATH=packages) == wanted
 
 
 def test_pip_writes_more_than_one_form(tmp_path: Path, wheel: Path) -> None:
@@ -130,7 +130,7 @@ def test_pip_writes_more_than_one_form(tmp_path: Path, wheel: Path) -> None:
 def test_the_header_that_setuptools_writes_is_recognised(name: str, tmp_path: Path) -> None:
     python = environment(tmp_path / name)
     ours = sysconfig.get_path("purelib")
-    header = said([python, "-c", HEADER_OF_SETUPTOOLS], PYTHONPATH=ours)
+    header = output_of([python, "-c", HEADER_OF_SETUPTOOLS], PYTHONPATH=ours)
     assert str(python) in header
     script = os.fsencode(header + SCRIPT)
     for installer in (str(python), "/another/python"):

@@ -15,24 +15,24 @@ from grader.run.session import Unobserved
 from grader.run.workspace import BUILD, build
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT
+from tests.batch.pool_tasks import ASSIGNMENT
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.hostile import HOSTILE
-from tests.test_ceiling import Clock, begun, unheard
+from tests.test_ceiling import Clock, ignore, new_session
 
 LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
 
 
 @pytest.fixture
 def submission() -> Submission:
-    return taken_in(SOLUTION)
+    return intake(SOLUTION)
 
 
-def taken_in(path: Path) -> Submission:
+def intake(path: Path) -> Submission:
     return take_in(path, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
 
 
-class Told:
+class FakeSandbox:
     """A sandbox whose commands (laying out, colcon, the listing) end with given statuses."""
 
     limits = Limits()
@@ -46,8 +46,8 @@ class Told:
         return Outcome(status, LISTED, 0.1)
 
 
-def built(submission: Submission, **statuses: int) -> int | None:
-    sandbox = cast("Sandbox", Told(**statuses))
+def build_status(submission: Submission, **statuses: int) -> int | None:
+    sandbox = cast("Sandbox", FakeSandbox(**statuses))
     return build(sandbox, submission, package=ASSIGNMENT.package).status
 
 
@@ -55,7 +55,7 @@ def built(submission: Submission, **statuses: int) -> int | None:
 def test_every_status_of_colcon_counts_for_the_submission(
     submission: Submission, status: int
 ) -> None:
-    assert built(submission, colcon=status) == status
+    assert build_status(submission, colcon=status) == status
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_a_failing_command_of_the_grader_is_a_surroundings_error(
     submission: Submission, ours: str, said: str
 ) -> None:
     with pytest.raises(SurroundingsError, match=said):
-        built(submission, **{ours: 2})
+        build_status(submission, **{ours: 2})
 
 
 @pytest.mark.prefix
@@ -74,7 +74,7 @@ def test_a_setup_py_that_exits_early_is_not_a_successful_build(
 ) -> None:
     name, status = "setup_paints_and_ends_with_250", 250
     package = next(package for package in HOSTILE if package.name == name)
-    made = build(sandbox, taken_in(write(package, tmp_path)), package=ASSIGNMENT.package)
+    made = build(sandbox, intake(write(package, tmp_path)), package=ASSIGNMENT.package)
     assert (made.status, made.stopped_by) == (status, "")
     assert "Score 100 / 100" in made.log
     assert not made.is_installed(ASSIGNMENT.package)
@@ -101,11 +101,11 @@ def test_a_node_that_ends_at_once_is_judged_only_if_the_sandbox_still_works(
     run = ended_at_once()
     clock = Clock(monkeypatch, run)
     clock.seconds = 1.0
-    opened = begun(works=works)
+    opened = new_session(works=works)
     if works:
-        assert opened.run(unheard) is run
+        assert opened.run(ignore) is run
         assert clock.runs == 1
     else:
         with pytest.raises(Unobserved, match="starts no command"):
-            opened.run(unheard)
+            opened.run(ignore)
         assert clock.runs == 3

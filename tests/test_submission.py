@@ -9,7 +9,7 @@ import pytest
 
 from grader.base.errors import UsageError
 
-from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take, write
+from .small_package import NODE, NODE_PATH, PACKAGE, make, paths, take, write
 
 
 @pytest.mark.parametrize("place", [".", PACKAGE, f"src/{PACKAGE}", f"week 1/ros2/ä/{PACKAGE}"])

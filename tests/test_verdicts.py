@@ -22,14 +22,14 @@ from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
 from grader.verdict.mark import Order, grade
-from tests import stage
+from tests import processes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
 
-COURSE = stage.ROOT / "lab" / "course" / "hello_time"
+COURSE = processes.ROOT / "lab" / "course" / "hello_time"
 ASSIGNMENT = load_assignment(COURSE / "assignment.yaml")
 # a verdict takes two to four seconds: `make test` has every seventh package, `test-all` all
 QUICK = 7
@@ -62,7 +62,7 @@ def packages(corpus: tuple[Package, ...], quick: int = QUICK) -> list[object]:
     ]
 
 
-def told(report: Report) -> str:
+def summary(report: Report) -> str:
     """Return the summary of a report that a failing test shows."""
     rows = [
         f"{check.id}: {check.status} {[m.id for m in check.mistakes]} {check.actual[:300]}"
@@ -75,7 +75,7 @@ def told(report: Report) -> str:
 @pytest.mark.parametrize("package", packages(RIGHT))
 def test_a_right_variant_gets_full_marks(package: Package, tmp_path: Path) -> None:
     report = mark(write(package, tmp_path))
-    assert report.score == report.max_score == 100, told(report)
+    assert report.score == report.max_score == 100, summary(report)
     assert report.all_passed
     assert report.observed.clock == ("wall" if package.wall_clock else "virtual")
 
@@ -90,13 +90,13 @@ def test_a_broken_package_fails_the_expected_checks_for_the_expected_reason(
 @pytest.mark.parametrize("package", packages(HOSTILE, 5))
 def test_a_hostile_package_harms_nothing(package: Package, tmp_path: Path) -> None:
     adopt_orphans()
-    before = set(stage.descendants())
+    before = set(processes.descendants())
     begin = time.monotonic()
     report = mark(write(package, tmp_path))
     assert time.monotonic() - begin < PATIENCE
     verdict_is(package, report)
     assert len(report.model_dump_json()) < 1_000_000
-    left = {pid: line for pid, line in stage.descendants().items() if pid not in before}
+    left = {pid: line for pid, line in processes.descendants().items() if pid not in before}
     assert left == {}
 
 
@@ -104,8 +104,8 @@ def verdict_is(package: Package, report: Report) -> None:
     """Assert that a report has the verdict that the corpus expects for a package."""
     failed = {check.id for check in report.checks if check.status == "failed"}
     skipped = {check.id for check in report.checks if check.status == "skipped"}
-    assert failed - package.undecided == set(package.expect_failed), told(report)
-    assert skipped - package.undecided == set(package.expect_skipped), told(report)
+    assert failed - package.undecided == set(package.expect_failed), summary(report)
+    assert skipped - package.undecided == set(package.expect_skipped), summary(report)
     for check_id, mistake in package.expect_failed.items():
         check = report.check(check_id)
         assert check.expected, check_id
@@ -124,7 +124,7 @@ def verdict_is(package: Package, report: Report) -> None:
 
 def test_the_solution_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
     report = mark(write(RIGHT[0], tmp_path), distro="kilted")
-    assert report.score == 100, told(report)
+    assert report.score == 100, summary(report)
     assert report.environment.rclpy == "9.1.2"
 
 
@@ -132,7 +132,7 @@ def test_the_solution_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
 def test_the_tutorials_own_node_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
     tutorial = next(package for package in RIGHT if package.name == "tutorial")
     report = mark(write(tutorial, tmp_path), distro="kilted")
-    assert report.score == 100, told(report)
+    assert report.score == 100, summary(report)
 
 
 def test_the_tutorials_traceback_is_advice_and_not_a_failure(tmp_path: Path) -> None:
@@ -174,7 +174,7 @@ def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -
     root = write(package, tmp_path)
     report = mark(root, sandbox="none")
     if package in RIGHT:
-        assert report.score == 100, told(report)
+        assert report.score == 100, summary(report)
     else:
         verdict_is(package, report)
     assert report.environment.sandbox == "none"
@@ -185,13 +185,13 @@ def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -
 def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -> None:
     package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
     root = write(package, tmp_path)
-    command = stage.grader("grade", root, "--sandbox", "account", "--out", tmp_path / "out")
-    done = stage.run(stage.as_root_of_a_container(command))
+    command = processes.grader("grade", root, "--sandbox", "account", "--out", tmp_path / "out")
+    done = processes.run(processes.as_root_of_a_container(command))
     assert done.returncode == (0 if package in RIGHT else 1), done.stdout + done.stderr
     (written,) = (tmp_path / "out").rglob("report.json")
     report = Report.model_validate(json.loads(written.read_text()))
     if package in RIGHT:
-        assert report.score == 100, told(report)
+        assert report.score == 100, summary(report)
     else:
         verdict_is(package, report)
     assert report.environment.sandbox == "account"
@@ -199,8 +199,8 @@ def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -
 
 def test_an_ordinary_user_gets_the_same_verdict(open_folder: Path) -> None:
     root = write(RIGHT[0], open_folder)
-    done = stage.run(
-        stage.as_user(stage.grader("grade", root, "--out", open_folder / "reports")),
+    done = processes.run(
+        processes.as_user(processes.grader("grade", root, "--out", open_folder / "reports")),
         env={"HOME": str(open_folder), "GRADER_CACHE": str(cache_root())},
     )
     assert done.returncode == 0, done.stdout + done.stderr

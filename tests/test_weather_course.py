@@ -29,7 +29,7 @@ from grader.validate.tree import Delete, Edit, Replace
 from grader.verdict.ask import ask_in_order
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
-from tests import stage, weather
+from tests import processes, weather
 from tests.weather import LOG, NODE, SETUP, STEP, TIMER
 
 LANGUAGES = ["en", "ko"]
@@ -56,16 +56,16 @@ def env(course: Path, **more: str) -> dict[str, str]:
 
 def sources() -> Iterator[Path]:
     """Yield the files of the grader and the lab, except the lesson's course and keys."""
-    listed = stage.run(["git", "ls-files", "-z", "grader", "lab"]).stdout.split("\0")
+    listed = processes.run(["git", "ls-files", "-z", "grader", "lab"]).stdout.split("\0")
     for name in filter(None, listed):
         if not name.startswith(("grader/keys/", "lab/course/")) and not name.endswith(".mo"):
-            yield stage.ROOT / name
+            yield processes.ROOT / name
 
 
 def test_only_the_lessons_own_files_mention_its_parts() -> None:
     words = re.compile(OURS.pattern.partition(r"|\bmain\b")[0], re.IGNORECASE)
     found = [
-        f"{path.relative_to(stage.ROOT)}:{number}: {line.strip()}"
+        f"{path.relative_to(processes.ROOT)}:{number}: {line.strip()}"
         for path in sources()
         if path.is_file()
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
@@ -218,7 +218,7 @@ MISTAKES = {
 }  # fmt: skip
 
 
-def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) -> CheckResult:
+def result_of(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) -> CheckResult:
     """Return the check's result for a broken package, with the patch that fixes it."""
     submission = weather.taken(folder, *mistake.edits)
     run = mistake.run or counted("Reading {n}")
@@ -242,7 +242,7 @@ def test_a_mistake_is_explained_with_the_lessons_texts(
     name: str, lang: str, tmp_path: Path
 ) -> None:
     mistake = MISTAKES[name]
-    result = judged(mistake, weather.assignment(tmp_path), tmp_path, lang)
+    result = result_of(mistake, weather.assignment(tmp_path), tmp_path, lang)
     assert result.mistakes[0].id == mistake.named
     said = texts(result)
     assert mistake.says in said
@@ -267,10 +267,12 @@ def test_the_right_package_passes_every_run_check(tmp_path: Path) -> None:
 @pytest.mark.prefix
 def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path)
-    graded = stage.run(stage.grader("grade", package, "--out", tmp_path / "o"), env=env(course))
+    graded = processes.run(
+        processes.grader("grade", package, "--out", tmp_path / "o"), env=env(course)
+    )
     assert graded.returncode == 0, graded.stdout + graded.stderr
     assert f"{weather.FULL_MARKS} / {weather.FULL_MARKS}" in graded.stdout
-    checked = stage.run(stage.grader("check", package), env=env(course))
+    checked = processes.run(processes.grader("check", package), env=env(course))
     assert checked.returncode == 0, checked.stdout + checked.stderr
     for said in (graded, checked):
         assert not OURS.search(said.stdout), said.stdout
@@ -282,7 +284,7 @@ def test_a_real_verdict_mentions_nothing_of_our_lesson(
     course: Path, tmp_path: Path, lang: str
 ) -> None:
     package = weather.write_package(tmp_path, Replace(NODE, "f'Reading {", "f'Readings {"))
-    done = stage.run(stage.grader("check", "--lang", lang, "-v", package), env=env(course))
+    done = processes.run(processes.grader("check", "--lang", lang, "-v", package), env=env(course))
     assert done.returncode == 1, done.stderr
     assert "Reading 1" in done.stdout
     assert not OURS.search(done.stdout), done.stdout
@@ -291,15 +293,15 @@ def test_a_real_verdict_mentions_nothing_of_our_lesson(
 @pytest.mark.prefix
 def test_fix_uses_the_lesson(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
-    done = stage.run(stage.grader("fix", "--no-run", package), env=env(course))
+    done = processes.run(processes.grader("fix", "--no-run", package), env=env(course))
     assert done.returncode == 0, done.stderr
     assert f"+{' ' * 12}{weather.ENTRY}" in done.stdout
     assert not OURS.search(done.stdout + done.stderr)
 
 
 def explained(*words: str, **more: str) -> str:
-    done = stage.run(
-        stage.grader("explain", *words), env={"ROS_DISTRO": "", "COLUMNS": "300", **more}
+    done = processes.run(
+        processes.grader("explain", *words), env={"ROS_DISTRO": "", "COLUMNS": "300", **more}
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -324,7 +326,7 @@ def test_explain_without_a_lesson_shows_placeholders(tmp_path: Path) -> None:
 
 def guide(*words: str | Path, **more: str) -> tuple[int, str, str]:
     line = [sys.executable, "-m", "lab.guide", *map(str, words)]
-    done = stage.run(
+    done = processes.run(
         line, env={"AMENT_PREFIX_PATH": "/opt/ros/kilted", "ROS_DISTRO": "kilted", **more}
     )
     return done.returncode, done.stdout, done.stderr
@@ -400,8 +402,8 @@ def run(command: str, cwd: Path, **more: str) -> tuple[int, str]:
     words = {
         "guide": [sys.executable, "-m", "lab.guide"],
         "lab": [sys.executable, "-m", "lab", "--workspace", str(cwd / "ws"), "--", "true"],
-    }.get(command) or stage.grader(*COMMANDS[command])
-    done = stage.run(words, cwd=cwd, env=more)
+    }.get(command) or processes.grader(*COMMANDS[command])
+    done = processes.run(words, cwd=cwd, env=more)
     assert "Traceback" not in done.stderr
     return done.returncode, done.stderr
 
@@ -435,10 +437,10 @@ def test_the_environment_selects_the_lesson(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     more = env(course, GRADER_ASSIGNMENT="winds")
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
-    done = stage.run(stage.grader("fix", "--no-run", package), env=more)
+    done = processes.run(processes.grader("fix", "--no-run", package), env=more)
     assert done.returncode == 0, done.stderr
     words = ("fix", "--check", "x", "--assignment", "readings", package)
-    done = stage.run(stage.grader(*words), env=more)
+    done = processes.run(processes.grader(*words), env=more)
     assert "no check 'x' in readings" in done.stderr, "the command line comes first"
     status, errors = run("check", tmp_path, **env(course, GRADER_ASSIGNMENT="wind"))
     assert status == 2

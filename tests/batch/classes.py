@@ -10,15 +10,15 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.batch.works import package
+from tests.batch.pool_tasks import package
 from tests.corpus.broken import BROKEN
 from tests.corpus.right import RIGHT
-from tests.stage import ROOT, grader
+from tests.processes import ROOT, grader
 
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
 
 
-def of_corpus(folder: Path, names: Sequence[str]) -> Path:
+def corpus_class(folder: Path, names: Sequence[str]) -> Path:
     """Write a class of packages of the corpus, one student each: `s00-solution`, …"""
     width = len(str(len(names)))
     for number, name in enumerate(names):
@@ -39,7 +39,7 @@ def mixed_names(count: int) -> list[str]:
     return [name for pair in zip(half, other, strict=False) for name in pair] + other[len(half) :]
 
 
-def of_many(folder: Path, count: int) -> Path:
+def large_class(folder: Path, count: int) -> Path:
     """Write a class of `count` students whose packages differ only in one comment."""
     files = {p.relative_to(SOLUTION): p for p in SOLUTION.rglob("*") if p.is_file()}
     contents = {place: path.read_bytes() for place, path in files.items() if place.suffix != ".pyc"}
@@ -111,7 +111,7 @@ def measured(
     return found["status"], found["peak"]
 
 
-def verdicts_beside(path: Path) -> int:
+def count_verdicts(path: Path) -> int:
     """Return the number of verdicts in a ledger in use by another process; 0 if it is missing."""
     if not path.is_file():
         return 0

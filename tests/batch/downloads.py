@@ -15,8 +15,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tests.batch.handed_out import package, zipped
-from tests.site.classes import FIRST, LAST
+from tests.batch.archives import package, zipped
+from tests.pages.classes import FIRST, LAST
 
 DATE = "Friday, 20 November 2026, 7:00 PM"
 BOM = b"\xef\xbb\xbf"

@@ -21,7 +21,7 @@ from grader.verdict.outcome import Failed
 
 from ..installed import installed
 from ..static_bench import ASSIGNMENT, StandIn
-from .handed_out import (
+from .archives import (
     NODE,
     NODE_PATH,
     PACKAGE,

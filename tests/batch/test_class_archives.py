@@ -21,7 +21,7 @@ from grader.batch.model import ClassFolder, HandedIn
 from grader.package.intake.archive_limits import ArchiveLimits
 from tests.installed import installed
 
-from .handed_out import (
+from .archives import (
     PACKAGE,
     WINDOWS,
     everything_below,
@@ -46,18 +46,18 @@ def found_in(tmp_path: Path, data: bytes, name: str = "class.zip") -> ClassFolde
     return discover(tmp_path / name, unpack=tmp_path / "work")
 
 
-def one(folder: ClassFolder, key: str) -> HandedIn:
+def submission_of(folder: ClassFolder, key: str) -> HandedIn:
     (found,) = [given for given in folder.handed_in if given.student.key == key]
     return found
 
 
-def said(thing: ClassFolder | HandedIn) -> str:
+def notes_of(thing: ClassFolder | HandedIn) -> str:
     return "\n".join(thing.notes)
 
 
 def are_marked(folder: ClassFolder, *keys: str) -> None:
     for key in keys:
-        given = one(folder, key)
+        given = submission_of(folder, key)
         assert not given.problem
         found = take(given.path, modes_kept=given.modes_kept)
         assert found.problem == ""
@@ -73,25 +73,25 @@ def test_a_class_in_an_archive_is_discovered(tmp_path: Path, kind: str, top: str
     data = zipped(files) if kind == "zip" else tarred(files, mode)
     found = found_in(tmp_path, data, f"class.{kind}")
     assert found.path == tmp_path / f"class.{kind}"
-    assert one(found, "kim").path.name == "kim.zip"
+    assert submission_of(found, "kim").path.name == "kim.zip"
     are_marked(found, "ann", "joe", "kim")
 
 
 def test_an_archive_is_unpacked_only_once(tmp_path: Path) -> None:
     first = found_in(tmp_path, zipped(two()))
-    before = (one(first, "ann").path / "ws" / "setup.py").stat().st_ino
+    before = (submission_of(first, "ann").path / "ws" / "setup.py").stat().st_ino
     again = found_in(tmp_path, zipped(two()), "renamed.zip")
     assert [given.path for given in again.handed_in] == [given.path for given in first.handed_in]
-    assert (one(again, "ann").path / "ws" / "setup.py").stat().st_ino == before
+    assert (submission_of(again, "ann").path / "ws" / "setup.py").stat().st_ino == before
     other = found_in(tmp_path, zipped(two(**{"ann/ws/setup.py": b"changed"})))
-    assert one(other, "ann").path != one(first, "ann").path
+    assert submission_of(other, "ann").path != submission_of(first, "ann").path
 
 
 def test_unpacked_files_are_readable_by_their_owner_only(tmp_path: Path) -> None:
     found = found_in(tmp_path, zipped(two()))
     for path in (tmp_path / "work", *(tmp_path / "work").iterdir()):
         assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0
-    assert one(found, "ann").path.is_relative_to(tmp_path / "work")
+    assert submission_of(found, "ann").path.is_relative_to(tmp_path / "work")
 
 
 def test_unpacking_resumes_after_a_kill(tmp_path: Path) -> None:
@@ -124,7 +124,7 @@ def test_an_altered_record_of_unpacking_unpacks_again(tmp_path: Path) -> None:
         record.write_text(text)
         found = found_in(tmp_path, zipped(two()))
         are_marked(found, "ann", "joe")
-        assert not said(one(found, "ann"))
+        assert not notes_of(submission_of(found, "ann"))
 
 
 def test_a_class_zip_made_on_windows_has_unknown_exec_bits(tmp_path: Path) -> None:
@@ -145,10 +145,10 @@ def test_a_member_outside_the_folder_is_left_out_and_reported(tmp_path: Path, na
     made = everything_below(tmp_path) - before
     assert not [path for path in made if "evil" in path]
     assert not Path("/etc/evil").exists()
-    assert "leads out" in said(found) + said(one(found, "ann"))
+    assert "leads out" in notes_of(found) + notes_of(submission_of(found, "ann"))
     are_marked(found, "ann", "joe")
     by_tar = found_in(tmp_path, tarred({**two(), name.replace("\\", "/"): b"evil"}), "class.tar")
-    assert "leads out" in said(by_tar) + said(one(by_tar, "ann"))
+    assert "leads out" in notes_of(by_tar) + notes_of(submission_of(by_tar, "ann"))
     are_marked(by_tar, "ann", "joe")
 
 
@@ -165,16 +165,16 @@ def test_links_devices_and_pipes_are_never_created(tmp_path: Path, kind: bytes) 
     for path in (tmp_path / "work").rglob("*"):
         assert path.is_dir() or path.is_file()
         assert not path.is_symlink()
-    assert "ann/ws/way" in said(one(found, "ann"))
-    assert "not unpacked" in one(found, "eve").problem
-    assert not said(one(found, "joe"))
+    assert "ann/ws/way" in notes_of(submission_of(found, "ann"))
+    assert "not unpacked" in submission_of(found, "eve").problem
+    assert not notes_of(submission_of(found, "joe"))
     are_marked(found, "joe")
 
 
 def test_a_hard_link_becomes_a_copy_of_its_file(tmp_path: Path) -> None:
     odd = odd_member("ann/ws/copy.py", tarfile.LNKTYPE, "ann/ws/setup.py")
     found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
-    copy = one(found, "ann").path / "ws" / "copy.py"
+    copy = submission_of(found, "ann").path / "ws" / "copy.py"
     assert copy.read_bytes() == package()["setup.py"]
     assert copy.stat().st_nlink == 1
 
@@ -188,8 +188,8 @@ def test_a_damaged_file_affects_only_its_student(tmp_path: Path) -> None:
             at = archive.getinfo(name).header_offset + 30 + len(name) + 20
             data[at : at + 4] = bytes(byte ^ 0xFF for byte in data[at : at + 4])
     found = found_in(tmp_path, bytes(data))
-    assert "damaged" in one(found, "kim").problem
-    assert "damaged" in said(one(found, "max"))
+    assert "damaged" in submission_of(found, "kim").problem
+    assert "damaged" in notes_of(submission_of(found, "max"))
     are_marked(found, "ann", "joe")
 
 
@@ -197,7 +197,7 @@ def test_a_false_size_affects_only_its_student(tmp_path: Path) -> None:
     data = zipped({**two(), "kim.zip": bytes(3_000_000)})
     lied = data.replace(struct.pack("<I", 3_000_000), struct.pack("<I", 1_000))
     found = found_in(tmp_path, lied)
-    assert one(found, "kim").problem
+    assert submission_of(found, "kim").problem
     are_marked(found, "ann", "joe")
 
 
@@ -217,20 +217,20 @@ def test_files_beyond_a_students_limits_are_not_unpacked(
         found_in(tmp_path, zipped(files)),
         found_in(tmp_path, tar_with(*links, files=files), "class.tar"),
     ):
-        assert "not unpacked" in one(found, "kim").problem
-        assert len(list((one(found, "max").path / "x").iterdir())) == 50
-        assert len(list((one(found, "eve").path / "x").iterdir())) == 2
-        assert "files beside it" in said(one(found, "max"))
-        assert "files beside it" in said(one(found, "eve"))
+        assert "not unpacked" in submission_of(found, "kim").problem
+        assert len(list((submission_of(found, "max").path / "x").iterdir())) == 50
+        assert len(list((submission_of(found, "eve").path / "x").iterdir())) == 2
+        assert "files beside it" in notes_of(submission_of(found, "max"))
+        assert "files beside it" in notes_of(submission_of(found, "eve"))
         are_marked(found, "ann", "joe")
-    assert len(list((one(found, "kit").path / "x").iterdir())) == 2
+    assert len(list((submission_of(found, "kit").path / "x").iterdir())) == 2
 
 
 def test_members_with_conflicting_paths_are_left_out_and_reported(tmp_path: Path) -> None:
     files = [*two().items(), ("ann/ws", b""), ("joe/ws/setup.py/x", b""), ("n" * 300, b"")]
     found = found_in(tmp_path, zip_of([(zipfile.ZipInfo(name), data) for name, data in files]))
-    assert "no place" in said(one(found, "ann"))
-    assert "no place" in said(one(found, "joe"))
+    assert "no place" in notes_of(submission_of(found, "ann"))
+    assert "no place" in notes_of(submission_of(found, "joe"))
     are_marked(found, "ann", "joe")
 
 
@@ -239,14 +239,14 @@ def test_a_duplicate_name_is_reported(tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match="Duplicate"):
         data = zip_of([*good, (zipfile.ZipInfo("ann/ws/setup.py"), b"last")])
     found = found_in(tmp_path, data)
-    assert (one(found, "ann").path / "ws/setup.py").read_bytes() == b"last"
-    assert "twice" in said(one(found, "ann"))
+    assert (submission_of(found, "ann").path / "ws/setup.py").read_bytes() == b"last"
+    assert "twice" in notes_of(submission_of(found, "ann"))
 
 
 def test_a_name_that_is_not_utf8_is_kept(tmp_path: Path) -> None:
     odd = odd_member("jos\udce9.zip", tarfile.REGTYPE)
     found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
-    assert one(found, "jos\\udce9").path.name == "jos\udce9.zip"
+    assert submission_of(found, "jos\\udce9").path.name == "jos\udce9.zip"
 
 
 @pytest.mark.parametrize("cut", [10, 300, -30])
@@ -280,9 +280,9 @@ def test_a_class_archive_with_a_password_is_refused(tmp_path: Path) -> None:
 def test_one_file_with_a_password_affects_one_student(tmp_path: Path) -> None:
     data = packed_by_zip(tmp_path / "made", two(), "ann/ws/setup.py")
     found = found_in(tmp_path, data)
-    assert "password" in said(one(found, "ann"))
+    assert "password" in notes_of(submission_of(found, "ann"))
     are_marked(found, "joe")
-    assert "password" not in said(one(found, "joe"))
+    assert "password" not in notes_of(submission_of(found, "joe"))
 
 
 def test_an_unwritable_work_folder_is_a_surroundings_error(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from grader.batch.policy import Attempt, standing
 from grader.course.policy import Late, Policy
 from tests.report.samples import report
 
-from .handed_out import package, repository, write
+from .archives import package, repository, write
 
 DUE = datetime(2026, 3, 4, 9, 20, 30, tzinfo=timezone.utc)
 POLICY = Policy(due=DUE, late=Late(per_day="10%"))
@@ -35,7 +35,7 @@ def grades(path: Path, **times: str) -> Path:
     return path
 
 
-def judged(given: HandedIn) -> Entry:
+def entry_of(given: HandedIn) -> Entry:
     """Return the gradebook entry of a right package under the policy."""
     attempt = Attempt(1, given.submitted, given.late, report(), notes=given.notes)
     return standing(given.student, [attempt], [], POLICY, 100)
@@ -69,7 +69,7 @@ def test_the_commit_time_does_not_decide_lateness(tmp_path: Path, days: int) -> 
     found = found_in(tmp_path / "hw")
     assert [given.submitted for given in found.handed_in] == [None, None]
     assert "sets the time of a commit" in "\n".join(found.notes)
-    entry = judged(found.handed_in[0])
+    entry = entry_of(found.handed_in[0])
     assert (entry.penalty, entry.final) == (0, 100)
     assert "not known when it was handed in" in entry.notes[-1]
 
@@ -87,9 +87,9 @@ def test_lateness_comes_from_the_grades_file_of_classroom(tmp_path: Path) -> Non
     ann, joe, max_ = found.handed_in
     late = DUE + timedelta(days=1, seconds=1)
     assert [given.submitted for given in (ann, joe, max_)] == [DUE, late, None]
-    assert [judged(given).final for given in (ann, joe, max_)] == [100, 80, 100]
-    assert "not known" not in "\n".join(judged(ann).notes)
-    assert "not known" in judged(max_).notes[-1]
+    assert [entry_of(given).final for given in (ann, joe, max_)] == [100, 80, 100]
+    assert "not known" not in "\n".join(entry_of(ann).notes)
+    assert "not known" in entry_of(max_).notes[-1]
 
 
 def test_an_invalid_time_in_the_grades_file_is_ignored(tmp_path: Path) -> None:

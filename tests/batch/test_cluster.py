@@ -20,9 +20,9 @@ from grader.batch.cluster import Cluster
 from grader.batch.ledger import Ledger
 from grader.batch.work import Done, Task
 from grader.ros.prefix import Ros
-from tests.batch.classes import grade_all, of_corpus, verdicts_beside
-from tests.batch.works import JOB, tasks
-from tests.stage import ROOT, grader
+from tests.batch.classes import corpus_class, count_verdicts, grade_all
+from tests.batch.pool_tasks import JOB, tasks
+from tests.processes import ROOT, grader
 
 if TYPE_CHECKING:
     from distributed import Future
@@ -88,7 +88,7 @@ def start_worker(scheduler: str, tmp_path: Path) -> Iterator[Callable[..., int]]
         yield start
 
 
-def _unheard(task: Task) -> None:
+def _ignore(task: Task) -> None:
     del task
 
 
@@ -108,7 +108,7 @@ def test_a_lost_worker_costs_only_the_submission_it_was_marking(
     names = ["solution", "entry_missing"] * 4
     with Cluster(scheduler, JOB, say=print) as cluster:
         found: list[Done] = []
-        for done in cluster.run(tasks(tmp_path, names), started=_unheard):
+        for done in cluster.run(tasks(tmp_path, names), started=_ignore):
             found.append(done)
             if len(found) == 1:
                 os.kill(first, signal.SIGKILL)
@@ -132,18 +132,18 @@ def test_a_scheduler_that_ends_during_the_wait_is_reported(
 
         monkeypatch.setattr(cluster, "_wait", waits)
         with pytest.raises(SurroundingsError, match="is gone"):
-            list(cluster.run(tasks(tmp_path, ["solution"]), started=_unheard))
+            list(cluster.run(tasks(tmp_path, ["solution"]), started=_ignore))
 
 
 def test_no_verdict_is_lost_if_the_scheduler_ends(ros_jazzy: Ros, tmp_path: Path) -> None:
-    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"] * 3)
+    folder = corpus_class(tmp_path / "class", ["solution", "entry_missing"] * 3)
     with scheduler_and_worker() as (scheduler, address):
         command = grader("grade-all", folder, "--out", tmp_path / "out", "--scheduler", address)
         with subprocess.Popen(
             [*command, "--quiet"], cwd=ROOT, stderr=subprocess.PIPE, text=True
         ) as begun:
             assert begun.stderr is not None
-            while not verdicts_beside(tmp_path / "out" / "ledger.sqlite"):
+            while not count_verdicts(tmp_path / "out" / "ledger.sqlite"):
                 assert begun.poll() is None
                 os.sched_yield()
             os.kill(scheduler, signal.SIGKILL)
@@ -161,7 +161,7 @@ def test_verdicts_from_the_cluster_are_kept_in_the_local_ledger(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:
     start_worker()
-    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"])
+    folder = corpus_class(tmp_path / "class", ["solution", "entry_missing"])
     done = grade_all(folder, tmp_path / "out", "--scheduler", scheduler)
     assert done.returncode == 1, done.stderr
     assert "marks in bubblewrap" in done.stderr
@@ -179,7 +179,7 @@ def test_a_worker_without_a_sandbox_is_not_used(
     start_worker(PATH="/nowhere")
     said: list[str] = []
     with Cluster(scheduler, JOB, say=said.append) as cluster:
-        (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=_unheard)
+        (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=_ignore)
     assert _scores([done]) == {"solution-0": 100}
     assert len([line for line in said if "marks in bubblewrap" in line]) == 1
     assert len([line for line in said if "is not used" in line]) == 1
@@ -195,7 +195,7 @@ def test_a_cluster_without_a_usable_worker_is_refused(
 
 
 def test_an_unreachable_scheduler_is_reported(tmp_path: Path) -> None:
-    folder = of_corpus(tmp_path / "class", ["solution"])
+    folder = corpus_class(tmp_path / "class", ["solution"])
     done = grade_all(folder, tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
     assert done.returncode == 3
     assert "does not answer" in done.stderr

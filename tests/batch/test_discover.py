@@ -18,14 +18,14 @@ from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn
 from grader.batch.systems.words import plain
 
-from .handed_out import NODE_PATH, PACKAGE, package, take, tarred, write, zipped
+from .archives import NODE_PATH, PACKAGE, package, take, tarred, write, zipped
 
 
 def found_in(path: Path, tmp_path: Path, system: str = "auto") -> ClassFolder:
     return discover(path, system=system, unpack=tmp_path / "work")
 
 
-def one(folder: ClassFolder, key: str) -> HandedIn:
+def submission_of(folder: ClassFolder, key: str) -> HandedIn:
     (found,) = [given for given in folder.handed_in if given.student.key == key]
     return found
 
@@ -34,7 +34,7 @@ def keys(folder: ClassFolder) -> list[str]:
     return [given.student.key for given in folder.handed_in]
 
 
-def said(folder: ClassFolder) -> str:
+def notes_of(folder: ClassFolder) -> str:
     return "\n".join(folder.notes)
 
 
@@ -53,11 +53,11 @@ def test_each_folder_and_each_archive_is_one_student(course: Path, tmp_path: Pat
     assert keys(found) == ["ann lee", "joe", "zoë"]
     assert [given.student.name for given in found.handed_in] == ["ann lee", "joe", "zoë"]
     assert (found.system, found.path, found.missing) == ("folders", course, ())
-    assert one(found, "zoë").path == course / "zoë.tar.gz"
+    assert submission_of(found, "zoë").path == course / "zoë.tar.gz"
     for work in found.handed_in:
         assert take(work.path).problem == ""
         assert (work.attempt, work.submitted, work.late) == (1, None, None)
-    assert "folders" in said(found)
+    assert "folders" in notes_of(found)
     assert not (tmp_path / "work").exists()
 
 
@@ -74,8 +74,8 @@ def test_an_archive_without_an_extension_is_detected_by_content(
     (course / "kim").write_bytes(zipped(package()))
     (course / "notes").write_text("to do\n")
     found = found_in(course, tmp_path)
-    assert one(found, "kim").path == course / "kim"
-    assert "notes" in said(found)
+    assert submission_of(found, "kim").path == course / "kim"
+    assert "notes" in notes_of(found)
 
 
 def test_other_files_are_reported_and_left_out(course: Path, tmp_path: Path) -> None:
@@ -87,8 +87,8 @@ def test_other_files_are_reported_and_left_out(course: Path, tmp_path: Path) -> 
     found = found_in(course, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
     for name in (".git", "__MACOSX", "reports", ".DS_Store", "README.md", "grades.csv", "jane.py"):
-        assert name in said(found)
-    assert "pipe" in said(found)
+        assert name in notes_of(found)
+    assert "pipe" in notes_of(found)
 
 
 def test_the_folder_of_unpacked_archives_is_not_a_student(course: Path) -> None:
@@ -116,9 +116,9 @@ def test_a_link_in_place_of_a_submission_is_not_followed(course: Path, tmp_path:
     (course / "eve").symlink_to("/etc")
     (course / "max.zip").symlink_to("gone.zip")
     found = found_in(course, tmp_path)
-    assert "link" in one(found, "eve").problem
-    assert "link" in one(found, "max").problem
-    assert one(found, "joe").problem == ""
+    assert "link" in submission_of(found, "eve").problem
+    assert "link" in submission_of(found, "max").problem
+    assert submission_of(found, "joe").problem == ""
 
 
 def test_a_folder_around_the_class_is_entered(course: Path, tmp_path: Path) -> None:
@@ -128,8 +128,8 @@ def test_a_folder_around_the_class_is_entered(course: Path, tmp_path: Path) -> N
     (around / ".DS_Store").write_text("")
     found = found_in(around, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
-    assert one(found, "joe").path == around / "hw1" / "course" / "joe"
-    assert "the class is in the folder hw1" in said(found)
+    assert submission_of(found, "joe").path == around / "hw1" / "course" / "joe"
+    assert "the class is in the folder hw1" in notes_of(found)
 
 
 def test_the_folder_of_the_only_student_is_not_entered(tmp_path: Path) -> None:
@@ -185,7 +185,7 @@ def test_a_system_can_be_forced(tmp_path: Path) -> None:
     assert found_in(tmp_path / "c", tmp_path).system == "moodle"
     found = found_in(tmp_path / "c", tmp_path, "folders")
     assert (found.system, keys(found)) == ("folders", ["Jane Roe_12_assignsubmission_file"])
-    assert "as was asked for" in said(found)
+    assert "as was asked for" in notes_of(found)
 
 
 # exec bits
@@ -198,11 +198,11 @@ def test_exec_bits_are_unknown_if_no_student_has_any(tmp_path: Path) -> None:
         (tmp_path / "c" / name / NODE_PATH).chmod(0o644)
     found = found_in(tmp_path / "c", tmp_path)
     assert [given.modes_kept for given in found.handed_in] == [False, False]
-    assert "executable" in said(found)
+    assert "executable" in notes_of(found)
     write(tmp_path / "c" / "kim", package())
     found = found_in(tmp_path / "c", tmp_path)
     assert [given.modes_kept for given in found.handed_in] == [True, True, True]
-    assert "executable" not in said(found)
+    assert "executable" not in notes_of(found)
 
 
 def test_exec_bits_are_missing_if_other_students_have_them(tmp_path: Path) -> None:
@@ -267,7 +267,7 @@ def test_no_submission_is_lost_because_of_its_name(
             text.encode()
     for name in made:
         gathered = any(name.endswith(part) for part in taken if part)
-        assert gathered or shown(plain(name)) in said(found) + str(found.handed_in)
+        assert gathered or shown(plain(name)) in notes_of(found) + str(found.handed_in)
     attempts = [(given.student.key, given.attempt) for given in found.handed_in]
     assert len(attempts) == len(set(attempts))
 

@@ -25,7 +25,7 @@ from grader.ros.prefix import Ros
 from grader.run import probe_link
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT, JOB, package
+from tests.batch.pool_tasks import ASSIGNMENT, JOB, package
 from tests.report.samples import report
 
 SETTING = Setting(
@@ -38,7 +38,7 @@ SETTING = Setting(
 REASON = "tar: \x1b[31mCannot write: No space left on device"
 
 
-class Marks:
+class FailingPool:
     """A pool without workers that fails on the named students; `works` is its proof's result."""
 
     def __init__(self, *failing: str, works: bool = True) -> None:
@@ -79,7 +79,7 @@ def a_class(folder: Path, count: int) -> ClassFolder:
     return ClassFolder("folders", folder, tuple(handed_in))
 
 
-def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> Plan:
+def run(ledger: Ledger, folder: ClassFolder, pool: FailingPool) -> Plan:
     plan = make_plan(ledger, folder, SETTING, listener=Listener())
     carry_out(ledger, plan, SETTING, pool, listener=Listener())
     return plan
@@ -88,7 +88,7 @@ def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> Plan:
 def test_a_grader_failure_affects_one_student_and_the_class_goes_on(
     ledger: Ledger, tmp_path: Path
 ) -> None:
-    folder, pool = a_class(tmp_path / "in", 3), Marks("s0")
+    folder, pool = a_class(tmp_path / "in", 3), FailingPool("s0")
     plan = run(ledger, folder, pool)
     assert pool.proofs == 1, "the sandbox works without it"
     result = class_result(ledger, folder, plan.items, ASSIGNMENT, distro="jazzy")
@@ -99,7 +99,7 @@ def test_a_grader_failure_affects_one_student_and_the_class_goes_on(
     assert REASON in failed.notes[0]
     assert "No space left on device" in gradebook_csv(result).decode("utf-8-sig")
     assert "No space left" not in html_page(failed, "x", show_hidden=True).decode()
-    again = run(ledger, folder, Marks())
+    again = run(ledger, folder, FailingPool())
     assert len(again.todo) == 1, "the next run tries it again, and nothing else"
     result = class_result(ledger, folder, again.items, ASSIGNMENT, distro="jazzy")
     assert {entry.status for entry in result.entries} == {"graded"}
@@ -110,7 +110,7 @@ def test_the_run_ends_if_the_surroundings_fail_without_a_submission(
 ) -> None:
     folder = a_class(tmp_path / "in", 2)
     with pytest.raises(SurroundingsError, match="does not open"):
-        run(ledger, folder, Marks("s1", works=False))
+        run(ledger, folder, FailingPool("s1", works=False))
     assert ledger.count() == 1, "what was reached is kept"
 
 
@@ -120,9 +120,9 @@ def test_several_failures_in_a_row_are_examined_before_the_next_submission(
     folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW + 1)
     failing = [f"s{number}" for number in range(FAULTS_IN_A_ROW)]
     with pytest.raises(SurroundingsError, match="does not open"):
-        run(ledger, folder, Marks(*failing, works=False))
+        run(ledger, folder, FailingPool(*failing, works=False))
     assert ledger.count() == 0, "the one behind them was not tried"
-    pool = Marks(*failing)
+    pool = FailingPool(*failing)
     run(ledger, folder, pool)
     assert pool.proofs == 2
     assert ledger.count() == 1
@@ -131,13 +131,13 @@ def test_several_failures_in_a_row_are_examined_before_the_next_submission(
 def test_a_class_without_a_single_verdict_is_a_grader_error(ledger: Ledger, tmp_path: Path) -> None:
     folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW)
     with pytest.raises(SurroundingsError, match="on all 3 submissions"):
-        run(ledger, folder, Marks("s0", "s1", "s2"))
+        run(ledger, folder, FailingPool("s0", "s1", "s2"))
 
 
 def test_a_failure_on_a_single_submission_is_not_a_surroundings_error(
     ledger: Ledger, tmp_path: Path
 ) -> None:
-    run(ledger, a_class(tmp_path / "in", 1), Marks("s0"))
+    run(ledger, a_class(tmp_path / "in", 1), FailingPool("s0"))
 
 
 def test_a_submission_that_intake_fails_on_stops_nobody_else(

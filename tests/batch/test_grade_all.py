@@ -16,10 +16,10 @@ import pytest
 
 from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
-from tests.batch.classes import grade_all, of_corpus, verdicts_beside
+from tests.batch.classes import corpus_class, count_verdicts, grade_all
 from tests.batch.downloads import KOREAN, moodle_zip, people, worksheet
-from tests.batch.works import workers_of
-from tests.stage import ROOT, grader, run
+from tests.batch.pool_tasks import workers_of
+from tests.processes import ROOT, grader, run
 
 pytestmark = pytest.mark.prefix
 
@@ -62,7 +62,7 @@ class Class:
 def marked(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> Class:
     """A class of five: three packages, a corrupt archive, and one missing submission."""
     place = tmp_path_factory.mktemp("class")
-    folder = of_corpus(place / "handed in", NAMES)
+    folder = corpus_class(place / "handed in", NAMES)
     (folder / "corrupt.zip").write_bytes(b"PK\x03\x04 this ends in the middle")
     roster = place / "roster.csv"
     roster.write_text(ROSTER, encoding="utf-8")
@@ -188,7 +188,7 @@ def test_a_group_is_marked_once_and_each_member_has_the_report(
 ) -> None:
     class_ = [replace(p, group="Team_1") for p in people(3, korean=True)]
     (tmp_path / "worksheet.csv").write_bytes(worksheet(class_, KOREAN, encoding="cp949"))
-    root = of_corpus(tmp_path / "corpus", ["entry_missing"]) / "s0-entry_missing"
+    root = corpus_class(tmp_path / "corpus", ["entry_missing"]) / "s0-entry_missing"
     files = {
         path.relative_to(root).as_posix(): path.read_bytes()
         for path in root.rglob("*")
@@ -269,9 +269,9 @@ def test_usage_errors_are_reported_before_anything_is_marked(
 
 
 @pytest.fixture
-def begun(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str], Path, Path]]:
+def running(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str], Path, Path]]:
     """A class that is being marked: its process, its folder and its output folder."""
-    folder = of_corpus(tmp_path / "class", ["solution"] * 6)
+    folder = corpus_class(tmp_path / "class", ["solution"] * 6)
     out = tmp_path / "out"
     command = grader("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", "--workers", "2")
     with subprocess.Popen(
@@ -286,11 +286,11 @@ def begun(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str
 
 
 def test_an_interrupted_run_resumes(
-    begun: tuple[subprocess.Popen[str], Path, Path],
+    running: tuple[subprocess.Popen[str], Path, Path],
 ) -> None:
-    process, folder, out = begun
+    process, folder, out = running
     ledger = out / "ledger.sqlite"
-    while verdicts_beside(ledger) < 1:
+    while count_verdicts(ledger) < 1:
         os.sched_yield()
     workers = workers_of(process.pid)
     process.send_signal(signal.SIGINT)

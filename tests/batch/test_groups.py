@@ -10,6 +10,7 @@ import pytest
 
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
+from tests.batch.archives import package, write
 from tests.batch.downloads import (
     ENGLISH,
     FINNISH,
@@ -21,7 +22,6 @@ from tests.batch.downloads import (
     scored,
     worksheet,
 )
-from tests.batch.handed_out import package, write
 
 
 def grouped(*sizes: tuple[str, int]) -> list[Person]:

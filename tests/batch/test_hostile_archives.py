@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from grader.package.intake.archive_limits import ArchiveLimits
 
-from .handed_out import (
+from .archives import (
     NODE_PATH,
     add_file,
     everything_below,

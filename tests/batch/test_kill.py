@@ -14,9 +14,9 @@ from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
-from tests.batch.classes import grade_all, of_corpus
-from tests.batch.works import workers_of
-from tests.stage import ROOT, alive, grader
+from tests.batch.classes import corpus_class, grade_all
+from tests.batch.pool_tasks import workers_of
+from tests.processes import ROOT, alive, grader
 
 pytestmark = pytest.mark.prefix
 
@@ -63,7 +63,7 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
     print(f"seed {seed}")
     chance = random.Random(seed)
     names = [MIXED[number % len(MIXED)] for number in range(students)]
-    folder = of_corpus(tmp_path / "class", names)
+    folder = corpus_class(tmp_path / "class", names)
     undisturbed = grade_all(folder, tmp_path / "calm", "-q")
     assert undisturbed.returncode == 1, undisturbed.stderr
     for _ in range(kills):

@@ -14,7 +14,7 @@ from grader.batch.work import Job
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
 from tests.batch.classes import grade_all
-from tests.batch.works import JOB, package
+from tests.batch.pool_tasks import JOB, package
 
 ROSTER = "id,name\nan,김하나\nabsent,이두리\n"
 

@@ -18,8 +18,8 @@ from grader.batch.ledger import Ledger
 from grader.batch.ledger_rows import AlreadyMarkedError, HandedInRow
 from grader.batch.model import Override, Student
 from grader.report.model import Report
+from tests.processes import ROOT
 from tests.report.samples import check, report
-from tests.stage import ROOT
 
 AT = datetime(2026, 11, 20, 23, 59, tzinfo=timezone.utc)
 HELLO = "hello_time"

@@ -9,7 +9,7 @@ import pytest
 
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment, load_assignment
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)
 COURSE = ROOT / "lab/course/hello_time/assignment.yaml"

@@ -17,13 +17,13 @@ from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.batch.works import ASSIGNMENT, JOB, own_workers, tasks
-from tests.stage import descendants
+from tests.batch.pool_tasks import ASSIGNMENT, JOB, own_workers, tasks
+from tests.processes import descendants
 
 pytestmark = pytest.mark.prefix
 
 
-def _unheard(task: Task) -> None:
+def _ignore(task: Task) -> None:
     del task
 
 
@@ -35,7 +35,7 @@ def _score(done: Done) -> float:
 
 def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
     names = ["solution", "entry_missing", "text_capital", "solution"]
-    found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_unheard))
+    found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))
     scores = {done.task.student: _score(done) for done in found}
     assert set(scores) == {"solution-0", "entry_missing-1", "text_capital-2", "solution-3"}
     assert scores["solution-0"] == scores["solution-3"] == 100
@@ -50,7 +50,7 @@ def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) 
     killed: list[int] = []
     waiting = tasks(tmp_path, ["solution"] * 4)
 
-    def handed_out() -> Iterator[Task]:
+    def submitted() -> Iterator[Task]:
         yield next(waiting)
         yield next(waiting)
         # both workers are busy now: a third task is only requested after one of them has ended
@@ -59,11 +59,11 @@ def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) 
             killed.append(worker)
         yield from waiting
 
-    found = list(LocalPool(JOB, 3).run(handed_out(), started=_unheard))
+    found = list(LocalPool(JOB, 3).run(submitted(), started=_ignore))
     assert [_score(done) for done in found] == [100] * 4
     assert len(killed) == 2
     assert sorted(done.tries for done in found) == [1, 1, 2, 2]
-    assert _left() == {}
+    assert _sandbox_processes() == {}
 
 
 def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
@@ -72,7 +72,7 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     stopped: list[int] = []
     waiting = tasks(tmp_path, ["solution"] * 2)
 
-    def handed_out() -> Iterator[Task]:
+    def submitted() -> Iterator[Task]:
         yield next(waiting)
         (worker,) = own_workers()
         os.kill(worker, signal.SIGSTOP)
@@ -80,13 +80,13 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
         yield from waiting
 
     pool = LocalPool(JOB, 2, seconds=15)
-    found = list(pool.run(handed_out(), started=_unheard))
+    found = list(pool.run(submitted(), started=_ignore))
     assert [_score(done) for done in found] == [100, 100]
     tries = {done.task.student: done.tries for done in found}
     assert tries == {"solution-0": 2, "solution-1": 1}
     with pytest.raises(ProcessLookupError):
         os.kill(stopped[0], 0)
-    assert _left() == {}
+    assert _sandbox_processes() == {}
 
 
 def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
@@ -95,7 +95,7 @@ def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
     """The command is not a worker at all; its last output is shown to the instructor."""
     command = (sys.executable, "-c", "import sys; sys.exit('no memory is left')")
     pool = LocalPool(JOB, 2, command=command)
-    found = list(pool.run(tasks(tmp_path, ["solution"] * 3), started=_unheard))
+    found = list(pool.run(tasks(tmp_path, ["solution"] * 3), started=_ignore))
     assert len(found) == 3
     assert {done.tries for done in found} == {3}
     assert all(done.answer.report is None for done in found)
@@ -105,7 +105,7 @@ def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
 def test_an_invalid_answer_is_not_a_verdict(tmp_path: Path) -> None:
     command = (sys.executable, "-c", 'print(\'{"report": {"score": 100}}\', flush=True); input()')
     pool = LocalPool(JOB, 1, command=command)
-    (done,) = pool.run(tasks(tmp_path, ["solution"]), started=_unheard)
+    (done,) = pool.run(tasks(tmp_path, ["solution"]), started=_ignore)
     assert done.answer.report is None
     assert "said something else" in done.answer.fault
 
@@ -113,13 +113,13 @@ def test_an_invalid_answer_is_not_a_verdict(tmp_path: Path) -> None:
 def test_stopping_early_ends_every_worker_and_its_sandbox(ros_jazzy: Ros, tmp_path: Path) -> None:
     with contextlib.closing(
         LocalPool(JOB, 2).run(
-            tasks(tmp_path, ["entry_missing", *["solution"] * 9]), started=_unheard
+            tasks(tmp_path, ["entry_missing", *["solution"] * 9]), started=_ignore
         )
     ) as running:
         next(running)
         assert own_workers()
     assert own_workers() == []
-    assert _left() == {}
+    assert _sandbox_processes() == {}
 
 
 def test_a_submission_survives_serialisation(tmp_path: Path) -> None:
@@ -128,19 +128,19 @@ def test_a_submission_survives_serialisation(tmp_path: Path) -> None:
     (folder / "bytes.bin").write_bytes(bytes(range(256)) * 9)
     (folder / "link").symlink_to("setup.py")
     (folder / "empty").mkdir()
-    (strange,) = _again(tmp_path)
+    (strange,) = _as_task(tmp_path)
     assert {file.path for file in strange.submission.files} > {"bytes.bin", "link", "empty"}
     for sent in (task, strange):
         assert from_text(to_text(sent.submission)) == sent.submission
         assert Task.from_text(sent.to_text()) == sent
 
 
-def _again(folder: Path) -> list[Task]:
+def _as_task(folder: Path) -> list[Task]:
     place = next(folder.iterdir())
     found = take_in(place, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
     return [Task("a", "b", "c", "d", found)]
 
 
-def _left() -> dict[int, str]:
+def _sandbox_processes() -> dict[int, str]:
     """Return the descendants of this process that are a sandbox or run in one."""
     return {pid: line for pid, line in descendants().items() if "bwrap" in line or "ros" in line}

@@ -16,7 +16,7 @@ from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn, Student
 from grader.batch.roster import Roster, read_roster
 
-from .handed_out import package, repository, write
+from .archives import package, repository, write
 
 MOODLE = """\
 Identifier,Full name,ID number,Email address,Status,Group,Grade,Maximum Grade,Last modified (grade)
@@ -194,7 +194,7 @@ def test_any_roster_is_read_or_refused(
 # matching
 
 
-def handed(tmp_path: Path, names: Sequence[str], content: str) -> ClassFolder:
+def discovered(tmp_path: Path, names: Sequence[str], content: str) -> ClassFolder:
     for name in names:
         write(tmp_path / "class" / name, package())
     (tmp_path / "roster.csv").write_text(content)
@@ -205,7 +205,7 @@ def names_of(found: ClassFolder) -> list[tuple[str, str]]:
     return [(given.student.key, given.student.name) for given in found.handed_in]
 
 
-def said(given: HandedIn) -> str:
+def notes_of(given: HandedIn) -> str:
     return "\n".join(given.notes)
 
 
@@ -217,14 +217,14 @@ def test_without_a_roster_students_are_sorted_by_name(tmp_path: Path) -> None:
 
 
 def test_the_order_is_the_rosters_and_missing_students_are_reported(tmp_path: Path) -> None:
-    found = handed(
+    found = discovered(
         tmp_path,
         ["al", "stranger", "4712"],
         "name,username,id number\nZoë Roe,zr,4712\nMax Ray,mr,4713\nAnn Lee,al,4711\n",
     )
     assert names_of(found) == [("4712", "Zoë Roe"), ("al", "Ann Lee"), ("stranger", "stranger")]
     assert found.missing == (Student("4713", "Max Ray", "", "mr", "4713"),)
-    assert "no line of the roster" in said(found.handed_in[2])
+    assert "no line of the roster" in notes_of(found.handed_in[2])
     assert not found.handed_in[0].notes
     assert found.handed_in[1].student == Student("al", "Ann Lee", "", "al", "4711")
 
@@ -233,43 +233,45 @@ def test_the_order_is_the_rosters_and_missing_students_are_reported(tmp_path: Pa
     "name", ["4711", "ALEE", "ann@School.edu", "ann", "Lee Ann", "ann_lée", "lee-ann", "AnnLee"]
 )
 def test_a_folder_name_may_be_any_unique_name_of_a_student(tmp_path: Path, name: str) -> None:
-    found = handed(
+    found = discovered(
         tmp_path,
         [name, "other"],
         "id number,name,email,username\n4711,Ann Lée,ann@school.edu,alee\n4712,Joe Poe,j@p.q,jp\n",
     )
     assert names_of(found)[0] == (name, "Ann Lée")
     by_name = name.lower() not in ("4711", "alee", "ann@school.edu", "ann")
-    assert ("by the name alone" in said(found.handed_in[0])) == by_name
+    assert ("by the name alone" in notes_of(found.handed_in[0])) == by_name
 
 
 def test_a_name_shared_by_two_students_matches_neither(tmp_path: Path) -> None:
-    found = handed(tmp_path, ["Ann Lee", "Joe"], "name,id number\nAnn Lee,1\nLee Ann,2\nJoe,3\n")
+    found = discovered(
+        tmp_path, ["Ann Lee", "Joe"], "name,id number\nAnn Lee,1\nLee Ann,2\nJoe,3\n"
+    )
     assert names_of(found) == [("Joe", "Joe"), ("Ann Lee", "Ann Lee")]
-    assert "more than one" in said(found.handed_in[1])
+    assert "more than one" in notes_of(found.handed_in[1])
     assert [student.id_number for student in found.missing] == ["1", "2"]
 
 
 def test_two_submissions_for_one_line_are_both_kept(tmp_path: Path) -> None:
-    found = handed(tmp_path, ["ann lee", "lee ann"], "name,id number\nAnn Lee,1\n")
+    found = discovered(tmp_path, ["ann lee", "lee ann"], "name,id number\nAnn Lee,1\n")
     assert sorted(names_of(found)) == [("ann lee", "ann lee"), ("lee ann", "lee ann")]
-    assert all("more than one" in said(given) for given in found.handed_in)
+    assert all("more than one" in notes_of(given) for given in found.handed_in)
 
 
 def test_a_user_name_outranks_a_full_name(tmp_path: Path) -> None:
     """A student whose user name is another student's full name is still identified correctly."""
-    found = handed(tmp_path, ["joe", "x"], "name,username\njoe,ann\nAnn Lee,joe\n")
+    found = discovered(tmp_path, ["joe", "x"], "name,username\njoe,ann\nAnn Lee,joe\n")
     assert names_of(found)[0] == ("joe", "Ann Lee")
 
 
 def test_only_moodles_own_number_matches_its_worksheet(tmp_path: Path) -> None:
     folders = ["Lee Ann_11_assignsubmission_file", "Max Ray_4712_assignsubmission_file"]
-    found = handed(tmp_path, folders, MOODLE)
+    found = discovered(tmp_path, folders, MOODLE)
     assert names_of(found) == [("11", "Ann Lee"), ("4712", "Max Ray")]
     assert [student.key for student in found.missing] == ["12"]
     assert found.handed_in[0].student.email == "ann@school.edu"
-    assert "by the name alone" not in said(found.handed_in[0])
-    plain = handed(tmp_path, [], "id,name\n11,Zoë Roe\n4712,Ann Lee\n")
+    assert "by the name alone" not in notes_of(found.handed_in[0])
+    plain = discovered(tmp_path, [], "id,name\n11,Zoë Roe\n4712,Ann Lee\n")
     assert ("11", "Ann Lee") in names_of(plain)
     assert [student.name for student in plain.missing] == ["Zoë Roe"]
 
@@ -278,15 +280,15 @@ def test_canvas_submissions_match_by_number_or_by_compressed_name(tmp_path: Path
     (tmp_path / "class").mkdir()
     for name in ("someoneelse_102_9001_a.zip", "leeann_555_9002_a.zip"):
         (tmp_path / "class" / name).write_bytes(b"PK\x03\x04")
-    found = handed(tmp_path, [], CANVAS)
+    found = discovered(tmp_path, [], CANVAS)
     assert names_of(found) == [("555", "Ann Lee"), ("102", "Zoë Roe")]
-    assert "by the name alone" in said(found.handed_in[0])
+    assert "by the name alone" in notes_of(found.handed_in[0])
 
 
 def test_classroom_repositories_match_by_github_name(tmp_path: Path) -> None:
     for user in ("hw-1-ann-lee", "hw-1-zoe"):
         repository(tmp_path / "class" / user)
-    found = handed(tmp_path, [], CLASSROOM)
+    found = discovered(tmp_path, [], CLASSROOM)
     assert names_of(found) == [("hw-1-ann-lee", "ann@school.edu"), ("hw-1-zoe", "Zoë Roe")]
     assert [given.student.username for given in found.handed_in] == ["ann-lee", "zoe"]
 
@@ -296,13 +298,13 @@ def test_a_common_prefix_of_user_names_is_not_part_of_the_assignment(tmp_path: P
     for user in ("hw-ann-lee", "hw-ann-ray"):
         repository(tmp_path / "class" / user)
     content = "identifier,github_username,name\n1,ann-ray,Ray\n2,ann-lee,Lee\n"
-    found = handed(tmp_path, [], content)
+    found = discovered(tmp_path, [], content)
     assert names_of(found) == [("hw-ann-ray", "Ray"), ("hw-ann-lee", "Lee")]
     assert [given.student.username for given in found.handed_in] == ["ann-ray", "ann-lee"]
 
 
 def test_the_key_of_a_missing_student_is_unique(tmp_path: Path) -> None:
-    found = handed(tmp_path, ["Joe Poe_7_assignsubmission_file"], "id,name\n7,Ann Lee\n")
+    found = discovered(tmp_path, ["Joe Poe_7_assignsubmission_file"], "id,name\n7,Ann Lee\n")
     assert names_of(found) == [("7", "Joe Poe")]
     (ann,) = found.missing
     assert (ann.name, ann.key != "7") == ("Ann Lee", True)

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from grader.batch.similar import fingerprint, groups
 from grader.package.submission import SourceFile, Submission, take_in
-from tests.batch.works import ASSIGNMENT
-from tests.stage import ROOT
+from tests.batch.pool_tasks import ASSIGNMENT
+from tests.processes import ROOT
 
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
 NODE = "my_robot_controller/my_first_node.py"
@@ -24,7 +24,7 @@ def solution() -> Submission:
     return take_in(SOLUTION, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
 
 
-def having(files: dict[str, bytes]) -> Submission:
+def submission_with(files: dict[str, bytes]) -> Submission:
     own = tuple(SourceFile(path, "file", data=data) for path, data in files.items())
     return replace(solution(), files=own)
 
@@ -71,15 +71,15 @@ def test_other_content_counts(path: str, old: str, new: str) -> None:
 
 
 def test_indentation_that_changes_a_block_counts() -> None:
-    one = having({NODE: b"if a:\n    b()\n    c()\n"})
-    other = having({NODE: b"if a:\n    b()\nc()\n"})
+    one = submission_with({NODE: b"if a:\n    b()\n    c()\n"})
+    other = submission_with({NODE: b"if a:\n    b()\nc()\n"})
     assert fingerprint(one) != fingerprint(other)
 
 
 def test_a_freshly_created_package_has_no_fingerprint() -> None:
     created = {"setup.py": b"setup()", "my_robot_controller/__init__.py": b"# empty\n"}
     created["test/test_flake8.py"] = b"def test(): pass"
-    assert fingerprint(having(created)) == ""
+    assert fingerprint(submission_with(created)) == ""
     assert groups({"a": "", "b": ""}) == ()
 
 
@@ -90,7 +90,7 @@ def test_groups_have_at_least_two_members() -> None:
 
 @given(st.dictionaries(st.sampled_from([NODE, "a.xml", "b.cfg", "c"]), st.binary(max_size=200)))
 def test_any_file_has_a_fingerprint(files: dict[str, bytes]) -> None:
-    assert fingerprint(having(files)) == fingerprint(having(files))
+    assert fingerprint(submission_with(files)) == fingerprint(submission_with(files))
 
 
 @pytest.mark.parametrize(
@@ -106,20 +106,20 @@ def test_any_file_has_a_fingerprint(files: dict[str, bytes]) -> None:
 )
 def test_a_hostile_file_takes_bounded_time(path: str, data: bytes) -> None:
     before = time.process_time()
-    assert fingerprint(having({NODE: b"print()", path: data}))
+    assert fingerprint(submission_with({NODE: b"print()", path: data}))
     assert time.process_time() - before < 5, "seconds of processor time; this is not linear"
 
 
 def test_long_code_is_compared_without_blanks_and_comments() -> None:
     code = b"count = 1\n" * 50_000
-    plain, remarked = having({NODE: code}), having({NODE: b"# mine\n\n" + code})
+    plain, remarked = submission_with({NODE: code}), submission_with({NODE: b"# mine\n\n" + code})
     assert fingerprint(plain) == fingerprint(remarked)
-    assert fingerprint(plain) != fingerprint(having({NODE: code + b"print()\n"}))
+    assert fingerprint(plain) != fingerprint(submission_with({NODE: code + b"print()\n"}))
 
 
 def test_an_unterminated_comment_hides_nothing() -> None:
-    one = having({NODE: b"print()", "package.xml": b"<a><!-- b"})
-    other = having({NODE: b"print()", "package.xml": b"<a><!-- c"})
+    one = submission_with({NODE: b"print()", "package.xml": b"<a><!-- b"})
+    other = submission_with({NODE: b"print()", "package.xml": b"<a><!-- c"})
     assert fingerprint(one) != fingerprint(other)
 
 
@@ -134,7 +134,9 @@ def test_blanks_between_tokens_never_count(parts: list[tuple[str, str, bool]]) -
     )
     wide += "\n]\n"
     assert _tokens(plain) == _tokens(wide)
-    assert fingerprint(having({NODE: plain.encode()})) == fingerprint(having({NODE: wide.encode()}))
+    assert fingerprint(submission_with({NODE: plain.encode()})) == fingerprint(
+        submission_with({NODE: wide.encode()})
+    )
 
 
 def _tokens(text: str) -> list[str]:
@@ -144,6 +146,6 @@ def _tokens(text: str) -> list[str]:
 
 
 def test_a_file_with_another_name_counts() -> None:
-    one = having({NODE: b"print(1)\n"})
-    other = having({"my_robot_controller/other.py": b"print(1)\n"})
+    one = submission_with({NODE: b"print(1)\n"})
+    other = submission_with({"my_robot_controller/other.py": b"print(1)\n"})
     assert fingerprint(one) != fingerprint(other)

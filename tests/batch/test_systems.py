@@ -13,7 +13,7 @@ import yaml
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn
 
-from .handed_out import NODE_PATH, class_zip, everything_below, package, take, write, zipped
+from .archives import NODE_PATH, class_zip, everything_below, package, take, write, zipped
 
 WAYS = ["folder", "zip"]
 
@@ -38,7 +38,7 @@ def by_key(found: ClassFolder) -> dict[str, list[HandedIn]]:
     return keys
 
 
-def said(thing: ClassFolder | HandedIn) -> str:
+def notes_of(thing: ClassFolder | HandedIn) -> str:
     return "\n".join(thing.notes)
 
 
@@ -73,10 +73,10 @@ def test_moodles_folders_are_identified_by_participant_number(tmp_path: Path, wa
     assert is_marked(ann)
     assert is_marked(zoe)
     assert not zoe.modes_kept
-    assert "onlinetext" in said(ann)
+    assert "onlinetext" in notes_of(ann)
     assert "only text" in max_.problem
     assert [given.submitted for given in found.handed_in] == [None] * 3
-    assert "does not tell when" in said(found)
+    assert "does not tell when" in notes_of(found)
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -119,7 +119,7 @@ def test_anonymous_students_and_teams_of_moodle_are_distinguished(tmp_path: Path
         "3": "The A Team",
         "Default group": "Default group",
     }
-    assert "number is not in the name" in said(by_key(found)["Default group"][0])
+    assert "number is not in the name" in notes_of(by_key(found)["Default group"][0])
 
 
 def test_anonymous_students_in_another_language_are_distinguished(tmp_path: Path) -> None:
@@ -161,7 +161,7 @@ def test_a_folder_added_by_the_instructor_is_marked(tmp_path: Path, way: str) ->
     assert [given.path.name for given in by_key(found)["2 (by hand)"]] == ["2.zip"]
     (mail,) = by_key(found)["by mail"]
     assert is_marked(mail)
-    assert "not named as in Moodle" in said(mail)
+    assert "not named as in Moodle" in notes_of(mail)
     assert found.system == "moodle"
 
 
@@ -204,7 +204,7 @@ def test_several_attachments_of_canvas_are_one_submission(tmp_path: Path) -> Non
     assert everything_below(jane.path) >= {"package.xml", "setup.py", "setup.cfg"}
     assert take(jane.path).root == "."
     assert not jane.modes_kept
-    assert "doejane_101_text.html" in said(jane)
+    assert "doejane_101_text.html" in notes_of(jane)
 
 
 def test_a_resubmission_on_canvas_is_a_later_attempt(tmp_path: Path) -> None:
@@ -222,14 +222,14 @@ def test_a_resubmission_on_canvas_is_a_later_attempt(tmp_path: Path) -> None:
         (2, b"third"),
         (3, b"last of all"),
     ]
-    assert "again" in said(found.handed_in[0])
+    assert "again" in notes_of(found.handed_in[0])
 
 
 def test_a_file_that_canvas_numbered_gets_its_original_name(tmp_path: Path) -> None:
     files = {"doejane_101_9001_setup-1.py": b"a", "doejane_101_9002_package-3.xml": b"b"}
     (jane,) = downloaded(tmp_path, files, "folder").handed_in
     assert everything_below(jane.path) == {"setup.py", "package.xml"}
-    assert "setup-1.py" in said(jane)
+    assert "setup-1.py" in notes_of(jane)
 
 
 def test_anonymous_students_of_canvas_are_distinguished(tmp_path: Path) -> None:
@@ -248,8 +248,8 @@ def test_anonymous_students_of_canvas_are_distinguished(tmp_path: Path) -> None:
 def test_an_ambiguous_file_name_of_canvas_is_reported(tmp_path: Path) -> None:
     files = {"doe_999_101_9001_pkg.zip": zipped(package()), "roe_102_9002_pkg.zip": b"PK"}
     found = by_key(downloaded(tmp_path, files, "folder"))
-    assert "not certain" in said(found["999"][0])
-    assert "not certain" not in said(found["102"][0])
+    assert "not certain" in notes_of(found["999"][0])
+    assert "not certain" not in notes_of(found["102"][0])
 
 
 # Gradescope
@@ -306,12 +306,12 @@ def test_gradescopes_export_has_names_and_times(tmp_path: Path, way: str, top: s
     assert (zoe.student.name, zoe.student.email) == ("Zoë Roe", "zoe@school.edu")
     assert zoe.student.id_number == "0123"
     assert zoe.submitted == datetime(2026, 3, 4, 18, 20, 30, 158417, timezone.utc)
-    assert "the last of 2 attempts" in said(zoe)
+    assert "the last of 2 attempts" in notes_of(zoe)
     assert ann.path == joe.path
-    assert "Ann Lee, Joe Poe" in said(joe)
+    assert "Ann Lee, Joe Poe" in notes_of(joe)
     assert ann.submitted == joe.submitted == datetime(2026, 3, 4, 9, 0, tzinfo=timezone.utc)
     assert keys["submission_73"][0].submitted is None
-    assert "not in submission_metadata.yml" in said(keys["submission_75"][0])
+    assert "not in submission_metadata.yml" in notes_of(keys["submission_75"][0])
     assert "folder is not in the export" in keys["9"][0].problem
     assert all(is_marked(given) for given in (zoe, ann, joe, keys["submission_75"][0]))
 
@@ -385,7 +385,7 @@ def test_large_results_in_gradescope_metadata_are_skipped_quickly(
     for key, (work,) in by_key(found).items():
         assert work.submitted is not None
         assert (work.student.name, work.submitted.second) == (f"Student {key}", int(key))
-        assert "the last of 3 attempts" in said(work)
+        assert "the last of 3 attempts" in notes_of(work)
     by_aliases = yaml.dump(metadata, sort_keys=False).encode()
     assert b"*id" in by_aliases
     (tmp_path / "course-hw1-42" / "submission_metadata.yml").write_bytes(by_aliases)

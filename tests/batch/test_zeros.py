@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.batch.cheap import Run, grade_all
 from tests.batch.downloads import (
     KOREAN,
     Person,
@@ -23,7 +22,8 @@ from tests.batch.downloads import (
     scored,
     worksheet,
 )
-from tests.stage import ROOT
+from tests.batch.stub_run import Run, grade_all
+from tests.processes import ROOT
 
 pytestmark = pytest.mark.prefix
 

@@ -17,7 +17,7 @@ from docker import DockerClient
 from grader.ros import image_files
 from grader.ros.distro import Distro, distros
 from grader.ros.images import table
-from tests import engine, stage
+from tests import engine, processes
 from tests.docker import checkout
 
 pytestmark = pytest.mark.docker
@@ -30,11 +30,11 @@ ARGUMENT = re.compile(r"^ARG (\w+)", re.MULTILINE)
 
 
 def compose(
-    *words: str, folder: Path = stage.ROOT, env: dict[str, str] | None = None
+    *words: str, folder: Path = processes.ROOT, env: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
     """Run the real docker-compose on a checkout's file."""
     command = ["docker-compose", "-p", PROJECT, "-f", str(folder / COMPOSE), *words]
-    return stage.run(command, cwd=folder, env=env, timeout=600)
+    return processes.run(command, cwd=folder, env=env, timeout=600)
 
 
 def service(env: dict[str, str]) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def test_compose_builds_and_runs_the_lab_of_each_distro(name: str) -> None:
     assert lab["image"] == f"some:lab-{name}"
     assert lab["build"]["args"]["DISTRO"] == name
     assert lab["build"]["target"] == "lab"
-    course = f"{stage.ROOT}/lab/course:/opt/ros2_teaching_lab/course:ro"
+    course = f"{processes.ROOT}/lab/course:/opt/ros2_teaching_lab/course:ro"
     assert lab["volumes"] == ["/tmp/ws:/home/student/ros2_ws:rw", course]
 
 
@@ -162,7 +162,7 @@ def test_bake_makes_the_images_that_the_grader_looks_for(
 @pytest.mark.parametrize("name", TARGETS)
 def test_a_bake_target_matches_its_dockerfile(name: str) -> None:
     target = TARGETS[name]
-    text = (stage.ROOT / target["dockerfile"]).read_text()
+    text = (processes.ROOT / target["dockerfile"]).read_text()
     assert target["target"] in STAGE.findall(text)
     assert set(target["args"]) <= set(ARGUMENT.findall(text))
     for context, other in target.get("contexts", {}).items():

@@ -15,7 +15,7 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox.execs import docker_errors
-from tests import stage
+from tests import processes
 
 pytestmark = [pytest.mark.docker]
 
@@ -77,9 +77,11 @@ def test_a_connection_waits_long_enough_for_slow_answers() -> None:
 
 
 def test_a_missing_daemon_is_reported_with_a_fix() -> None:
-    solution = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
-    command = stage.grader("grade", solution, "--sandbox", "docker")
-    done = stage.run(command, env={"DOCKER_HOST": "unix:///nonexistent/docker.sock"})
+    solution = (
+        processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+    )
+    command = processes.grader("grade", solution, "--sandbox", "docker")
+    done = processes.run(command, env={"DOCKER_HOST": "unix:///nonexistent/docker.sock"})
     assert done.returncode == 3
     assert "no Docker daemon answers at unix:///nonexistent/docker.sock" in done.stderr
     assert "SANDBOX=bubblewrap" in done.stderr
@@ -87,8 +89,8 @@ def test_a_missing_daemon_is_reported_with_a_fix() -> None:
 
 
 def test_a_socket_without_permission_is_reported_with_a_fix() -> None:
-    command = stage.as_user(stage.grader("images"))
-    done = stage.run(command, cwd=Path("/"))
+    command = processes.as_user(processes.grader("images"))
+    done = processes.run(command, cwd=Path("/"))
     assert done.returncode == 3, done.stdout + done.stderr
     assert "closed to this user" in done.stderr
     assert "docker" in done.stderr

@@ -13,14 +13,14 @@ from docker import DockerClient
 
 from grader.report.model import Report
 from grader.sandbox import orphans
-from tests import engine, stage
+from tests import engine, processes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
 from tests.docker.test_containers import made_by
-from tests.test_verdicts import mark, told, verdict_is
+from tests.test_verdicts import mark, summary, verdict_is
 
 pytestmark = [pytest.mark.docker]
 VERDICTS = 50
@@ -33,7 +33,7 @@ def some(corpus: tuple[Package, ...], each: int) -> list[object]:
 @pytest.mark.parametrize("package", some(RIGHT, 10))
 def test_a_right_variant_gets_full_marks_in_containers(package: Package, tmp_path: Path) -> None:
     report = mark(write(package, tmp_path), sandbox="docker")
-    assert report.score == report.max_score == 100, told(report)
+    assert report.score == report.max_score == 100, summary(report)
     assert report.environment.sandbox == "docker"
     assert report.observed.clock == ("wall" if package.wall_clock else "virtual")
 
@@ -67,8 +67,8 @@ def test_the_report_names_the_image_and_what_is_in_it(tmp_path: Path) -> None:
 
 def test_several_distros_give_a_matrix(tmp_path: Path) -> None:
     root = write(RIGHT[0], tmp_path / "in")
-    command = stage.grader("grade", root, "--sandbox", "docker", "--distro", "jazzy,kilted")
-    done = stage.run([*command, "--out", tmp_path / "out"])
+    command = processes.grader("grade", root, "--sandbox", "docker", "--distro", "jazzy,kilted")
+    done = processes.run([*command, "--out", tmp_path / "out"])
     assert done.returncode == 0, done.stdout + done.stderr
     assert "jazzy" in done.stdout
     assert "kilted" in done.stdout
@@ -92,7 +92,7 @@ def test_fifty_verdicts_leave_the_daemon_as_it_was(client: DockerClient, tmp_pat
     )
     done = subprocess.run(
         [sys.executable, "-c", code, root],
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         capture_output=True,
         text=True,
         check=False,

@@ -18,13 +18,13 @@ from docker import DockerClient
 from grader.sandbox import orphans
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests import engine, stage
+from tests import engine, processes
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 from tests.sandbox_contract import shell
 
 pytestmark = [pytest.mark.docker]
 GONE_SECONDS = 15.0
-SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 
 
 def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
@@ -124,8 +124,8 @@ def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
     setup.write_text(SLOW + setup.read_text())
 
     def start() -> subprocess.Popen[str]:
-        command = stage.grader("grade", package, "--sandbox", "docker", "--out", str(tmp_path))
-        environment = {**os.environ, "PYTHONPATH": str(stage.ROOT)}
+        command = processes.grader("grade", package, "--sandbox", "docker", "--out", str(tmp_path))
+        environment = {**os.environ, "PYTHONPATH": str(processes.ROOT)}
         return subprocess.Popen(
             command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
         )
@@ -170,7 +170,7 @@ def test_only_the_remains_of_an_ended_grader_are_removed(
             "import json; from grader.sandbox import orphans; "
             "print(json.dumps(orphans.labels(1000)))",
         ],
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         capture_output=True,
         text=True,
         check=True,

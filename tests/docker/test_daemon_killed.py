@@ -17,11 +17,11 @@ from docker import DockerClient
 from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox import orphans
-from tests import engine, stage
+from tests import engine, processes
 
 pytestmark = [pytest.mark.docker, pytest.mark.full]
 NAME = f"{engine.REPOSITORY}:grade-jazzy-wheels"
-SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 START_SECONDS = 60.0
 
 
@@ -117,10 +117,10 @@ def daemon(client: DockerClient) -> Iterator[Daemon]:
 def test_a_killed_daemon_is_reported_and_its_remains_are_removed(
     daemon: Daemon, tmp_path: Path
 ) -> None:
-    command = stage.grader("grade", SOLUTION, "--sandbox", "docker", "--out", tmp_path)
+    command = processes.grader("grade", SOLUTION, "--sandbox", "docker", "--out", tmp_path)
     environment = {
         **os.environ,
-        "PYTHONPATH": str(stage.ROOT),
+        "PYTHONPATH": str(processes.ROOT),
         "DOCKER_HOST": daemon.address,
     }
     grader = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True)
@@ -135,7 +135,7 @@ def test_a_killed_daemon_is_reported_and_its_remains_are_removed(
     assert "Traceback" not in said
 
     daemon.start()
-    again = stage.run(command, env={"DOCKER_HOST": daemon.address})
+    again = processes.run(command, env={"DOCKER_HOST": daemon.address})
     assert again.returncode == 0, again.stdout + again.stderr
     left = daemon.client()
     assert left.api.containers(all=True, filters={"label": orphans.OWNER}) == []

@@ -13,7 +13,7 @@ import docker
 import pytest
 
 from grader.ros.distro import distros
-from tests import stage
+from tests import processes
 from tests.docker import checkout, devcontainer_cli
 
 pytestmark = pytest.mark.docker
@@ -24,8 +24,8 @@ Inside = Callable[..., subprocess.CompletedProcess[str]]
 
 def configuration(*variables: str) -> dict[str, Any]:
     """Return the configuration as the command reads it, with variables substituted."""
-    words = ["read-configuration", "--workspace-folder", str(stage.ROOT)]
-    done = stage.run(["env", "-u", "DISTRO", *variables, *devcontainer_cli.command(), *words])
+    words = ["read-configuration", "--workspace-folder", str(processes.ROOT)]
+    done = processes.run(["env", "-u", "DISTRO", *variables, *devcontainer_cli.command(), *words])
     assert done.returncode == 0, done.stderr
     read: dict[str, Any] = json.loads(done.stdout)["configuration"]
     return read
@@ -43,9 +43,9 @@ def inside(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Inside]:
     cli = devcontainer_cli.command()
     mine = ["--workspace-folder", str(folder), "--id-label", f"tests={NAME}"]
     try:
-        made = stage.run([*cli, "up", *mine, "--buildkit", "never"], timeout=600)
+        made = processes.run([*cli, "up", *mine, "--buildkit", "never"], timeout=600)
         assert made.returncode == 0, made.stdout[-2000:] + made.stderr[-4000:]
-        yield lambda *words: stage.run([*cli, "exec", *mine, *words], timeout=300)
+        yield lambda *words: processes.run([*cli, "exec", *mine, *words], timeout=300)
     finally:
         clear_away()
 
@@ -106,5 +106,5 @@ def test_its_base_is_the_official_image_of_the_distro(tmp_path: Path) -> None:
     pulled = tmp_path / "pulled"
     words += ["--buildkit", "never", "--docker-path", str(docker_path)]
     env = {"DISTRO": "humble", "PULLED": str(pulled)}
-    stage.run([*devcontainer_cli.command(), *words], env=env)
+    processes.run([*devcontainer_cli.command(), *words], env=env)
     assert set(pulled.read_text().split()) == {"ros:humble-ros-base"}

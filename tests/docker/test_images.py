@@ -18,7 +18,7 @@ from grader.base.errors import SurroundingsError, UsageError
 from grader.ros import images
 from grader.ros.distro import distros, find_distro
 from grader.ros.image_build import Network, build_image, is_ignored
-from tests import engine, stage
+from tests import engine, processes
 from tests.docker.layers import Layers, certificates_in, layers_of
 
 pytestmark = [pytest.mark.docker]
@@ -48,7 +48,7 @@ def layers(request: pytest.FixtureRequest) -> Layers:
         opened.close()
 
 
-def said_in(client: DockerClient, image: Image, script: str) -> str:
+def output_of(client: DockerClient, image: Image, script: str) -> str:
     """Return the output of a script in a container of the image, run as the image's user."""
     out: bytes = client.containers.run(str(image.id), ["bash", "-c", script], remove=True)
     return out.decode()
@@ -57,13 +57,13 @@ def said_in(client: DockerClient, image: Image, script: str) -> str:
 @pytest.mark.parametrize("dockerfile", DOCKERFILES)
 def test_the_linter_finds_nothing(dockerfile: str) -> None:
     hadolint = Path(sys.executable).with_name("hadolint")
-    done = stage.run([hadolint, stage.ROOT / dockerfile])
+    done = processes.run([hadolint, processes.ROOT / dockerfile])
     assert (done.returncode, done.stdout) == (0, "")
 
 
 def test_no_file_needs_buildkit() -> None:
     for dockerfile in DOCKERFILES:
-        text = (stage.ROOT / dockerfile).read_text()
+        text = (processes.ROOT / dockerfile).read_text()
         assert not text.lower().startswith("# syntax")
         assert "--mount" not in text
         assert "<<" not in text
@@ -80,11 +80,11 @@ def test_an_image_has_labels_that_describe_it(image: Image) -> None:
 
 def test_nothing_runs_as_root_and_nobody_can_become_it(client: DockerClient, image: Image) -> None:
     assert image.attrs["Config"]["User"] == "1000:1000"
-    said = said_in(client, image, "id -un; id -u; pwd; command -v sudo; getent passwd 1001 1002")
+    said = output_of(client, image, "id -un; id -u; pwd; command -v sudo; getent passwd 1001 1002")
     lines = said.splitlines()
     assert lines[:3] == ["student", "1000", "/home/student/ros2_ws"]
     assert [line.split(":")[0] for line in lines[3:]] == ["probe", "holder"]
-    writable = said_in(client, image, "find / -xdev -type f -perm -4000 -newer /etc/passwd; true")
+    writable = output_of(client, image, "find / -xdev -type f -perm -4000 -newer /etc/passwd; true")
     assert writable == ""  # none of our files is set-user-id
 
 
@@ -92,7 +92,7 @@ def test_no_image_contains_a_solution_or_a_hidden_check(layers: Layers) -> None:
     names = layers.names
     assert not [name for name in names if "keys" in Path(name).parts and "grader" in name]
     assert not [name for name in names if name.endswith(("hidden.yaml", "mutants.yaml"))]
-    solution = stage.ROOT / "grader" / "keys" / "hello_time" / "solution"
+    solution = processes.ROOT / "grader" / "keys" / "hello_time" / "solution"
     own = {path.name for path in solution.rglob("*.py")} - {"__init__.py", "setup.py"}
     assert own
     assert not [name for name in names if Path(name).name in own]
@@ -110,7 +110,7 @@ def test_no_layer_contains_the_extra_certificate(layers: Layers) -> None:
 def test_ros_is_where_the_tutorial_expects_it(client: DockerClient, image: Image) -> None:
     distro = image.labels["ros2-teaching-lab.distro"]
     script = f". /opt/ros/{distro}/setup.bash && ros2 pkg prefix rclpy && colcon --help > /dev/null"
-    assert said_in(client, image, script).strip() == f"/opt/ros/{distro}"
+    assert output_of(client, image, script).strip() == f"/opt/ros/{distro}"
     # (the wheel of 7.1.6 contains the manifest of 7.1.5, and the stand-in has no other)
     major, minor, _ = find_distro(distro).rclpy.split(".")
     assert images.image_versions(client, image)["rclpy"].startswith(f"{major}.{minor}.")
@@ -120,13 +120,13 @@ def test_the_lab_has_what_a_student_needs(client: DockerClient) -> None:
     lab = client.images.get(f"{engine.REPOSITORY}:lab-jazzy")
     programs = "nano vi less man git ps"
     script = f"for p in {programs}; do command -v $p > /dev/null || echo no $p; done; man -w ls"
-    assert said_in(client, lab, script).splitlines() == ["/usr/share/man/man1/ls.1.gz"]
+    assert output_of(client, lab, script).splitlines() == ["/usr/share/man/man1/ls.1.gz"]
 
 
 def test_the_build_context_has_no_keys_and_no_generated_files() -> None:
-    rules = (stage.ROOT / ".dockerignore").read_text().splitlines()
+    rules = (processes.ROOT / ".dockerignore").read_text().splitlines()
     for name in ("grader/keys/hello_time/solution/x.py", "README.md", ".git/config",
-                 "grader/__pycache__/x.pyc", "tests/stage.py", ".venv/bin/python"):  # fmt: skip
+                 "grader/__pycache__/x.pyc", "tests/processes.py", ".venv/bin/python"):  # fmt: skip
         assert is_ignored(name, rules), name
     for name in (
         "grader/cli/main.py",
@@ -146,13 +146,13 @@ def test_docker_itself_interprets_the_ignore_file_the_same_way(
     tag = f"{engine.REPOSITORY}:context-{tmp_path.name.lower()[-20:].strip('-_')}"
     docker = shutil.which("docker")
     assert docker is not None
-    command = [docker, "build", "-q", "-f", dockerfile, "-t", tag, stage.ROOT]
+    command = [docker, "build", "-q", "-f", dockerfile, "-t", tag, processes.ROOT]
     done = subprocess.run(
         [str(word) for word in command], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
     try:
-        rules = (stage.ROOT / ".dockerignore").read_text().splitlines()
+        rules = (processes.ROOT / ".dockerignore").read_text().splitlines()
         names = context_of(client, tag)
         assert "grader/cli/main.py" in names
         assert [name for name in names if is_ignored(name, rules)] == []
@@ -239,9 +239,11 @@ def test_every_distro_has_rows_in_the_documented_table(client: DockerClient) -> 
 
 
 def test_an_image_that_is_missing_and_cannot_be_made_is_exit_3() -> None:
-    solution = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
-    command = stage.grader("grade", solution, "--sandbox", "docker", "--distro", "humble")
-    done = stage.run(command, env={"GRADER_IMAGES": "ros2-teaching-lab-none"}, timeout=300)
+    solution = (
+        processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+    )
+    command = processes.grader("grade", solution, "--sandbox", "docker", "--distro", "humble")
+    done = processes.run(command, env={"GRADER_IMAGES": "ros2-teaching-lab-none"}, timeout=300)
     assert done.returncode == 3
     assert "ros2-teaching-lab-none:grade-humble could not be built" in done.stderr
     assert "Traceback" not in done.stderr

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile
-from tests.fix.bench import TOOLS
+from tests.fix.corpus_fixes import TOOLS
 
 LINE = st.sampled_from([b"a", b"b", b"", b"\t x", b"c\r", b"f\xfcr", b"-- a", b"++ b", b"\\ No"])
 DATA = st.lists(LINE, max_size=30).map(b"\n".join)

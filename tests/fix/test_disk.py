@@ -13,7 +13,7 @@ from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.validate.tree import Chmod, Delete, Move, Replace
 from tests.corpus.model import MANIFEST, MARKER, NODE, SETUP
-from tests.fix.bench import contents, edited, plan_of, taken
+from tests.fix.corpus_fixes import contents, edited, plan_of, taken
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
 ENTRY = Replace(SETUP, "my_first_node:main", "my_frist_node:main")

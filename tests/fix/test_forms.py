@@ -8,7 +8,7 @@ import pytest
 
 from grader.validate.tree import Delete, Edit, Move, Replace, Write
 from tests.corpus.model import CFG, INNER, MANIFEST, MARKER, NODE, SETUP
-from tests.fix.bench import contents, edited, plan_of
+from tests.fix.corpus_fixes import contents, edited, plan_of
 
 ENTRY = "'test_node = my_robot_controller.my_first_node:main'"
 POINTS = f"""\

@@ -10,7 +10,7 @@ from grader.report import events
 from grader.verdict import mark as runner
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
-from tests.fix.bench import TOOLS, with_tool
+from tests.fix.corpus_fixes import TOOLS, with_tool
 from tests.test_verdicts import mark
 
 BY_NAME = {package.name: package for package in BROKEN}

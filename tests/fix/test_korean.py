@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from grader.validate.tree import Delete, Replace, Write
-from tests import stage
+from tests import processes
 from tests.corpus.model import MANIFEST, MARKER, NODE
-from tests.fix.bench import edited
+from tests.fix.corpus_fixes import edited
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
 PROSE = re.compile(r"(?:\b[a-z]{2,}\b[ ,]+){2}[a-z]{2,}\b")
@@ -27,7 +27,7 @@ def test_messages_are_korean_and_the_diff_is_the_same(
 ) -> None:
     roots = [edited(tmp_path / lang, NAME, Delete(MARKER)) for lang in ("en", "ko")]
     english, korean = (
-        stage.run(stage.grader("fix", *words, "--no-run", "--lang", root.parent.name, root))
+        processes.run(processes.grader("fix", *words, "--no-run", "--lang", root.parent.name, root))
         for root in roots
     )
     assert (korean.returncode, korean.stdout) == (english.returncode, english.stdout)
@@ -39,11 +39,11 @@ def test_messages_are_korean_and_the_diff_is_the_same(
 
 def test_unfixed_mistakes_are_listed_in_korean(tmp_path: Path) -> None:
     root = edited(tmp_path, Write(NODE, b""), NAME)
-    done = stage.run(stage.grader("fix", "--lang", "ko", root))
+    done = processes.run(processes.grader("fix", "--lang", "ko", root))
     assert done.returncode == 1
     assert "남은 것  source.node_file: 파일이 비어 있습니다" in done.stderr
     assert prose(done.stderr) == []
-    done = stage.run(stage.grader("fix", "--lang", "ko", tmp_path / "edited" / "resource"))
+    done = processes.run(processes.grader("fix", "--lang", "ko", tmp_path / "edited" / "resource"))
     assert done.returncode == 1
     assert prose(done.stderr) == []
 
@@ -59,7 +59,7 @@ def test_usage_errors_and_refusals_are_in_korean(tmp_path: Path) -> None:
         [root, "--apply", "--no-run"],
         [file],
     ):
-        done = stage.run(stage.grader("fix", "--lang", "ko", *words))
+        done = processes.run(processes.grader("fix", "--lang", "ko", *words))
         assert done.returncode == 2, words
         told = done.stderr[done.stderr.index("grader: ") :]
         assert re.search("[가-힣]", told), told

@@ -8,7 +8,7 @@ import pytest
 
 from grader.validate.tree import Crlf, Delete, Edit, Replace, Write
 from tests.corpus.model import CFG, MANIFEST, NODE, SETUP
-from tests.fix.bench import TOOLS, contents, edited, plan_of, taken, with_tool
+from tests.fix.corpus_fixes import TOOLS, contents, edited, plan_of, taken, with_tool
 
 OLD = "'test_node = my_robot_controller.my_first_node:main'"
 BAD = OLD.replace("my_first_node:", "my_frist_node:")

@@ -18,7 +18,7 @@ from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.model import NODE, SETUP, Package
-from tests.fix.bench import TOOLS, edited, taken, with_tool
+from tests.fix.corpus_fixes import TOOLS, edited, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
 # The only fix of these is exactly the solution.

@@ -12,7 +12,7 @@ from grader.verdict.static import decided
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.fix.bench import NODE, TOOLS, contents, plan_of, taken, with_tool
+from tests.fix.corpus_fixes import NODE, TOOLS, contents, plan_of, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
 STATIC = ("package.", "source.", "entry_point.mapping")

@@ -6,7 +6,7 @@ import pytest
 
 from grader.batch.model import ClassResult
 from grader.report.model import Report
-from tests.site import classes
+from tests.pages import classes
 
 
 @pytest.fixture

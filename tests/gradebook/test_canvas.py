@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
 from grader.batch.systems.canvas.write import new_gradebook
-from tests.gradebook.filled import fill_gradebook
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.fill import fill_gradebook
+from tests.gradebook.hostile_texts import hostile_class, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 TASK = "Hello time (4711)"
 HEADER = f"Student,ID,SIS User ID,SIS Login ID,Section,Other (12),{TASK},Current Score"

@@ -13,7 +13,7 @@ import jsonschema
 import pytest
 
 from grader.report.files import report_json
-from tests import stage
+from tests import processes
 from tests.gradebook.schemas import GRADESCOPE, PRAIRIELEARN
 from tests.gradebook.test_github import read
 from tests.gradebook.test_junit import suites
@@ -21,7 +21,7 @@ from tests.report import samples
 
 
 def outputs(*words: str | Path) -> subprocess.CompletedProcess[str]:
-    return stage.run([sys.executable, "-m", "grader", *words])
+    return processes.run([sys.executable, "-m", "grader", *words])
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def test_the_archive_is_readable_by_its_owner_only(tmp_path: Path) -> None:
     ("words", "status", "said"),
     [
         (["convert", "gradescope", "/no/such"], 2, "/no/such"),
-        (["convert", "gradescope", str(stage.ROOT / "setup.py")], 2, "no report"),
+        (["convert", "gradescope", str(processes.ROOT / "setup.py")], 2, "no report"),
         (["convert", "gradscope", "x"], 2, "gradscope"),
         (["gradescope-zip", "--distro", "jazy", "x.zip"], 2, "did you mean 'jazzy'?"),
         (["gradescope-zip", "--sandbox", "acount", "x.zip"], 2, "did you mean 'account'?"),

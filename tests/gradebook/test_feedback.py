@@ -15,14 +15,14 @@ from grader.batch.points import single
 from grader.publish.feedback import html_page
 from grader.publish.markdown import markdown
 from grader.report.model import Report
-from tests.gradebook.texts import hostile_entry, texts
+from tests.gradebook.hostile_texts import hostile_entry, texts
+from tests.pages.browser import Open
 from tests.report import samples
-from tests.site.browser import Open
 
 TITLE = "Hello time"
 
 
-def spoken(text: str) -> str:
+def visible_text(text: str) -> str:
     """Return the visible text of the Markdown, line by line."""
     tokens = MarkdownIt("commonmark").parse(text)
     lines = [token for token in tokens if token.type in ("inline", "fence")]
@@ -35,7 +35,7 @@ def spoken(text: str) -> str:
 def both(entry_of: ClassResult, key: str) -> list[str]:
     entry = entry_of.entry(key)
     page = html_page(entry, TITLE, show_hidden=False).decode()
-    return [spoken(markdown(entry, TITLE, show_hidden=False)), page]
+    return [visible_text(markdown(entry, TITLE, show_hidden=False)), page]
 
 
 def test_result_corrections_lateness_and_attempts_are_listed(mixed: ClassResult) -> None:
@@ -51,7 +51,7 @@ def test_result_corrections_lateness_and_attempts_are_listed(mixed: ClassResult)
 def test_a_failed_check_is_explained(broken: Report) -> None:
     entry = single(broken)
     check = broken.check("run.output")
-    text = spoken(markdown(entry, TITLE, show_hidden=False))
+    text = visible_text(markdown(entry, TITLE, show_hidden=False))
     for told in (check.title, check.expected, check.actual.split("\n")[0], check.fix):
         assert told in text
     assert "hello time: 9" in text

@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from grader.batch.model import ClassResult, Override
 from grader.batch.points import single
 from grader.batch.systems.github_classroom import write as github
+from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import GITHUB
-from tests.gradebook.texts import hostile_entry, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 
 def read(variable: str) -> dict[str, Any]:

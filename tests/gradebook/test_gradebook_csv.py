@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.publish.gradebook_csv import gradebook_csv
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.report import samples
 
 FORMULA = re.compile(r"[\s\"']*[=+\-@＝＋－＠]")

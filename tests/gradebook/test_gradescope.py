@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from grader.batch.model import ClassResult, Override
 from grader.batch.systems.gradescope import write as gradescope
 from grader.report.model import Report
+from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import GRADESCOPE
-from tests.gradebook.texts import hostile_entry, texts
 from tests.report import samples
 
 

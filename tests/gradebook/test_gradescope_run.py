@@ -29,7 +29,7 @@ from grader.ros.prefix import Ros
 from grader.validate.tree import Replace
 from grader.verdict.mark import Order, grade
 from grader.verdict.order import make_orders
-from tests import stage, weather
+from tests import processes, weather
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.gradebook.schemas import GRADESCOPE
@@ -80,8 +80,8 @@ def autograder(ros_jazzy: Ros) -> Iterator[Path]:
 
 def run(autograder: Path) -> tuple[int, dict[str, Any], str]:
     """Run it as root of a throwaway container; return status, results and output."""
-    command = stage.as_root_of_a_container([str(autograder / "run_autograder")])
-    done = stage.run(command, cwd=autograder, env={"PYTHONPATH": ""})
+    command = processes.as_root_of_a_container([str(autograder / "run_autograder")])
+    done = processes.run(command, cwd=autograder, env={"PYTHONPATH": ""})
     written = (autograder / "results/results.json").read_bytes()
     assert written.isascii()
     assert b"\r" not in written
@@ -140,7 +140,7 @@ def test_a_grader_that_cannot_start_says_it_is_not_the_students_fault(autograder
 def test_the_archives_setup_installs_all_that_it_needs(autograder: Path) -> None:
     """`setup.sh` makes the locked environment from the archive alone, without the tests' part."""
     (autograder / "source/.venv").unlink()
-    done = stage.run([autograder / "source/setup.sh"], cwd=autograder, timeout=300)
+    done = processes.run([autograder / "source/setup.sh"], cwd=autograder, timeout=300)
     assert done.returncode == 0, done.stderr
     write(SOLUTION, autograder / "submission")
     status, found, said = run(autograder)
@@ -245,7 +245,7 @@ def test_the_archive_has_only_what_gradescope_needs() -> None:
 def test_the_archive_can_have_the_instructors_own_assignment(tmp_path: Path) -> None:
     own = tmp_path / "a b; $(touch x)" / "own assignment.yaml"
     own.parent.mkdir()
-    shutil.copy(stage.ROOT / "lab/course/hello_time/assignment.yaml", own)
+    shutil.copy(processes.ROOT / "lab/course/hello_time/assignment.yaml", own)
     with zipfile.ZipFile(BytesIO(gradescope_zip(assignment=str(own)))) as archive:
         assert archive.read("assignment/own assignment.yaml") == own.read_bytes()
         assert b"--assignment 'assignment/own assignment.yaml'" in archive.read("run_autograder")
@@ -275,7 +275,7 @@ def test_an_archive_without_a_checkout_or_assignment_is_refused(tmp_path: Path) 
 
 def policy(tmp_path: Path) -> Order:
     """Return an order with 10% off a day after 2026-11-20 12:00 in Los Angeles."""
-    text = (stage.ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
+    text = (processes.ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
     file = tmp_path / "assignment.yaml"
     file.write_text(f"{text}policy: {{due: 2026-11-20T12:00:00-08:00, late: {{per_day: 10%}}}}\n")
     (order,) = make_orders(tmp_path, str(file), "jazzy", "account", ())

@@ -13,7 +13,7 @@ from junitparser import TestSuite as Suite
 from grader.batch.model import ClassResult
 from grader.publish.junit import class_xml, report_xml
 from grader.report.model import Report
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.report import samples
 
 # the children that an element may have, and its required attributes (Jenkins' junit-10.xsd)
@@ -97,7 +97,7 @@ def test_corrections_and_penalties_are_properties(mixed: ClassResult) -> None:
 
 def test_a_check_that_was_corrected_to_all_its_points_passes(broken: Report) -> None:
     from grader.batch.model import Override
-    from tests.site import classes
+    from tests.pages import classes
 
     override = Override("1001", "run.output", 10, "agreed")
     entry = dataclasses.replace(classes.entry(1, broken), overrides=(override,))

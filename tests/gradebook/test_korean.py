@@ -34,10 +34,10 @@ from grader.publish.feedback import html_page, short_html
 from grader.publish.markdown import markdown
 from grader.report.model import Evidence, Report
 from grader.verdict.mark import Order
-from tests import stage
-from tests.gradebook.filled import comment
+from tests import processes
+from tests.gradebook.fill import comment
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 TITLE = "첫 노드"
 # names, units of the SI, and words that are the same in every language
@@ -229,7 +229,7 @@ def test_gradescopes_archive_keeps_the_language(tmp_path: Path) -> None:
     assert "grader/base/i18n/ko/LC_MESSAGES/grader.mo" in names
     line = next(line for line in script.splitlines() if "echo " in line)
     out = tmp_path / "results.json"
-    done = stage.run(["bash", "-c", f"results={shlex.quote(str(out))}\n{line}"])
+    done = processes.run(["bash", "-c", f"results={shlex.quote(str(out))}\n{line}"])
     assert done.returncode == 0, done.stderr
     found = json.loads(out.read_text())
     assert found["score"] == 0

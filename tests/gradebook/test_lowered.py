@@ -11,8 +11,8 @@ from grader.batch.gradebook_before import Before, read_before
 from grader.batch.lowered import lowered
 from grader.batch.model import Entry, Override
 from grader.publish.gradebook_csv import gradebook_csv
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 FAILED = samples.report(samples.check("run.output", "failed"))  # 90 of 100
 

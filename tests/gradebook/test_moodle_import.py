@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.batch.systems.moodle.gradebook_import import moodle_import
-from tests.gradebook.filled import comment
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.fill import comment
+from tests.gradebook.hostile_texts import hostile_class, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 
 def rows(content: bytes) -> list[dict[str, str]]:

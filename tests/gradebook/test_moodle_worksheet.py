@@ -11,10 +11,10 @@ from hypothesis import given, settings
 
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
-from tests.gradebook.filled import fill_worksheet
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.fill import fill_worksheet
+from tests.gradebook.hostile_texts import hostile_class, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 ENGLISH = (
     "Identifier,Full name,ID number,Email address,Status,Group,Grade,Maximum Grade,"
@@ -42,7 +42,7 @@ def rows(content: bytes, delimiter: str = ",") -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter))
 
 
-def one(number: int = 0, **fields: object) -> ClassResult:
+def class_of_one(number: int = 0, **fields: object) -> ClassResult:
     fields = {"score": 85, "final": 85, **fields}
     return classes.result([classes.entry(number, samples.failing_report(), **fields)])
 
@@ -78,7 +78,7 @@ def test_a_german_worksheet_with_semicolons_bom_and_decimal_comma() -> None:
         + f"{GERMAN}\nTeilnehmer/in1000;Ann;;Abgegeben;;100,00;Ja;-;-;\n"
         f"Teilnehmer/in1001;Bea;;Abgegeben;12,00;100,00;Ja;-;-;gut\n".encode()
     )
-    filled = fill_worksheet(worksheet, one(score=85.5, final=85.5))
+    filled = fill_worksheet(worksheet, class_of_one(score=85.5, final=85.5))
     after = rows(filled.content, ";")
     assert after[0]["Bewertung"] == "85,5"
     assert after[0]["Feedback als Kommentar"].startswith("<p>")
@@ -91,7 +91,7 @@ def test_other_column_orders_and_unknown_columns_are_accepted() -> None:
         b"Groupe,Remarques,Note,Note maximale,Commentaires de feedback,Identifiant\n"
         b"Groupe 1,x,,100.00,,Participant1000\nGroupe 1,y,,100.00,,Participant1002\n"
     )
-    after = rows(fill_worksheet(worksheet, one()).content)
+    after = rows(fill_worksheet(worksheet, class_of_one()).content)
     assert after[0]["Note"] == "85"
     assert after[0]["Remarques"] == "x"
     assert after[1]["Note"] == ""
@@ -100,13 +100,15 @@ def test_other_column_orders_and_unknown_columns_are_accepted() -> None:
 def test_an_unknown_language_works_if_the_columns_are_named() -> None:
     worksheet = b"Kennung,Pisteet,Palaute\nOsallistuja 1000,,\nOsallistuja 1001,,\n"
     with pytest.raises(UsageError, match="Pisteet") as caught:
-        fill_worksheet(worksheet, one())
+        fill_worksheet(worksheet, class_of_one())
     assert "--grade-column" in caught.value.remedy
-    filled = fill_worksheet(worksheet, one(), grade_column="pisteet", feedback_column="Palaute")
+    filled = fill_worksheet(
+        worksheet, class_of_one(), grade_column="pisteet", feedback_column="Palaute"
+    )
     assert rows(filled.content)[0]["Pisteet"] == "85"
     assert rows(filled.content)[0]["Palaute"].startswith("<p>")
     with pytest.raises(UsageError, match="no column 'Points'"):
-        fill_worksheet(worksheet, one(), grade_column="Points")
+        fill_worksheet(worksheet, class_of_one(), grade_column="Points")
 
 
 def test_a_student_outside_the_worksheet_is_named() -> None:
@@ -119,7 +121,7 @@ def test_a_student_outside_the_worksheet_is_named() -> None:
 
 
 def test_a_class_of_another_system_is_matched_by_email_not_by_number() -> None:
-    result = dataclasses.replace(one(1), system="folders")
+    result = dataclasses.replace(class_of_one(1), system="folders")
     swapped = (
         english(0, 1)
         .replace(b"Participant 1001", b"Participant 1")
@@ -130,7 +132,7 @@ def test_a_class_of_another_system_is_matched_by_email_not_by_number() -> None:
 
 
 def test_a_grade_above_the_maximum_is_refused_with_the_name() -> None:
-    result = one()
+    result = class_of_one()
     with pytest.raises(UsageError) as caught:
         fill_worksheet(english(0, 1, maximum="50.00"), result)
     assert result.entries[0].student.name in caught.value.message
@@ -150,7 +152,7 @@ def test_a_grade_above_the_maximum_is_refused_with_the_name() -> None:
 )
 def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, said: str) -> None:
     with pytest.raises(UsageError, match=said):
-        fill_worksheet(content, one())
+        fill_worksheet(content, class_of_one())
 
 
 @settings(max_examples=60, deadline=None)

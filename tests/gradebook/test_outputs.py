@@ -17,9 +17,9 @@ from grader.batch.systems.moodle.worksheet import read_worksheet
 from grader.publish import gradebooks as outputs
 from grader.publish.gradebooks import write_outputs
 from grader.publish.written import raise_failures
+from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.gradebook.test_canvas import POSSIBLE, export, student
 from tests.gradebook.test_moodle_worksheet import english
-from tests.gradebook.texts import hostile_class, texts
 
 
 def files(out: Path) -> set[Path]:

@@ -11,10 +11,10 @@ from grader.batch.model import ClassResult
 from grader.batch.points import single
 from grader.batch.systems.prairielearn import write as prairielearn
 from grader.report.model import Report
+from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import PRAIRIELEARN
-from tests.gradebook.texts import hostile_entry, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 
 def test_the_score_is_the_share_of_the_final_points(mixed: ClassResult) -> None:

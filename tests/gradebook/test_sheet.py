@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from grader.base.errors import UsageError
 from grader.batch.sheet import Sheet
-from tests.gradebook.texts import texts
+from tests.gradebook.hostile_texts import texts
 
 bits = st.lists(st.sampled_from(["a", "ß", '"', ",", ";", "\t", "\r", "\n", "\r\n", " "])).map(
     "".join

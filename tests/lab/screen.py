@@ -12,7 +12,7 @@ from pathlib import Path
 import pexpect
 
 from grader.base.cache import cache_root
-from tests import stage
+from tests import processes
 from tests.lab.kinds import Kind
 
 PROMPT = re.compile(r"student@lab-\w+:[^\n$]*\$ ")
@@ -51,11 +51,11 @@ class Lab:
         distro: str = "jazzy",
     ) -> None:
         words = command("--sandbox", kind.sandbox, "--workspace", workspace, "--distro", distro)
-        words = stage.as_user(words) if user else words
+        words = processes.as_user(words) if user else words
         self.screen = pexpect.spawn(
             words[0],
             words[1:],
-            cwd=str(stage.ROOT),
+            cwd=str(processes.ROOT),
             env=environment(**{"ROS_DOMAIN_ID": new_domain(), **kind.env, **(env or {})}),
             encoding="utf-8",
             timeout=WAIT,

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.lab.helpers import run
 from tests.lab.kinds import Kind
-from tests.lab.visits import run
 
 
 def test_nodes_stay_on_this_machine_by_default(kind: Kind, tmp_path: Path) -> None:

@@ -15,8 +15,8 @@ from lab.lesson import lesson_meant
 from lab.visit import Visit
 from lab.workspace import prepare
 from tests import weather
+from tests.lab.helpers import run
 from tests.lab.kinds import Kind
-from tests.lab.visits import run
 
 
 def of_course(kind: Kind, course: Path, **more: str) -> Kind:

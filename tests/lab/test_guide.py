@@ -14,11 +14,11 @@ import pytest
 from grader.course.assignment import load_assignment
 from lab.guide import progress as steps
 from lab.guide.lesson import read_lesson
-from tests import stage
-from tests.lab.walk import NODE
+from tests import processes
+from tests.lab.ten_steps import NODE
 from tests.lab.workspaces import PACKAGE, SETUP, after_step, put
 
-COURSE = stage.ROOT / "lab/course/hello_time"
+COURSE = processes.ROOT / "lab/course/hello_time"
 LESSON = read_lesson(COURSE / "lesson.md", distro="jazzy")
 INNER = f"src/{PACKAGE}/{PACKAGE}"
 FILE = f"{INNER}/my_first_node.py"
@@ -31,7 +31,7 @@ def found(workspace: Path, environment: Mapping[str, str]) -> tuple[str, ...]:
 
 def guide(*words: str, workspace: Path, env: dict[str, str]) -> tuple[int, str, str]:
     line = [sys.executable, "-m", "lab.guide", "--workspace", str(workspace), *words]
-    done = stage.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **env})
+    done = processes.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **env})
     return done.returncode, done.stdout, done.stderr
 
 
@@ -167,7 +167,7 @@ def test_the_commands_are_those_of_the_labs_distro(tmp_path: Path) -> None:
 
 def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
     """A command that is wrapped cannot be copied."""
-    env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(stage.ROOT)}
+    env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(processes.ROOT)}
     screen = pexpect.spawn(
         sys.executable,
         ["-m", "lab.guide", "3", "--workspace", str(tmp_path)],

@@ -12,15 +12,15 @@ import pytest
 from grader.base.i18n.translator import LANGUAGES
 from grader.ros.prefix import Ros
 from lab.guide.lesson import lesson_file, read_lesson
-from tests import stage
+from tests import processes
+from tests.lab.helpers import run
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment
-from tests.lab.visits import run
-from tests.lab.walk import NODE
+from tests.lab.ten_steps import NODE
 from tests.lab.workspaces import after_step, put
 
-COURSE = stage.ROOT / "lab/course/hello_time"
-WORDS = stage.ROOT / "lab/shell/words"
+COURSE = processes.ROOT / "lab/course/hello_time"
+WORDS = processes.ROOT / "lab/shell/words"
 STARTER = COURSE / "starter/src"
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
 BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
@@ -32,7 +32,7 @@ KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""
 
 def guide(*words: str, workspace: Path, env: dict[str, str]) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "lab.guide", "--workspace", str(workspace), *words]
-    return stage.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **KOREAN, **env})
+    return processes.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **KOREAN, **env})
 
 
 def code_of(text: str) -> list[str]:
@@ -184,7 +184,7 @@ def test_usage_errors_of_the_lab_are_in_korean(ros_jazzy: Ros, tmp_path: Path) -
     ):
         done = subprocess.run(
             command(*words, "--", "true"),
-            cwd=stage.ROOT,
+            cwd=processes.ROOT,
             env=environment(**KOREAN, DOCKER_HOST="unix:///no-daemon"),
             capture_output=True,
             text=True,

@@ -13,10 +13,10 @@ import pexpect
 import pytest
 
 from grader.sandbox.processes import adopt_orphans
-from tests import stage
+from tests import processes
+from tests.lab.helpers import SLOW, alive, run, start, until
 from tests.lab.kinds import Kind, containers
 from tests.lab.screen import PROMPT, Lab, command, environment
-from tests.lab.visits import SLOW, alive, run, start, until
 
 
 def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
@@ -36,12 +36,12 @@ def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["KILL", "TERM"])
 def test_a_lab_that_ends_while_opening_leaves_nothing(tmp_path: Path, name: str) -> None:
     adopt_orphans()
-    before = set(stage.descendants())
-    own = environment(**stage.ends_as_bwrap_starts(tmp_path, name))
+    before = set(processes.descendants())
+    own = environment(**processes.ends_as_bwrap_starts(tmp_path, name))
     words = command("--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "cat")
-    with subprocess.Popen(words, cwd=stage.ROOT, env=own, stdin=subprocess.PIPE) as opened:
+    with subprocess.Popen(words, cwd=processes.ROOT, env=own, stdin=subprocess.PIPE) as opened:
         assert opened.wait(SLOW) in (-signal.SIGKILL, 143)
-    stage.wait_until_gone(before)
+    processes.wait_until_gone(before)
 
 
 def test_the_container_is_removed_when_the_lab_ends(docker_kind: Kind, tmp_path: Path) -> None:
@@ -97,7 +97,7 @@ def test_the_caller_gets_the_terminal_back(kind: Kind, tmp_path: Path) -> None:
     screen = pexpect.spawn(
         "bash",
         ["-c", script],
-        cwd=str(stage.ROOT),
+        cwd=str(processes.ROOT),
         env=environment(**kind.env),
         encoding="utf-8",
         timeout=SLOW,

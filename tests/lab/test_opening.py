@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from grader.ros.prefix import Ros
-from tests import stage
-from tests.lab import walk
+from tests import processes
+from tests.lab import ten_steps
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment
 from tests.lab.workspaces import open_to_all
@@ -27,8 +27,8 @@ def lab(
     """Run the lab without a terminal."""
     line = command(*words)
     return subprocess.run(
-        stage.as_user(line) if user else line,
-        cwd=stage.ROOT,
+        processes.as_user(line) if user else line,
+        cwd=processes.ROOT,
         env=environment(**(env or {})),
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -40,7 +40,7 @@ def lab(
 
 def test_help_is_quick_to_load_and_names_the_options() -> None:
     code = "import sys, lab.cli; lab.cli.main(['--help']); sys.exit('pydantic' in sys.modules)"
-    done = stage.run([sys.executable, "-c", code])
+    done = processes.run([sys.executable, "-c", code])
     assert done.returncode == 0
     for option in ("--distro", "--workspace", "--sandbox"):
         assert option in done.stdout
@@ -113,7 +113,7 @@ def test_a_daemon_on_another_machine_is_refused() -> None:
         "client.api.base_url = 'https://10.0.0.1:2376'\n"
         "c._must_be_here(client)\n"
     )
-    done = stage.run([sys.executable, "-c", code])
+    done = processes.run([sys.executable, "-c", code])
     assert "is not on this machine (https://10.0.0.1:2376)" in done.stderr
 
 
@@ -161,7 +161,7 @@ def test_under_sudo_the_files_belong_to_the_caller(kind: Kind) -> None:
             "src/made",
         ]
         assert lab(*words, env={**who, **kind.env}).returncode == 0
-        assert walk.owners(folder / "deep") == {4321}
+        assert ten_steps.owners(folder / "deep") == {4321}
 
 
 @pytest.mark.full  # needs root, which `make test` does not
@@ -172,7 +172,7 @@ def test_a_workspace_owned_by_root_is_refused_and_not_changed(
     done = lab("--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "true")
     assert done.returncode == 2
     assert "chown" in done.stderr
-    assert walk.owners(tmp_path / "ws") == {0}
+    assert ten_steps.owners(tmp_path / "ws") == {0}
 
 
 def test_a_workspace_that_its_student_cannot_write_is_refused(ros_jazzy: Ros) -> None:

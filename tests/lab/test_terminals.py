@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pexpect
 
-from tests import stage
+from tests import processes
+from tests.lab.helpers import SLOW, has_the_terminal, start, until
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment, new_domain
-from tests.lab.visits import SLOW, has_the_terminal, start, until
 
 NODE = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('talker'))"
 SEEN = "timeout 60 bash -c 'until ros2 node list | grep -x /talker; do :; done'"
@@ -111,7 +111,7 @@ def test_ctrl_c_reaches_a_command_run_on_the_terminal(kind: Kind, tmp_path: Path
     screen = pexpect.spawn(
         words[0],
         [*words[1:], "bash", "-c", script],
-        cwd=str(stage.ROOT),
+        cwd=str(processes.ROOT),
         env=environment(**kind.env),
         encoding="utf-8",
         timeout=SLOW,

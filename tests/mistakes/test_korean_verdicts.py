@@ -55,7 +55,7 @@ def mark(path: Path, lang: str, heard: list[events.Event]) -> Report:
     return grade(order, heard.append)
 
 
-def prose(text: str, report: Report) -> list[str]:
+def english_prose(text: str, report: Report) -> list[str]:
     """Return the English prose in a text, ignoring program output and source code."""
     params = [p for check in report.checks for m in check.mistakes for p in m.params.values()]
     printed = sorted((p for p in params if isinstance(p, str) and p), key=len, reverse=True)
@@ -65,7 +65,7 @@ def prose(text: str, report: Report) -> list[str]:
     return PROSE.findall(text)
 
 
-def said(report: Report) -> list[str]:
+def texts_of(report: Report) -> list[str]:
     found = [report.message, *report.submission.notes]
     for check in report.checks:
         found += [check.title, check.expected, check.actual, check.rationale, check.fix]
@@ -84,8 +84,8 @@ def test_a_korean_verdict_is_the_same_verdict_in_korean_only(
     assert korean.score == package.expect_score
     failed = {check.id: check.mistakes[0].id for check in korean.checks if check.status == "failed"}
     assert failed == dict(package.expect_failed)
-    for text in said(korean):
-        assert prose(text, korean) == [], text
+    for text in texts_of(korean):
+        assert english_prose(text, korean) == [], text
     for check in korean.checks:
         assert re.search("[가-힣]", check.title)
         if check.status == "failed":

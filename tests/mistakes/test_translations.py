@@ -17,7 +17,7 @@ from grader.base.errors import UsageError
 from grader.base.i18n.translator import LANGUAGES
 from grader.cli import update_translations as update
 from grader.cli.localized import CLICK, CLICK_COUNTED
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
 # texts to be typed or written literally, and texts of placeholders only

@@ -132,7 +132,7 @@ def failing_report(**fields: Any) -> Report:
     return report(misspelt_module(), starts, *skipped, advice, **{"evidence": evidence, **fields})
 
 
-def of(path: str | Path, *, distro: str = "jazzy", **fields: Any) -> Report:
+def report_at(path: str | Path, *, distro: str = "jazzy", **fields: Any) -> Report:
     """Return a report of the submission at `path` in which all checks pass."""
     clean = report()
     return report(

@@ -17,7 +17,7 @@ import pytest
 
 from grader.report.files import report_json, write_matrix, write_report
 from grader.report.model import Report
-from tests.report.samples import check, failing_report, of, report
+from tests.report.samples import check, failing_report, report, report_at
 
 
 def suffix(path: str | Path) -> str:
@@ -82,9 +82,9 @@ def test_a_students_folder_that_was_open_is_made_private(tmp_path: Path) -> None
 
 def test_the_same_submission_replaces_its_report_and_keeps_other_distros(tmp_path: Path) -> None:
     path = tmp_path / "submission"
-    jazzy = write_report(of(path), tmp_path / "out", "anna")
-    kilted = write_report(of(path, distro="kilted"), tmp_path / "out", "anna")
-    again = write_report(of(path, message="again"), tmp_path / "out", "anna")
+    jazzy = write_report(report_at(path), tmp_path / "out", "anna")
+    kilted = write_report(report_at(path, distro="kilted"), tmp_path / "out", "anna")
+    again = write_report(report_at(path, message="again"), tmp_path / "out", "anna")
     assert again == jazzy
     assert kilted.parent.parent == jazzy.parent.parent
     assert json.loads(jazzy.read_text())["message"] == "again"
@@ -93,24 +93,24 @@ def test_the_same_submission_replaces_its_report_and_keeps_other_distros(tmp_pat
 def test_two_submissions_with_the_same_name_have_two_folders(tmp_path: Path) -> None:
     first, second = tmp_path / "a" / "anna", tmp_path / "b" / "anna"
     out = tmp_path / "out"
-    one = write_report(of(first), out, "anna")
-    two = write_report(of(second), out, "anna")
-    other_distro = write_report(of(second, distro="kilted"), out, "anna")
+    one = write_report(report_at(first), out, "anna")
+    two = write_report(report_at(second), out, "anna")
+    other_distro = write_report(report_at(second, distro="kilted"), out, "anna")
     assert one.parent.parent.name == "anna"
     assert two.parent.parent.name == f"anna-{suffix(second)}"
     assert other_distro.parent.parent == two.parent.parent
     assert json.loads(one.read_text())["submission"]["path"] == str(first)
     # each finds its own folder again, even if the first one is removed
-    assert write_report(of(first), out, "anna") == one
+    assert write_report(report_at(first), out, "anna") == one
     shutil.rmtree(one.parent.parent)
-    assert write_report(of(second), out, "anna") == two
+    assert write_report(report_at(second), out, "anna") == two
 
 
 def test_a_submission_behind_a_link_is_the_same_submission(tmp_path: Path) -> None:
     (tmp_path / "real").mkdir()
     (tmp_path / "link").symlink_to("real")
-    one = write_report(of(tmp_path / "real"), tmp_path / "out", "anna")
-    assert write_report(of(tmp_path / "link"), tmp_path / "out", "anna") == one
+    one = write_report(report_at(tmp_path / "real"), tmp_path / "out", "anna")
+    assert write_report(report_at(tmp_path / "link"), tmp_path / "out", "anna") == one
 
 
 def test_concurrent_submissions_with_the_same_name_have_a_folder_each(tmp_path: Path) -> None:
@@ -119,7 +119,7 @@ def test_concurrent_submissions_with_the_same_name_have_a_folder_each(tmp_path: 
 
     def write(path: Path) -> None:
         for _ in range(3):
-            written[path] = write_report(of(path), tmp_path / "out", "anna")
+            written[path] = write_report(report_at(path), tmp_path / "out", "anna")
 
     threads = [threading.Thread(target=write, args=[path]) for path in paths]
     for thread in threads:
@@ -136,7 +136,7 @@ def test_a_folder_with_an_unreadable_report_is_not_touched(tmp_path: Path, conte
     damaged = tmp_path / "anna" / "humble" / "report.json"
     damaged.parent.mkdir(parents=True)
     damaged.write_text(content)
-    written = write_report(of("/s/anna"), tmp_path, "anna")
+    written = write_report(report_at("/s/anna"), tmp_path, "anna")
     assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"
     assert damaged.read_text() == content
 
@@ -144,15 +144,15 @@ def test_a_folder_with_an_unreadable_report_is_not_touched(tmp_path: Path, conte
 def test_reports_are_not_put_into_the_submission_itself(tmp_path: Path) -> None:
     submission = tmp_path / "anna"
     submission.mkdir()
-    written = write_report(of(submission), tmp_path, "anna")
+    written = write_report(report_at(submission), tmp_path, "anna")
     assert written.parent.parent.name == f"anna-{suffix(submission)}"
     assert list(submission.iterdir()) == []
 
 
 def test_a_long_name_leaves_space_for_the_digits(tmp_path: Path) -> None:
     name = "ü" * 127  # 254 bytes of the 255 that a name may have
-    write_report(of("/s/1"), tmp_path, name)
-    second = write_report(of("/s/2"), tmp_path, name)
+    write_report(report_at("/s/1"), tmp_path, name)
+    second = write_report(report_at("/s/2"), tmp_path, name)
     assert second.parent.parent.name.endswith(f"-{suffix('/s/2')}")
 
 
@@ -161,14 +161,14 @@ def test_an_invalid_file_name_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="file name"):
         write_report(report(), tmp_path / "out", name)
     with pytest.raises(ValueError, match="file name"):
-        write_report(of("/s", distro=name), tmp_path / "out", "anna")
+        write_report(report_at("/s", distro=name), tmp_path / "out", "anna")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_the_matrix_is_beside_the_reports_of_its_submission(tmp_path: Path) -> None:
-    write_report(of("/s/1/anna"), tmp_path, "anna")
+    write_report(report_at("/s/1/anna"), tmp_path, "anna")
     broken = check("run.interrupt", "failed", mistakes=[{"id": "node.ignores_sigint"}])
-    reports = [of("/s/2/anna", distro="humble"), of("/s/2/anna", distro="jazzy")]
+    reports = [report_at("/s/2/anna", distro="humble"), report_at("/s/2/anna", distro="jazzy")]
     reports[1] = reports[1].model_copy(
         update={"checks": [broken if c.id == broken.id else c for c in reports[1].checks]}
     )
@@ -187,7 +187,11 @@ def test_the_matrix_is_beside_the_reports_of_its_submission(tmp_path: Path) -> N
 
 
 def test_only_reports_that_belong_together_make_a_matrix(tmp_path: Path) -> None:
-    for wrong in ([], [of("/a"), of("/b", distro="kilted")], [of("/a"), of("/a")]):
+    for wrong in (
+        [],
+        [report_at("/a"), report_at("/b", distro="kilted")],
+        [report_at("/a"), report_at("/a")],
+    ):
         with pytest.raises(ValueError, match="a matrix"):
             write_matrix(wrong, tmp_path / "out", "anna")
     assert not (tmp_path / "out").exists()
@@ -197,7 +201,7 @@ def test_the_file_is_json_without_control_characters_whatever_a_student_printed(
     tmp_path: Path,
 ) -> None:
     text = "\x1b[2J\x00\u202e\u2028 🤖 " + "x" * 100_000
-    written = write_report(of("/s", evidence={"build_log": text, "transcript": text}),
+    written = write_report(report_at("/s", evidence={"build_log": text, "transcript": text}),
                            tmp_path, "anna")  # fmt: skip
     raw = written.read_text(encoding="utf-8")
     assert json.loads(raw)["evidence"]["transcript"] == text

@@ -19,7 +19,7 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.report.files import report_json, write_matrix, write_report
 from grader.report.model import Report
-from tests.report.samples import of, report
+from tests.report.samples import report, report_at
 
 KILLS = 60
 PADDING = 300_000  # characters, so that a write takes more than one block
@@ -46,7 +46,7 @@ def test_a_planted_link_for_the_students_folder_is_not_followed(tmp_path: Path) 
     out = tmp_path / "out"
     out.mkdir()
     (out / "anna").symlink_to(tmp_path / "elsewhere")
-    written = write_report(of("/s/anna"), out, "anna")
+    written = write_report(report_at("/s/anna"), out, "anna")
     assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
@@ -56,7 +56,7 @@ def test_a_planted_link_for_the_distros_folder_is_reported(tmp_path: Path) -> No
     (tmp_path / "out" / "anna").mkdir(parents=True)
     (tmp_path / "out" / "anna" / "jazzy").symlink_to(tmp_path / "elsewhere")
     with pytest.raises(SurroundingsError, match="link or file is in the place of a folder"):
-        write_report(of("/s/anna"), tmp_path / "out", "anna")
+        write_report(report_at("/s/anna"), tmp_path / "out", "anna")
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
 
@@ -66,13 +66,13 @@ def test_a_planted_report_is_neither_followed_nor_waited_for(tmp_path: Path, tar
     place = tmp_path / "out" / "anna" / "jazzy"
     place.mkdir(parents=True)
     if target == "file":
-        victim.write_text(report_json(of("/s/anna")))
+        victim.write_text(report_json(report_at("/s/anna")))
     if target == "fifo":
         os.mkfifo(place / "report.json")
     else:
         (place / "report.json").symlink_to(victim)
     before = victim.read_text() if target == "file" else None
-    written = write_report(of("/s/anna", message="new"), tmp_path / "out", "anna")
+    written = write_report(report_at("/s/anna", message="new"), tmp_path / "out", "anna")
     assert written.is_file()
     assert not written.is_symlink()
     assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"  # owner unknown
@@ -83,9 +83,9 @@ def test_a_planted_report_is_neither_followed_nor_waited_for(tmp_path: Path, tar
 def test_a_link_in_place_of_the_matrix_is_replaced_and_not_followed(tmp_path: Path) -> None:
     victim = tmp_path / "victim"
     victim.write_text("mine")
-    write_report(of("/s/anna"), tmp_path / "out", "anna")
+    write_report(report_at("/s/anna"), tmp_path / "out", "anna")
     (tmp_path / "out" / "anna" / "matrix.json").symlink_to(victim)
-    written = write_matrix([of("/s/anna")], tmp_path / "out", "anna")
+    written = write_matrix([report_at("/s/anna")], tmp_path / "out", "anna")
     assert not written.is_symlink()
     assert victim.read_text() == "mine"
 

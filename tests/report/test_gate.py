@@ -12,8 +12,8 @@ import pytest
 
 from grader.base.gate import Gate, behind, bytes_of, gate, gated_output
 from grader.base.plain_text import LONGEST_LINE, MOST_LINES, bounded
-from tests.report.stage import ROOT, environment, on_a_terminal
-from tests.report.test_hostile import HOSTILE, unfit
+from tests.report.pseudo_terminal import ROOT, environment, on_a_terminal
+from tests.report.test_hostile import HOSTILE, forbidden_in
 
 WAYS = {
     "print": 0,
@@ -33,7 +33,7 @@ WAYS = {
 def run(*ways: str, **more: str) -> str:
     """Return the output of the given ways, both streams together."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.report.misbehaving", *ways],
+        [sys.executable, "-m", "tests.report.print_hostile", *ways],
         cwd=ROOT,
         env=environment(**more),
         stdout=subprocess.PIPE,
@@ -58,16 +58,16 @@ def test_a_pipe_gets_no_control_bytes_however_text_is_printed() -> None:
     assert "\x1b" not in said
     for way, text in by_way(said).items():
         assert "Score 100 / 100" in text, way
-        assert unfit(text) == set(), way
+        assert forbidden_in(text) == set(), way
 
 
 def test_a_terminal_gets_only_our_own_styles() -> None:
-    terminal = on_a_terminal("misbehaving", *WAYS)
+    terminal = on_a_terminal("print_hostile", *WAYS)
     terminal.expect(pexpect.EOF)
     ours = {"console": "\x1b[1m", "page": "\x1b[1m"}  # bold, but not the green from the text
     for way, text in by_way(str(terminal.before).replace("\r\n", "\n")).items():
         assert "Score 100 / 100" in text, way
-        assert unfit(text) == set(), way
+        assert forbidden_in(text) == set(), way
         assert ("\x1b" in text) == (way in ours), way
         assert ours.get(way, "") in text, way
         assert "\x1b[32m" not in text, way
@@ -76,7 +76,7 @@ def test_a_terminal_gets_only_our_own_styles() -> None:
 def test_an_encoding_that_lacks_the_characters_does_not_bypass_the_gate() -> None:
     said = run("echo", PYTHONIOENCODING="ascii", LANG="C")
     assert "== echo 0" in said
-    assert unfit(said) == set()
+    assert forbidden_in(said) == set()
 
 
 def test_a_grader_fault_has_a_traceback_and_its_own_status() -> None:
@@ -97,7 +97,7 @@ def test_a_very_long_error_is_cut() -> None:
 def test_nothing_passes_but_visible_text(name: str) -> None:
     out = io.StringIO()
     print("before", HOSTILE[name], "after", file=gate(out))
-    assert unfit(out.getvalue()) == set()
+    assert forbidden_in(out.getvalue()) == set()
     assert out.getvalue().startswith("before ")
     assert out.getvalue().endswith(" after\n")
 

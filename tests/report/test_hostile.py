@@ -34,7 +34,7 @@ HOSTILE = {
 }
 
 
-def everywhere(text: str) -> Report:
+def report_full_of(text: str) -> Report:
     """Return a report with the text in every field that anybody can fill."""
     fields: dict[str, Any] = {
         "title": text,
@@ -93,7 +93,7 @@ def pages(marked: Report, width: int = 80) -> list[str]:
     ] + [render_matrix([marked], width=width, styled=styled) for styled in (False, True)]
 
 
-def unfit(page: str) -> set[str]:
+def forbidden_in(page: str) -> set[str]:
     """Return the characters of a page that are neither printable nor part of our styles."""
     text = OUR_STYLES.sub("", page)
     wrong = ("Cc", "Cf", "Cs", "Zl", "Zp")
@@ -103,24 +103,24 @@ def unfit(page: str) -> set[str]:
 @pytest.mark.parametrize("name", HOSTILE)
 @pytest.mark.parametrize("width", [40, 80])
 def test_no_control_character_reaches_the_terminal(name: str, width: int) -> None:
-    for page in pages(everywhere(HOSTILE[name]), width):
-        assert unfit(page) == set()
+    for page in pages(report_full_of(HOSTILE[name]), width):
+        assert forbidden_in(page) == set()
 
 
 @given(text=strategies.text(max_size=80))
 @settings(max_examples=40, deadline=None)
 def test_no_text_brings_a_control_character_to_the_terminal(text: str) -> None:
-    marked = everywhere(text.encode("utf-8", "ignore").decode())
-    assert unfit(render_report(marked, verbose=True, styled=True)) == set()
-    assert unfit(render_matrix([marked], width=40)) == set()
+    marked = report_full_of(text.encode("utf-8", "ignore").decode())
+    assert forbidden_in(render_report(marked, verbose=True, styled=True)) == set()
+    assert forbidden_in(render_matrix([marked], width=40)) == set()
 
 
 def test_a_plain_page_has_no_escape_at_all() -> None:
-    assert "\x1b" not in render_report(everywhere("\x1b[31mred"), verbose=True)
+    assert "\x1b" not in render_report(report_full_of("\x1b[31mred"), verbose=True)
 
 
 def test_our_own_styles_are_only_colours_and_weights() -> None:
-    page = render_report(everywhere("x"), styled=True)
+    page = render_report(report_full_of("x"), styled=True)
     assert "\x1b[" in page
     assert "\x1b" not in OUR_STYLES.sub("", page)
 
@@ -135,13 +135,13 @@ def test_invisible_characters_are_spelled_out() -> None:
     "markup", ["[bold red]x[/]", "[/]", "[link=http://x]y[/link]", ":smile:", "\\[x]", "[[", "[@"]
 )
 def test_markup_and_emoji_codes_are_plain_text(markup: str) -> None:
-    for page in pages(everywhere(markup)):
+    for page in pages(report_full_of(markup)):
         assert OUR_STYLES.sub("", page).count(markup) >= 5
 
 
 def test_a_program_cannot_write_a_line_that_looks_like_ours() -> None:
     forged = "\n\nScore 100 / 100  (every check passed)\n  report    /tmp/x\nFAIL x: y\n"
-    page = render_report(everywhere(forged), verbose=True)
+    page = render_report(report_full_of(forged), verbose=True)
     assert [line for line in page.splitlines() if line.startswith("Score")] == [
         line for line in page.splitlines() if line.startswith("Score") and "inconclusive" in line
     ]
@@ -152,7 +152,7 @@ def test_a_program_cannot_write_a_line_that_looks_like_ours() -> None:
 def test_a_megabyte_is_cut_and_takes_little_time() -> None:
     for text in ("x" * 1_000_000, "x\n" * 500_000, "\x1b" * 1_000_000, "Traceback\n" * 100_000):
         begin = time.process_time()
-        page = render_report(everywhere(text), verbose=False)
+        page = render_report(report_full_of(text), verbose=False)
         assert time.process_time() - begin < 5
         assert len(page) < 200_000
         assert "left out" in page

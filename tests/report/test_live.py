@@ -14,17 +14,17 @@ import pytest
 
 from grader.report.events import Event, Note, StageStarted, to_all
 from grader.report.terminal import LiveProgress
-from tests import stage
-from tests.report.stage import ROOT, SECONDS, STYLES, environment, on_a_terminal, piped
+from tests import processes
+from tests.report.pseudo_terminal import ROOT, SECONDS, STYLES, environment, on_a_terminal, piped
 
 CURSOR_HIDDEN, CURSOR_SHOWN = "\x1b[?25l", "\x1b[?25h"
 STAGES = "building with colcon ...\nrunning the node ...\n"
 NOTE = "a second attempt, the machine is busy [red]\\x1b]0;title\\x07\n"
-EVENTS = 8  # of tests.report.working
+EVENTS = 8  # of tests.report.emit_events
 
 
 def test_the_live_line_shows_stage_tick_check_and_time_and_disappears() -> None:
-    terminal = on_a_terminal("working", columns=120)
+    terminal = on_a_terminal("emit_events", columns=120)
     terminal.expect("Starting")
     terminal.sendline()
     terminal.expect("building with colcon.*?  [0-9] s")
@@ -41,7 +41,7 @@ def test_the_live_line_shows_stage_tick_check_and_time_and_disappears() -> None:
 
 
 def test_notes_stay_above_the_live_line() -> None:
-    terminal = on_a_terminal("working", columns=120)
+    terminal = on_a_terminal("emit_events", columns=120)
     for _ in range(EVENTS + 1):
         terminal.sendline()
     terminal.expect(r"a second attempt, the machine is busy \[red\][^\r]*\r\n")
@@ -49,7 +49,7 @@ def test_notes_stay_above_the_live_line() -> None:
 
 
 def test_a_students_log_text_cannot_control_the_live_line() -> None:
-    terminal = on_a_terminal("working", columns=120)
+    terminal = on_a_terminal("emit_events", columns=120)
     for _ in range(EVENTS + 1):
         terminal.sendline()
     terminal.expect(pexpect.EOF)
@@ -61,7 +61,7 @@ def test_a_students_log_text_cannot_control_the_live_line() -> None:
 
 
 def test_the_live_line_never_takes_two_lines_of_a_narrow_terminal() -> None:
-    terminal = on_a_terminal("working", columns=40)
+    terminal = on_a_terminal("emit_events", columns=40)
     for _ in range(EVENTS + 1):
         terminal.sendline()
     terminal.expect(pexpect.EOF)
@@ -72,7 +72,7 @@ def test_the_live_line_never_takes_two_lines_of_a_narrow_terminal() -> None:
 
 
 def test_hidden_checks_are_not_named_while_they_run() -> None:
-    terminal = on_a_terminal("working", "hidden", columns=120)
+    terminal = on_a_terminal("emit_events", "hidden", columns=120)
     for _ in range(4):
         terminal.sendline()
     terminal.expect("a hidden check")
@@ -83,7 +83,7 @@ def test_hidden_checks_are_not_named_while_they_run() -> None:
 
 
 def test_with_no_color_the_live_line_has_no_colours() -> None:
-    terminal = on_a_terminal("working", NO_COLOR="1")
+    terminal = on_a_terminal("emit_events", NO_COLOR="1")
     terminal.expect("Starting.*?\x1b\\[2K.*?Starting")
     assert not re.search(r"\x1b\[[0-9;]*m", str(terminal.after))
     terminal.close(force=True)
@@ -91,7 +91,7 @@ def test_with_no_color_the_live_line_has_no_colours() -> None:
 
 @pytest.mark.parametrize("how", ["raises", "is interrupted", "is killed"])
 def test_the_cursor_is_visible_however_it_ends(how: str) -> None:
-    terminal = on_a_terminal("working", *(["fail"] if how == "raises" else []))
+    terminal = on_a_terminal("emit_events", *(["fail"] if how == "raises" else []))
     output = ""
     terminal.expect("Starting")
     output += str(terminal.before) + str(terminal.after)
@@ -99,7 +99,7 @@ def test_the_cursor_is_visible_however_it_ends(how: str) -> None:
         for _ in range(4):
             terminal.sendline()
     elif how == "is interrupted":
-        stage.wait_until_asleep(terminal.pid)
+        processes.wait_until_asleep(terminal.pid)
         terminal.sendintr()
     else:
         terminal.kill(signal.SIGKILL)
@@ -109,13 +109,13 @@ def test_the_cursor_is_visible_however_it_ends(how: str) -> None:
 
 
 def test_a_pipe_gets_one_plain_line_for_each_stage_and_note() -> None:
-    done = piped("working", lines=EVENTS + 1)
+    done = piped("emit_events", lines=EVENTS + 1)
     assert done.stderr == STAGES + NOTE
     assert done.stdout == "the end\n"
 
 
 def test_a_dumb_terminal_gets_plain_lines() -> None:
-    terminal = on_a_terminal("working", TERM="dumb")
+    terminal = on_a_terminal("emit_events", TERM="dumb")
     for _ in range(EVENTS + 1):
         terminal.sendline()
     terminal.expect(pexpect.EOF)
@@ -123,7 +123,7 @@ def test_a_dumb_terminal_gets_plain_lines() -> None:
 
 
 def test_stdout_in_a_file_has_nothing_of_the_live_line(tmp_path: Path) -> None:
-    command = f"{sys.executable} -m tests.report.working print > {tmp_path}/out; echo written"
+    command = f"{sys.executable} -m tests.report.emit_events print > {tmp_path}/out; echo written"
     terminal = pexpect.spawn(
         "/bin/sh",
         ["-c", command],

@@ -12,13 +12,13 @@ import pytest
 from rich.cells import cell_len
 
 from grader.report.terminal import print_report, render_report
+from tests.report.pseudo_terminal import ROOT, STYLES, on_a_terminal, piped
 from tests.report.samples import COMMAND, failing_report
-from tests.report.stage import ROOT, STYLES, on_a_terminal, piped
 
 
 def shown(columns: int = 80, env: dict[str, str] | None = None) -> str:
-    """Return all that `showing` writes on a terminal."""
-    terminal = on_a_terminal("showing", columns=columns, **(env or {}))
+    """Return all that `print_pages` writes on a terminal."""
+    terminal = on_a_terminal("print_pages", columns=columns, **(env or {}))
     terminal.expect(pexpect.EOF)
     terminal.close()
     assert terminal.exitstatus == 0
@@ -31,11 +31,11 @@ def test_a_terminal_gets_colours_and_the_same_words() -> None:
     assert "\x1b[32mpass" in page
     assert "\x1b" not in STYLES.sub("", page)
     plain = [line.rstrip() for line in STYLES.sub("", page).splitlines()]
-    assert plain == piped("showing").stdout.splitlines()
+    assert plain == piped("print_pages").stdout.splitlines()
 
 
 def test_a_pipe_gets_no_colours() -> None:
-    output = piped("showing")
+    output = piped("print_pages")
     assert output.stdout.isascii()
     assert "\x1b" not in output.stdout
     assert output.stderr == ""
@@ -65,9 +65,9 @@ def test_the_page_is_as_wide_as_the_terminal(columns: int) -> None:
 
 
 def test_columns_sets_the_width_in_a_pipe() -> None:
-    narrow = piped("showing", COLUMNS="40").stdout
+    narrow = piped("print_pages", COLUMNS="40").stdout
     assert STYLES.sub("", shown(40)).split() == narrow.split()
-    assert piped("showing", COLUMNS="wide").stdout == piped("showing").stdout
+    assert piped("print_pages", COLUMNS="wide").stdout == piped("print_pages").stdout
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])

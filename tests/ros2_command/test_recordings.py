@@ -16,7 +16,7 @@ import pexpect
 import pytest
 
 from grader.sandbox.processes import children_of
-from tests.stage import wait_until_asleep
+from tests.processes import wait_until_asleep
 
 from .surroundings import Surroundings, files, running, without_places
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from tests import stage
+from tests import processes
 from tests.test_another_course import write_assignment, write_solution
 
 MUTANTS = """\
@@ -45,7 +45,7 @@ def keys(tmp_path: Path) -> Path:
 
 
 def validate(*words: str | Path) -> tuple[int, str, str]:
-    done = stage.run(stage.grader("validate", *words))
+    done = processes.run(processes.grader("validate", *words))
     assert "Traceback" not in done.stderr
     return done.returncode, done.stdout, done.stderr
 

@@ -12,7 +12,7 @@ from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code
 from grader.validate.tree import digest, read_tree
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
 SOLUTION = read_tree(KEYS / "hello_time/solution/my_robot_controller")

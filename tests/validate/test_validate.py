@@ -13,7 +13,7 @@ import pytest
 
 from grader.course.find import KEYS
 from grader.sandbox.processes import adopt_orphans
-from tests import stage
+from tests import processes
 
 HELLO = KEYS / "hello_time"
 QUICK = 20.0  # seconds of one core for the static checks of all mutants
@@ -28,7 +28,7 @@ mutants:
 
 
 def validate(*words: str | Path, timeout: float = 120) -> tuple[int, str, str]:
-    done = stage.run(stage.grader("validate", *words), timeout=timeout)
+    done = processes.run(processes.grader("validate", *words), timeout=timeout)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -149,16 +149,16 @@ def test_invalid_arguments_are_usage_errors(words: tuple[str, ...]) -> None:
 
 def test_ctrl_c_ends_validate_and_all_its_processes() -> None:
     adopt_orphans()
-    before = set(stage.descendants())
-    command = stage.grader("validate", "hello_time", "--only", "text_*")
-    process = subprocess.Popen(command, cwd=stage.ROOT, stderr=subprocess.PIPE, text=True)
+    before = set(processes.descendants())
+    command = processes.grader("validate", "hello_time", "--only", "text_*")
+    process = subprocess.Popen(command, cwd=processes.ROOT, stderr=subprocess.PIPE, text=True)
     assert process.stderr is not None
     assert "to be run" in process.stderr.readline()
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "Traceback" not in errors
-    assert set(stage.descendants()) <= before
+    assert set(processes.descendants()) <= before
 
 
 @pytest.mark.full

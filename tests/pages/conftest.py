@@ -8,7 +8,7 @@ import pytest
 
 from grader.publish.pages import write_site
 from grader.report.model import Report
-from tests.site import axe, classes
+from tests.pages import axe, classes
 
 
 @pytest.fixture(scope="session")

@@ -10,10 +10,10 @@ from playwright.sync_api import expect
 from grader.batch.model import Student
 from grader.publish.pages import write_site
 from grader.report.model import Evidence, Report
+from tests.pages import classes
+from tests.pages.axe import violations
+from tests.pages.browser import Open
 from tests.report.samples import failing_report
-from tests.site import classes
-from tests.site.axe import violations
-from tests.site.browser import Open
 
 pytestmark = pytest.mark.full  # `make test` has no Chromium
 

@@ -17,7 +17,7 @@ from grader.base.cache import make_once
 from grader.report.files import report_json
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.site import browser, classes
+from tests.pages import browser, classes
 
 
 @pytest.fixture(scope="session")

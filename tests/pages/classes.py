@@ -133,14 +133,14 @@ def _with(report: Report, changed: CheckResult) -> Report:
     return report.model_copy(update={"checks": checks})
 
 
-def poisoned(report: Report, text: str) -> Report:
+def with_every_text(report: Report, text: str) -> Report:
     """Return the report with `text` in place of every text that has no fixed values."""
-    return Report.model_validate(_poison(report.model_dump(by_alias=True), text))
+    return Report.model_validate(_replace_texts(report.model_dump(by_alias=True), text))
 
 
-def _poison(part: Any, text: str, name: str = "") -> Any:
+def _replace_texts(part: Any, text: str, name: str = "") -> Any:
     if isinstance(part, Mapping):
-        return {key: _poison(value, text, key) for key, value in part.items()}
+        return {key: _replace_texts(value, text, key) for key, value in part.items()}
     if isinstance(part, list):
-        return [_poison(value, text, name) for value in part]
+        return [_replace_texts(value, text, name) for value in part]
     return text if isinstance(part, str) and name not in FIXED else part

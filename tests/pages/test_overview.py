@@ -9,8 +9,8 @@ import pytest
 from grader.batch.model import Entry
 from grader.publish.pages import overview
 from grader.report.model import Mistake, Timing
+from tests.pages.classes import entry, result
 from tests.report.samples import check, report
-from tests.site.classes import entry, result
 
 TEXT = [Mistake(id="run.wrong_text")]
 

@@ -14,7 +14,7 @@ from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
 JOB = Job(ASSIGNMENT, "jazzy", "bubblewrap", Limits())

@@ -14,8 +14,8 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.publish.pages import write_site
 from grader.report.model import Report
+from tests.pages import classes
 from tests.report.samples import failing_report, report
-from tests.site import classes
 
 
 class Links(html.parser.HTMLParser):

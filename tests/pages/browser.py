@@ -37,7 +37,7 @@ def browser() -> Iterator[Browser]:
 
 
 @dataclass
-class Witness:
+class PageRecord:
     """Records what the open page did: requested addresses, console errors, windows."""
 
     page: Page
@@ -53,7 +53,7 @@ class Witness:
         return self.page
 
 
-Open = Callable[..., Witness]
+Open = Callable[..., PageRecord]
 
 
 @contextmanager
@@ -61,10 +61,10 @@ def opening(started: Browser) -> Iterator[Open]:
     """Yield a function that opens a page in a separate context (options as new_context)."""
     contexts = []
 
-    def new(**options: Any) -> Witness:
+    def new(**options: Any) -> PageRecord:
         context = started.new_context(**options)
         contexts.append(context)
-        witness = Witness(context.new_page())
+        witness = PageRecord(context.new_page())
         page = witness.page
         context.on("request", lambda request: witness.requests.append(request.url))
         page.on("console", lambda message: witness.complaints.append(message.text))

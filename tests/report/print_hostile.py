@@ -62,6 +62,6 @@ def command(way: str) -> None:
 
 if __name__ == "__main__":
     for word in sys.argv[1:]:
-        status = run(command, "misbehaving", [word])
+        status = run(command, "print_hostile", [word])
         sys.stderr.flush()
         print(f"\n== {word} {status}", flush=True)

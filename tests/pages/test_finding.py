@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.site.browser import Open
+from tests.pages.browser import Open
 
 pytestmark = pytest.mark.full  # `make test` has no Chromium
 

@@ -1,6 +1,6 @@
 """A program that emits the events of a verdict, one for each line on its standard input.
 
-`python -m tests.report.working [WORD…]`: `fail` raises in the middle, `hidden` runs a hidden
+`python -m tests.report.emit_events [WORD…]`: `fail` raises in the middle, `hidden` runs a hidden
 check, `print` prints while the live line is shown.
 """
 

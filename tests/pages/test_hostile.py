@@ -11,9 +11,9 @@ import pytest
 from grader.batch.model import ClassResult, Entry, Override, Student
 from grader.publish.pages import write_site
 from grader.publish.pages.names import page_names
+from tests.pages import classes
+from tests.pages.browser import Open
 from tests.report.samples import failing_report
-from tests.site import classes
-from tests.site.browser import Open
 
 pytestmark = pytest.mark.full  # `make test` has no Chromium
 
@@ -60,7 +60,7 @@ def hostile_class(texts: list[str]) -> ClassResult:
     entries = []
     for text in texts:
         # a report is read from JSON, which cannot contain a lone surrogate
-        bad = classes.poisoned(failing_report(), text.encode(errors="replace").decode())
+        bad = classes.with_every_text(failing_report(), text.encode(errors="replace").decode())
         student = Student(text, text, text, text, text, text)
         override = Override(text, text, 5, text, text)
         graded = Entry(student, "graded", bad, 50, final=50, notes=(text,), problem=text)

@@ -7,49 +7,51 @@ from datetime import datetime, timezone
 from grader.batch.model import Override
 from grader.batch.words import duration, instant
 from grader.publish.pages.student import student_view
+from tests.pages.classes import entry
 from tests.report.samples import check, failing_report, report
-from tests.site.classes import entry
 
 AT = datetime(2026, 11, 20, 22, 30, tzinfo=timezone.utc)
 
 
-def reckoning(**fields: object) -> str:
+def points_text(**fields: object) -> str:
     return "\n".join(student_view(entry(1, failing_report(), **fields), show_hidden=True).reckoning)
 
 
 def test_unchanged_points_are_attributed_to_the_checks() -> None:
-    assert reckoning() == "These are the points that the checks gave."
+    assert points_text() == "These are the points that the checks gave."
 
 
 def test_a_late_penalty_is_explained() -> None:
-    said = reckoning(penalty=5.0, late_seconds=7_800.0, final=55.0)
+    said = points_text(penalty=5.0, late_seconds=7_800.0, final=55.0)
     assert "Late by 2 h 10 min: 5 points taken." in said
     assert "55 of 100 go into the gradebook." in said
 
 
 def test_late_without_a_penalty_says_so() -> None:
-    assert "no points taken" in reckoning(late_seconds=60.0)
+    assert "no points taken" in points_text(late_seconds=60.0)
 
 
 def test_a_correction_shows_its_reason_author_and_the_earlier_points() -> None:
     override = Override("1001", "run.output", 10, "shown in the laboratory", by="M. C.", at=AT)
-    said = reckoning(overrides=(override,), score=70.0, final=70.0)
+    said = points_text(overrides=(override,), score=70.0, final=70.0)
     assert "run.output gives 10 instead of 0, because: shown in the laboratory" in said
     assert "M. C., 2026-11-20 22:30 UTC" in said
     assert "The score is then 70." in said
 
 
 def test_a_correction_of_the_total_is_labelled() -> None:
-    said = reckoning(overrides=(Override("1001", "", 80, "an oral exam"),), score=80.0, final=80.0)
+    said = points_text(
+        overrides=(Override("1001", "", 80, "an oral exam"),), score=80.0, final=80.0
+    )
     assert "the total gives 80, because: an oral exam" in said
 
 
 def test_the_attempt_that_counts_is_named() -> None:
-    assert "Attempt 2 of 3 is the one that counts." in reckoning(attempt=2, attempts=3)
+    assert "Attempt 2 of 3 is the one that counts." in points_text(attempt=2, attempts=3)
 
 
 def test_points_that_wait_for_the_instructor_are_shown_as_pending() -> None:
-    assert "Nothing goes into the gradebook yet." in reckoning(final=None)
+    assert "Nothing goes into the gradebook yet." in points_text(final=None)
 
 
 def test_undecided_points_are_shown_with_the_total() -> None:

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from lab.guide.lesson import read_lesson
-from tests import stage
+from tests import processes
 from tests.lab.screen import Lab
 
 PACKAGE = "~/ros2_ws/src/my_robot_controller"
@@ -46,7 +46,7 @@ if __name__ == '__main__':
 
 def commands(distro: str) -> dict[int, list[str]]:
     """Return the lesson's commands, by step."""
-    lesson = read_lesson(stage.ROOT / "lab/course/hello_time/lesson.md", distro=distro)
+    lesson = read_lesson(processes.ROOT / "lab/course/hello_time/lesson.md", distro=distro)
     return {
         step.number: [
             line

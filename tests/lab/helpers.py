@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from grader.sandbox.processes import stat_fields
-from tests import stage
+from tests import processes
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment
 
@@ -22,7 +22,7 @@ def run(
     """Run a command in the lab without a terminal."""
     return subprocess.run(
         command("--sandbox", kind.sandbox, "--workspace", workspace, *words),
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         env=environment(**kind.env),
         input=stdin,
         capture_output=True,
@@ -40,7 +40,7 @@ def start(lab: Lab, mark: str) -> None:
 
 def alive(mark: str) -> list[str]:
     """Return the running programs with this command line, in any lab."""
-    return [line for line in stage.alive(mark) if line.startswith(mark)]
+    return [line for line in processes.alive(mark) if line.startswith(mark)]
 
 
 def has_the_terminal(mark: str) -> bool:

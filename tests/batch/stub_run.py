@@ -18,8 +18,8 @@ from pathlib import Path
 
 from grader.batch.work import Answer, Task
 from grader.report.model import Report
+from tests.processes import ROOT
 from tests.report.samples import check, report
-from tests.stage import ROOT
 
 SCORE = re.compile(rb"# score: ([\d.]+)")
 COMMAND = """
@@ -62,7 +62,7 @@ class Run:
 
 def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
     """Run `grader grade-all`."""
-    stub = [sys.executable, "-m", "tests.batch.cheap"]
+    stub = [sys.executable, "-m", "tests.batch.stub_run"]
     command = [sys.executable, "-c", COMMAND, json.dumps(stub), "grade-all", path, "--out", out]
     done = subprocess.run(
         [str(word) for word in (*command, "--sandbox", "bubblewrap", "--quiet", *words)],
