@@ -50,7 +50,7 @@ OTHERWISE = {
 # A verdict takes seconds: `make test` has one of each kind, `test-all` has all.
 QUICK = ("setup_prints", "counter_not_set")
 # Only the student knows what these should be.
-NOT_MENDED = {
+NOT_FIXED = {
     *("import_unknown", "raises_at_import", "exception_in_init", "name_error_in_callback"),
     *("timer_in_callback", "three_then_exit", "text_of_another_course", "python_logging"),
     *("waits_for_input", "loop_without_node", "callback_is_another", "log_line_forgotten"),
@@ -97,7 +97,7 @@ def test_the_patch_contains_the_fix(name: str, tmp_path: Path) -> None:
     assert OTHERWISE[name] in patches(name, tmp_path)[0]
 
 
-@pytest.mark.parametrize("name", sorted(NOT_MENDED))
+@pytest.mark.parametrize("name", sorted(NOT_FIXED))
 def test_an_uncertain_mistake_has_no_patch(name: str, tmp_path: Path) -> None:
     assert set(patches(name, tmp_path)) == {""}
 

@@ -17,7 +17,7 @@ from tests.static_bench import ASSIGNMENT
 
 STATIC = ("package.", "source.", "entry_point.mapping")
 # Nothing shows what these should be, so no fix is offered.
-NOT_MENDED = {
+NOT_FIXED = {
     *("no_manifest", "manifest_empty", "manifest_not_utf8", "cmake_package", "setup_missing"),
     *("as_created", "node_not_written", "node_empty", "indentation", "tabs_and_spaces"),
     *("python_2_print", "not_utf8", "null_bytes", "word_document"),
@@ -34,7 +34,7 @@ def is_static(package: Package) -> bool:
 
 
 SHOWN_BY_FILES = [package for package in BROKEN if is_static(package)]
-MENDED = [package for package in SHOWN_BY_FILES if package.name not in NOT_MENDED]
+FIXED = [package for package in SHOWN_BY_FILES if package.name not in NOT_FIXED]
 
 
 def named(package: Package) -> str:
@@ -42,11 +42,11 @@ def named(package: Package) -> str:
 
 
 def test_most_static_mistakes_are_fixed() -> None:
-    assert {package.name for package in SHOWN_BY_FILES} >= NOT_MENDED
-    assert len(MENDED) >= 50
+    assert {package.name for package in SHOWN_BY_FILES} >= NOT_FIXED
+    assert len(FIXED) >= 50
 
 
-@pytest.mark.parametrize("package", MENDED, ids=named)
+@pytest.mark.parametrize("package", FIXED, ids=named)
 def test_every_static_check_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert not plan.left
@@ -57,7 +57,7 @@ def test_every_static_check_passes_after_the_fix(package: Package, tmp_path: Pat
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
-@pytest.mark.parametrize("package", MENDED, ids=named)
+@pytest.mark.parametrize("package", FIXED, ids=named)
 def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path: Path) -> None:
     root = write(package, tmp_path)
     plan = plan_of(root)
@@ -67,7 +67,7 @@ def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path:
     assert got[NODE].mode & 0o100, "git and a new patch set modes"
 
 
-@pytest.mark.parametrize("package", MENDED, ids=named)
+@pytest.mark.parametrize("package", FIXED, ids=named)
 def test_a_fixed_package_is_not_changed_again(package: Package, tmp_path: Path) -> None:
     root = write(package, tmp_path)
     fixed = with_tool(TOOLS[0], plan_of(root).patch, root)
@@ -76,7 +76,7 @@ def test_a_fixed_package_is_not_changed_again(package: Package, tmp_path: Path) 
     assert again.fixed == ()
 
 
-@pytest.mark.parametrize("package", MENDED, ids=named)
+@pytest.mark.parametrize("package", FIXED, ids=named)
 def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_path: Path) -> None:
     submission = taken(write(package, tmp_path))
     for check_id in package.expect_failed:
@@ -85,7 +85,7 @@ def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_pa
         assert patch.startswith("diff --git a/"), check_id
 
 
-@pytest.mark.parametrize("package", [p for p in SHOWN_BY_FILES if p.name in NOT_MENDED], ids=named)
+@pytest.mark.parametrize("package", [p for p in SHOWN_BY_FILES if p.name in NOT_FIXED], ids=named)
 def test_an_uncertain_mistake_leaves_its_file_unchanged(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert plan.left
