@@ -1,9 +1,9 @@
-"""`make bench`: what a verdict costs, next to the bare commands' own cost, in one run.
+"""`make bench`: the cost of a verdict compared with that of the bare commands, in one run.
 
-Seconds of wall time ("wall") and of processor time ("cpu"); every figure is the median of its runs,
-and the ratios are what counts: they hold on another machine too. Processor time is the whole
-machine's, from /proc/stat: what runs in PID namespaces is not in its starter's accounts. So the
-machine must have nothing else to do meanwhile.
+Figures are seconds of wall time ("wall") and processor time ("cpu"), each the median of its runs.
+The ratios matter because they also hold on other machines. Processor time is that of the whole
+machine, from /proc/stat, because a process is not charged for its children in PID namespaces. So
+the machine must be otherwise idle.
 """
 
 from __future__ import annotations
@@ -33,42 +33,42 @@ from grader.run.workspace import build
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
-from tests import engine, stage
+from tests import engine, processes
 
-COURSE = stage.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
-SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+COURSE = processes.ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
+SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 ASSIGNMENT = load_assignment(COURSE)
 PLAIN_TICKS = 5
-PLAIN_LIMIT = 10.0  # seconds for a line to come; what never comes would be waited for for ever
+PLAIN_LIMIT = 10.0  # seconds to wait for a line, as a missing one must not block the benchmark
 
 
 @dataclass(frozen=True)
 class Cost:
-    """What something took: seconds of wall time and of processor time."""
+    """Seconds of wall time and of processor time."""
 
     wall: float
     cpu: float
 
 
 def main() -> int:
-    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    """Measure and print; return 1 if a bound of the project is not kept."""
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--runs", type=int, default=7, help="verdicts to take the median of")
     options.add_argument("--starts", type=int, default=100, help="starts of the node to time")
     asked = options.parse_args()
     ros = proven_ros(find_distro("jazzy"))
     submission = take_in(SOLUTION, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
-    # a warm machine has the byte code, also where PYTHONDONTWRITEBYTECODE keeps it from writing it
-    compileall.compile_dir(str(stage.ROOT / "grader"), quiet=1, rx=re.compile("/keys/"))
+    # a warm machine has the byte code, even if PYTHONDONTWRITEBYTECODE prevents writing it
+    compileall.compile_dir(str(processes.ROOT / "grader"), quiet=1, rx=re.compile("/keys/"))
     verdict_once()
-    verdict = middle(verdict_once, asked.runs)
-    colcon = middle(lambda: bare_build(ros, submission), asked.runs)
-    node = middle(lambda: bare_run(ros, submission), asked.runs)
-    imported = middle(lambda: bare_import(ros), asked.runs)
+    verdict = median_of_runs(verdict_once, asked.runs)
+    colcon = median_of_runs(lambda: bare_build(ros, submission), asked.runs)
+    node = median_of_runs(lambda: bare_run(ros, submission), asked.runs)
+    imported = median_of_runs(lambda: bare_import(ros), asked.runs)
     plain = plain_grader(ros, submission)
     firsts, virtual = starts(ros, submission, asked.starts)
     in_containers, overhead = containers_overhead(asked.runs)
-    help_ = middle(lambda: timed(stage.grader("--help")), asked.runs)
+    help_ = median_of_runs(lambda: timed(processes.grader("--help")), asked.runs)
     memory = peak_memory()
     own = max(0.0, verdict.cpu - colcon.cpu - node.cpu - imported.cpu)
     late = sum(1 for seconds in firsts if seconds > 1.0)
@@ -106,26 +106,26 @@ def main() -> int:
 
 
 def bound(name: str, value: float, most: float) -> bool:
-    """Print a figure next to its bound and return whether it is kept."""
+    """Print a figure next to its upper bound and return whether it is kept."""
     kept = value <= most
     print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at most {most:g})")
     return kept
 
 
 def at_least(name: str, value: float, least: float) -> bool:
-    """Print a figure next to its bound and return whether it is reached."""
+    """Print a figure next to its lower bound and return whether it is reached."""
     kept = value >= least
     print(f"{'ok ' if kept else 'NOT'} {name:42} {value:8.3f}  (at least {least:g})")
     return kept
 
 
-def middle(measure: Callable[[], Cost], runs: int) -> Cost:
-    """Return the medians of several runs."""
-    return middle_of([measure() for _ in range(runs)])
+def median_of_runs(measure: Callable[[], Cost], runs: int) -> Cost:
+    """Return the median costs of several runs."""
+    return median_cost([measure() for _ in range(runs)])
 
 
-def middle_of(costs: Sequence[Cost]) -> Cost:
-    """Return the medians."""
+def median_cost(costs: Sequence[Cost]) -> Cost:
+    """Return the median costs."""
     return Cost(
         statistics.median(cost.wall for cost in costs),
         statistics.median(cost.cpu for cost in costs),
@@ -133,10 +133,12 @@ def middle_of(costs: Sequence[Cost]) -> Cost:
 
 
 def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
-    """Run a command and return what its whole process tree took."""
+    """Run a command and return the cost of its whole process tree."""
     before = machine_cpu()
     begin = time.monotonic()
-    done = subprocess.run(command, input=stdin, cwd=stage.ROOT, capture_output=True, check=False)
+    done = subprocess.run(
+        command, input=stdin, cwd=processes.ROOT, capture_output=True, check=False
+    )
     wall = time.monotonic() - begin
     if done.returncode not in (0, 1):
         sys.exit(f"{command} ended with {done.returncode}:\n{done.stderr.decode()[-2000:]}")
@@ -144,22 +146,22 @@ def timed(command: Sequence[str], *, stdin: bytes = b"") -> Cost:
 
 
 def machine_cpu() -> float:
-    """Return the seconds that this machine's processors have been busy since it started."""
+    """Return the seconds for which this machine's processors have been busy since boot."""
     with Path("/proc/stat").open() as stream:
         user, nice, system, _, _, irq, softirq = map(int, stream.readline().split()[1:8])
     return (user + nice + system + irq + softirq) / os.sysconf("SC_CLK_TCK")
 
 
 def verdict_once(sandbox: str = "bubblewrap") -> Cost:
-    """One verdict, as a user gets it: a process of its own, with report and terminal text."""
+    """Mark once as a user does: in a separate process, with report and terminal text."""
     with tempfile.TemporaryDirectory() as out:
-        return timed(stage.grader("grade", SOLUTION, "--sandbox", sandbox, "--out", out))
+        return timed(processes.grader("grade", SOLUTION, "--sandbox", sandbox, "--out", out))
 
 
 def containers_overhead(runs: int) -> tuple[Cost, float]:
-    """Return a verdict's cost in containers, and its seconds beyond the same under bubblewrap.
+    """Return a verdict's cost in containers, and the seconds by which it exceeds bubblewrap's.
 
-    The two take turns, so that what else the machine does falls on both.
+    The two take turns, so that other load on the machine affects both.
     """
     os.environ[images.REPOSITORY_VARIABLE] = engine.REPOSITORY
     client = images.connect()
@@ -168,7 +170,7 @@ def containers_overhead(runs: int) -> tuple[Cost, float]:
     client.close()
     verdict_once("docker")
     pairs = [(verdict_once("docker"), verdict_once("bubblewrap")) for _ in range(runs)]
-    inside = middle_of([docker for docker, _ in pairs])
+    inside = median_cost([docker for docker, _ in pairs])
     return inside, statistics.median(docker.wall - bwrap.wall for docker, bwrap in pairs)
 
 
@@ -185,19 +187,19 @@ def _tar(submission: Submission) -> bytes:
 
 
 def bare_build(ros: Ros, submission: Submission) -> Cost:
-    """`colcon build` alone, in the same sandbox, for it cannot be run anywhere else."""
+    """Run `colcon build` alone, in the same sandbox, since it cannot run anywhere else."""
     setup = f". {ros.inside}/setup.bash; tar -xf -; colcon build --symlink-install < /dev/null"
     return _shell(ros, setup, _tar(submission))
 
 
 def bare_import(ros: Ros) -> Cost:
-    """A Python that imports rclpy and makes a node: what the probe cannot do without."""
+    """Run a Python that imports rclpy and makes a node: the minimum that the probe needs."""
     code = "import rclpy; rclpy.init(); rclpy.create_node('probe')"
     return _shell(ros, f'. {ros.inside}/setup.bash; python3 -c "{code}"')
 
 
 def bare_run(ros: Ros, submission: Submission) -> Cost:
-    """`ros2 run` on a terminal until its node is up, then Ctrl+C, and nothing else."""
+    """Run `ros2 run` on a terminal until its node is up, then press Ctrl+C."""
     with Bubblewrap(ros, Limits()) as sandbox:
         build(sandbox, submission, package=ASSIGNMENT.package)
         script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec "
@@ -215,7 +217,7 @@ def bare_run(ros: Ros, submission: Submission) -> Cost:
 
 
 def plain_grader(ros: Ros, submission: Submission) -> Cost:
-    """The yardstick: build, run, wait for five ticks of the wall clock, Ctrl+C."""
+    """Mark as a simple grader does: build, run, wait for five wall-clock ticks, press Ctrl+C."""
     before = machine_cpu()
     begin = time.monotonic()
     with Bubblewrap(ros, Limits()) as sandbox:
@@ -240,7 +242,7 @@ def _watch_ticks(sandbox: Bubblewrap, ros: Ros) -> None:
 
 
 def starts(ros: Ros, submission: Submission, count: int) -> tuple[list[float], float]:
-    """Start the node many times; return the seconds to each first line, and a run's ticks' time."""
+    """Start the node `count` times; return the seconds to each first line and of a run's ticks."""
     firsts, ticking = [], []
     with Bubblewrap(ros, Limits()) as sandbox:
         build(sandbox, submission, package=ASSIGNMENT.package)
@@ -269,7 +271,7 @@ def peak_memory() -> float:
         command = [sys.executable, "-c", code, "grade", str(SOLUTION), "--out", str(Path(out))]
         done = subprocess.run(
             command,
-            cwd=stage.ROOT,
+            cwd=processes.ROOT,
             capture_output=True,
             text=True,
             check=True,

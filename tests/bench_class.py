@@ -1,7 +1,7 @@
-"""`python -m tests.bench_class`: what a class costs, next to the plain wall-clock grader.
+"""`python -m tests.bench_class`: the cost of a class, compared with a simple wall-clock grader.
 
-All in one run on this machine, which must have nothing else to do meanwhile. Throughput is the
-whole command's: starting, marking, and writing every output.
+All figures come from one run on this machine, which must be otherwise idle. Throughput is that of
+the whole command: starting, marking, and writing every output.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tests.bench import ASSIGNMENT, at_least, bound, machine_cpu, plain_grader
 
 
 def main() -> int:
-    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    """Measure and print; return 1 if a bound of the project is not kept."""
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--count", type=int, default=40, help="packages of the compared class")
     options.add_argument("--large", type=int, default=200, help="packages of the large class")
@@ -42,8 +42,8 @@ def main() -> int:
 
 
 def compared(ros: Ros, place: Path, count: int) -> list[bool]:
-    """Mark a class, and every fourth of it as a plain grader does."""
-    folder = classes.of_corpus(place / "class", classes.mixed_names(count))
+    """Mark a class, and every fourth package of it with the simple grader."""
+    folder = classes.corpus_class(place / "class", classes.mixed_names(count))
     before, begin = machine_cpu(), time.monotonic()
     done = classes.grade_all(folder, place / "out", "--quiet")
     wall, cpu = time.monotonic() - begin, machine_cpu() - before
@@ -62,8 +62,8 @@ def compared(ros: Ros, place: Path, count: int) -> list[bool]:
 
 
 def large(place: Path, count: int) -> list[bool]:
-    """Mark a large class to its end, then again without anything to do."""
-    folder = classes.of_corpus(place / "large", classes.mixed_names(count))
+    """Mark a large class, then run again with nothing left to mark."""
+    folder = classes.corpus_class(place / "large", classes.mixed_names(count))
     begin = time.monotonic()
     status, peak = classes.measured(folder, place / "large-out")
     print(f"class of {count}: {time.monotonic() - begin:.1f} s, exit status {status}")
@@ -79,8 +79,8 @@ def large(place: Path, count: int) -> list[bool]:
 
 
 def stubbed(place: Path, count: int, report: Path) -> list[bool]:
-    """Run a very large class with workers that hand out one report."""
-    folder = classes.of_many(place / "many", count)
+    """Run a very large class with workers that all return the same report."""
+    folder = classes.large_class(place / "many", count)
     begin = time.monotonic()
     _, peak = classes.measured(folder, place / "many-out", report=report)
     print(f"class of {count} without a sandbox: {time.monotonic() - begin:.1f} s")
@@ -88,7 +88,7 @@ def stubbed(place: Path, count: int, report: Path) -> list[bool]:
 
 
 def plain_once(ros: Ros, student: Path) -> float:
-    """Return the seconds of wall time that a plain grader takes for one package."""
+    """Return the seconds of wall time that the simple grader takes for one package."""
     submission = take_in(student, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
     return plain_grader(ros, submission).wall
 

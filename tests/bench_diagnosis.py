@@ -1,4 +1,4 @@
-"""`python -m tests.bench_diagnosis`: what naming the mistake and making its change add to a verdict.
+"""`python -m tests.bench_diagnosis`: the time that the diagnosis and the fix add to a verdict.
 
 Real verdicts on broken packages of every stage; seconds of wall time within `diagnose` and
 `patch_for`, all failed checks of a package together.
@@ -28,13 +28,13 @@ MOST_SECONDS = 0.15
 
 
 class Stopwatch:
-    """Adds up the seconds that functions take."""
+    """Sums the seconds that functions take."""
 
     def __init__(self) -> None:
         self.seconds = 0.0
 
     def on(self, function: Callable[..., Any]) -> Callable[..., Any]:
-        """Return the function, timed."""
+        """Return the function wrapped with a timer."""
 
         def timed(*args: Any) -> Any:
             begin = time.perf_counter()
@@ -47,7 +47,7 @@ class Stopwatch:
 
 
 def main() -> int:
-    """Measure, print, and end with 1 where the bound is not kept."""
+    """Measure and print; return 1 if the bound is not kept."""
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--every", type=int, default=6, help="every n-th package of the corpus")
     asked = options.parse_args()

@@ -1,6 +1,6 @@
 """`python -m tests.bench_matrix`: the solution, the starter and every mutant of hello_time, marked.
 
-It ends with 1 where something is not as expected, or takes longer than an instructor waits.
+It exits with 1 if something is not as expected or takes longer than an instructor would wait.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests import stage
+from tests import processes
 from tests.bench import at_least, bound
 
 MOST_SECONDS = 600.0
@@ -20,13 +20,13 @@ LEAST_MUTANTS = 120
 
 
 def main() -> int:
-    """Measure, print, and end with 1 where a bound of the project is not kept."""
+    """Measure and print; return 1 if a bound of the project is not kept."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "matrix.json"
         begin = time.monotonic()
         done = subprocess.run(
-            stage.grader("validate", "hello_time", "--json", file),
-            cwd=stage.ROOT,
+            processes.grader("validate", "hello_time", "--json", file),
+            cwd=processes.ROOT,
             stdout=subprocess.PIPE,
             text=True,
             check=False,

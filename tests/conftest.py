@@ -1,4 +1,4 @@
-"""Fixtures that every test may ask for."""
+"""Fixtures for all tests."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from grader.sandbox.limits import Limits
 from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent
-pytest_plugins = ["tests.site.fixtures"]
+pytest_plugins = ["tests.pages.fixtures"]
 
-# A shell that starts us in the background has Ctrl+C ignored, and all that we start would inherit it
+# A shell ignores SIGINT in background jobs, and all processes that the tests start would inherit it
 signal.signal(signal.SIGINT, signal.default_int_handler)
-# texts are compared in English, whatever the language of the one who runs the tests
+# texts are compared in English, whatever the language of the environment
 os.environ["LC_ALL"] = "C.UTF-8"
-# and it is our own course that is asked for
+# the tests use the default course and lesson
 for _name in (lessons.COURSE, lessons.LESSON):
     os.environ.pop(_name, None)
 
 
 @pytest.fixture(scope="session")
 def ros_jazzy() -> Ros:
-    """ROS jazzy from PyPI's wheels (made once; several test processes at once make one)."""
+    """ROS jazzy from PyPI's wheels, made once even by concurrent test processes."""
     return proven_ros(find_distro("jazzy"))
 
 
@@ -47,7 +47,7 @@ def jazzy_prefix(ros_jazzy: Ros) -> Path:
 
 @pytest.fixture
 def make_sandbox(ros_jazzy: Ros) -> Callable[[Limits], Sandbox]:
-    """What makes a sandbox with these limits; the tests of other sandboxes have their own."""
+    """A function that makes a sandbox with given limits; other sandboxes' tests override it."""
     return lambda limits: Bubblewrap(ros_jazzy, limits)
 
 

@@ -1,12 +1,12 @@
 """The Docker engine and the images for the tests: `python -m tests.engine up [all]`, and `down`.
 
-`up` installs the engine from the system's packages where it is missing (as root), starts it where
-none answers, and makes the images on a base of debootstrap's, since no registry is needed for the
-tests. What is there already is kept: a second `up` takes seconds. `down` stops only a daemon that
-`up` has started. The tests' images have a repository of their own.
+`up` installs the engine from the system's packages if it is missing (as root), starts it if none
+answers, and makes the images on a base made by debootstrap, so that the tests need no registry.
+Existing images are kept: a second `up` takes seconds. `down` stops only a daemon that `up` has
+started. The tests' images have their own repository.
 
-Where no daemon can run, GRADER_TESTS_WITHOUT_DOCKER=1 has `make test-all` leave these tests out;
-without it they fail.
+If no daemon can run, set GRADER_TESTS_WITHOUT_DOCKER=1 so that `make test-all` leaves these tests
+out; without it they fail.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ WITHOUT = "GRADER_TESTS_WITHOUT_DOCKER"
 
 
 def say(text: str) -> None:
-    """Tell on stderr what is going on."""
+    """Print a progress message to stderr."""
     print(text, file=sys.stderr, flush=True)
 
 
 def network() -> Network:
-    """Return how builds reach the world from here: a CA bundle that pip is told of goes along."""
+    """Return the network settings of builds, with the CA bundle that pip uses, if any."""
     bundle = os.environ.get("PIP_CERT") or os.environ.get("REQUESTS_CA_BUNDLE")
     return Network(
         extra_ca=Path(bundle) if bundle else None, wheels_base=LOCAL_BASE, ros_base=STANDIN
@@ -102,7 +102,7 @@ def start() -> DockerClient:
         try:
             return images.connect()
         except SurroundingsError:
-            time.sleep(0.2)  # it is its socket that is waited for; nothing tells of it
+            time.sleep(0.2)  # poll its socket, since nothing signals that it is ready
     raise SurroundingsError(
         f"no Docker daemon can run here: {said.message}\n{log.read_text(errors='replace')[-1500:]}",
         remedy=f"Where that is known, {WITHOUT}=1 leaves the tests out that need it.",
@@ -155,7 +155,7 @@ def down() -> None:
             return
         os.kill(pid, signal.SIGTERM)
     except OSError:
-        return  # it has ended by itself
+        return  # it has already ended
     import select
 
     select.select([running], [], [], START_SECONDS)

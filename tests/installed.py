@@ -1,4 +1,4 @@
-"""Programs that tests bring themselves: of Debian's packages, and of npm by locked hashes."""
+"""Programs that the tests install: Debian packages, and npm packages by locked hashes."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ FILES = ("package.json", "package-lock.json")
 
 
 def installed(program: str, package: str) -> Path:
-    """Return a program of Debian's packages, installed now if it is missing and we are root."""
+    """Return a program's path; install its Debian package if it is missing and we are root."""
     if found := shutil.which(program):
         return Path(found)
     if os.geteuid() != 0:
         raise RuntimeError(f"the tests need {program}: apt-get install {package}")
     lock = Path(tempfile.gettempdir()) / "ros2_teaching_lab-apt.lock"
-    with lock.open("a") as handle:  # several test processes at once
+    with lock.open("a") as handle:  # test processes run concurrently
         fcntl.flock(handle, fcntl.LOCK_EX)
         if not shutil.which(program):
             env = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
@@ -32,8 +32,9 @@ def installed(program: str, package: str) -> Path:
 
 
 def npm_packages(project: Path) -> Path:
-    """Return the node_modules of a folder's package-lock.json, fetched once: npm refuses what has
-    another hash than the lock says.
+    """Return the node_modules of a folder's package-lock.json, fetched once.
+
+    npm refuses a package whose hash differs from the lock's.
     """
     digest = hashlib.sha256((project / FILES[1]).read_bytes()).hexdigest()[:16]
     folder = cache_root() / "npm" / digest

@@ -15,10 +15,10 @@ from grader.sandbox.limits import Limits
 from grader.verdict.mark import mark as mark_submission
 from grader.verdict.order import Order
 from grader.verdict.recording import Recording
-from tests import stage
+from tests import processes
 from tests.corpus.model import Package
 
-COURSE = stage.ROOT / "lab" / "course" / "hello_time"
+COURSE = processes.ROOT / "lab" / "course" / "hello_time"
 ASSIGNMENT = load_assignment(COURSE / "assignment.yaml")
 # a package that does not end costs these, not the defaults
 LIMITS = Limits().override({"build_seconds": 20, "start_seconds": 8, "run_seconds": 40})

@@ -18,9 +18,9 @@ from grader.report.model import Report
 from grader.sandbox.limits import Limits
 from grader.verdict.mark import replay
 from grader.verdict.recording import Recording
-from tests import marking, stage
+from tests import marking, processes
 
-FOLDER = stage.ROOT / "tests" / "recordings" / "evidence"
+FOLDER = processes.ROOT / "tests" / "recordings" / "evidence"
 MODES = ("replay", "record", "real")
 MODE = os.environ.get("GRADER_TESTS_EVIDENCE", "replay")
 assert MODE in MODES, f"GRADER_TESTS_EVIDENCE is one of {MODES}"

@@ -1,4 +1,4 @@
-"""What every sandbox must hold; the tests of each take these over, with fixtures of their own."""
+"""Tests that every sandbox must pass; each sandbox's tests import them with own fixtures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Role, Sandbox
 from grader.sandbox.limits import MEGABYTE, Limits
-from tests import stage
+from tests import processes
 
 Make = Callable[[Limits], Sandbox]
 
@@ -33,38 +33,40 @@ def test_only_the_workspace_and_scratch_folders_are_writable(sandbox: Sandbox) -
     assert "a" in said
 
 
-def test_files_of_the_host_are_not_there(sandbox: Sandbox, tmp_path: Path) -> None:
+def test_files_of_the_host_are_not_visible(sandbox: Sandbox, tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("x")
-    for path in (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", stage.ROOT):
+    for path in (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", processes.ROOT):
         status, _ = shell(sandbox, f'test -r "{path}"')
         assert status == 1, path
 
 
-def test_the_network_is_loopback_alone(sandbox: Sandbox) -> None:
+def test_the_network_is_loopback_only(sandbox: Sandbox) -> None:
     status, said = shell(sandbox, "tail -n +3 /proc/net/dev | cut -d: -f1; cat /proc/net/route")
     assert status == 0
     assert said.split()[0] == "lo"
-    assert len(said.strip().splitlines()) == 2  # lo, and the heading of an empty routing table
+    assert len(said.strip().splitlines()) == 2  # lo, and the header of an empty routing table
     status, _ = shell(
         sandbox, "exec 3<>/dev/tcp/127.0.0.1/9", seconds=10
-    )  # refused at once: loopback is up
+    )  # refused at once, so loopback is up
     assert status == 1
 
 
-def test_the_environment_is_a_list(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_environment_has_only_listed_variables(
+    sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("SECRET_TOKEN", "abc")
     _, said = shell(sandbox, "env")
     names = {line.partition("=")[0] for line in said.splitlines()}
     assert names - {"PWD", "SHLVL", "_"} == set(sandbox.environment("student"))
 
 
-def test_nothing_of_one_command_is_seen_by_the_next(sandbox: Sandbox) -> None:
+def test_nothing_of_a_command_remains_for_the_next(sandbox: Sandbox) -> None:
     mark = f"sleep 98{secrets.randbelow(10**6)}"
     status, _ = shell(sandbox, f"setsid {mark} > /dev/null 2>&1 < /dev/null & echo started")
     assert status == 0
     _, said = shell(sandbox, "cat /proc/[0-9]*/cmdline | tr '\\0' ' '")
     assert mark not in said
-    assert stage.alive(mark) == []
+    assert processes.alive(mark) == []
 
 
 def test_student_and_probe_cannot_reach_each_other(sandbox: Sandbox) -> None:
@@ -102,8 +104,8 @@ def terminal(sandbox: Sandbox, script: str, *, most: int = 100_000) -> Terminal:
     return Terminal(sandbox.console(["bash", "-c", script]), most=most)
 
 
-def test_ctrl_c_reaches_the_command_and_its_last_words_are_seen(sandbox: Sandbox) -> None:
-    code = (  # sigwait: a signal that comes just before time.sleep would not end it
+def test_ctrl_c_reaches_the_command_and_its_last_output_is_read(sandbox: Sandbox) -> None:
+    code = (  # sigwait, since a signal just before time.sleep would not end it
         "import signal, sys\n"
         "signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])\n"
         "print('up', flush=True)\n"
@@ -121,7 +123,7 @@ def test_ctrl_c_reaches_the_command_and_its_last_words_are_seen(sandbox: Sandbox
     opened.close()
 
 
-def test_a_command_that_dies_of_ctrl_c_shows_it(sandbox: Sandbox) -> None:
+def test_a_command_ended_by_ctrl_c_is_reported_so(sandbox: Sandbox) -> None:
     opened = terminal(sandbox, "echo up; exec sleep 60")
     while not any(line.text == "up" for line in opened.read(10)):
         assert not opened.ended
@@ -135,8 +137,8 @@ def test_a_command_that_dies_of_ctrl_c_shows_it(sandbox: Sandbox) -> None:
 DOTS = "trap '' INT; while :; do printf .; sleep 0.01; done"
 
 
-def test_dots_without_a_line_end_extend_no_wait(sandbox: Sandbox) -> None:
-    opened = terminal(sandbox, DOTS, most=400)  # (four seconds of them)
+def test_output_without_a_line_end_extends_no_wait(sandbox: Sandbox) -> None:
+    opened = terminal(sandbox, DOTS, most=400)  # (for four seconds)
     while "." not in opened.transcript:
         assert opened.read(0.2) == []
     begin = time.monotonic()
@@ -150,8 +152,8 @@ def test_dots_without_a_line_end_extend_no_wait(sandbox: Sandbox) -> None:
     assert "." * 20 in opened.transcript
 
 
-def test_a_pipe_that_never_says_a_line_extends_no_wait(sandbox: Sandbox) -> None:
-    """On stdout it is read in pieces; what comes on stderr alone is nothing that is waited for."""
+def test_a_pipe_without_a_complete_line_extends_no_wait(sandbox: Sandbox) -> None:
+    """stdout is read in pieces; output on stderr alone does not end or extend the wait."""
     pipe = sandbox.pipe(["bash", "-c", f"{DOTS} >&2"], role="probe")
     begin = time.monotonic()
     assert pipe.read(0.5) is None
@@ -161,15 +163,15 @@ def test_a_pipe_that_never_says_a_line_extends_no_wait(sandbox: Sandbox) -> None
     pipe.finish(0.1)
 
 
-def test_what_nobody_reads_on_stderr_stops_no_pipe(sandbox: Sandbox) -> None:
-    """(A full pipe would stop a probe that a node has brought to complain.)"""
+def test_unread_stderr_does_not_block_a_pipe(sandbox: Sandbox) -> None:
+    """A full pipe would block a probe that a node causes to print warnings."""
     pipe = sandbox.pipe(["bash", "-c", "head -c 300000 /dev/zero >&2; echo done"], role="probe")
     assert pipe.read(20) == b"done\n"
     pipe.finish(1)
 
 
 @pytest.mark.parametrize("status", [0, 1, 2, 125, 126, 127, 128, 130, 137, 143, 250, 251, 254, 255])
-def test_a_status_is_the_commands_own(sandbox: Sandbox, status: int) -> None:
+def test_the_status_is_the_commands_own(sandbox: Sandbox, status: int) -> None:
     outcome = sandbox.run(["sh", "-c", f"echo said; exit {status}"], seconds=20)
     assert (outcome.status, outcome.output, outcome.stopped_by) == (status, b"said\n", "")
 
@@ -181,13 +183,13 @@ def test_output_is_cut_while_it_is_read(sandbox: Sandbox) -> None:
     assert outcome.seconds < 10
 
 
-def test_wall_time_ends_a_command(sandbox: Sandbox) -> None:
+def test_the_time_limit_ends_a_command(sandbox: Sandbox) -> None:
     outcome = sandbox.run(["sleep", "100"], seconds=0.3)
     assert (outcome.status, outcome.stopped_by) == (None, "wall time")
     assert outcome.seconds < 5
 
 
-def test_the_workspace_has_a_size(make_sandbox: Make) -> None:
+def test_the_workspace_has_a_size_limit(make_sandbox: Make) -> None:
     with make_sandbox(Limits(workspace=20 * MEGABYTE)) as small:
         status, said = shell(small, "head -c 30000000 /dev/zero > big; ls -l big | cut -d' ' -f5")
         assert status == 0
@@ -196,7 +198,7 @@ def test_the_workspace_has_a_size(make_sandbox: Make) -> None:
         assert status != 0
 
 
-def test_a_file_has_a_largest_size(make_sandbox: Make) -> None:
+def test_a_file_has_a_size_limit(make_sandbox: Make) -> None:
     with make_sandbox(Limits(file_size=1 * MEGABYTE)) as small:
         status, _ = shell(small, "head -c 2000000 /dev/zero > big; stat -c %s big; exit 3")
         assert status == 3
@@ -204,7 +206,7 @@ def test_a_file_has_a_largest_size(make_sandbox: Make) -> None:
         assert int(said) == 1 * MEGABYTE
 
 
-def test_memory_is_limited_over_all_processes(make_sandbox: Make) -> None:
+def test_memory_is_limited_across_all_processes(make_sandbox: Make) -> None:
     hog = "x = bytearray(120_000_000); x[::4096] = b'1' * len(x[::4096]); print('had', 'it')"
     with make_sandbox(Limits(memory=80 * MEGABYTE)) as small:
         _, said = shell(small, f'/usr/bin/env python3 -S -c "{hog}"; /usr/bin/python3 -c "{hog}"')
@@ -213,7 +215,7 @@ def test_memory_is_limited_over_all_processes(make_sandbox: Make) -> None:
             assert small.resource_limit_hit() == "memory"
 
 
-def test_processes_are_limited_over_the_whole_submission(make_sandbox: Make) -> None:
+def test_processes_are_limited_across_the_whole_submission(make_sandbox: Make) -> None:
     bomb = "for i in $(seq 400); do sleep 50 & done; echo started all"
     with make_sandbox(Limits(processes=60)) as small:
         _, said = shell(small, bomb, seconds=4)
@@ -222,7 +224,7 @@ def test_processes_are_limited_over_the_whole_submission(make_sandbox: Make) -> 
             assert small.resource_limit_hit() == "processes"
 
 
-def test_the_report_says_what_held(sandbox: Sandbox) -> None:
+def test_the_report_names_the_limits_that_were_enforced(sandbox: Sandbox) -> None:
     report = sandbox.limit_report()
     assert report["workspace"].held_by == "tmpfs"
     assert report["memory"].held_by in ("cgroup", "rlimit")

@@ -1,4 +1,4 @@
-"""A right package on disk, to be broken and put before the static checks."""
+"""A right package on disk for the tests of the static checks."""
 
 from __future__ import annotations
 
@@ -81,14 +81,14 @@ install_scripts=$base/lib/my_robot_controller
 
 @dataclass
 class StandIn:
-    """The part of the evidence that the static checks may look at."""
+    """The part of the evidence that the static checks use."""
 
     assignment: Assignment
     submission: Submission
 
 
 class Bench:
-    """A right package on disk, to be broken and judged."""
+    """A right package on disk that a test changes and checks."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -129,7 +129,7 @@ class Bench:
 
 
 def explained(outcome: Failed) -> Diagnosis:
-    """Return a failure with its entry's texts, after a look at what every one must have."""
+    """Return a failure with the texts of its catalogue entry; assert that they are complete."""
     failed = Diagnosis.of(outcome)
     for text in (failed.expected, failed.actual, failed.rationale, failed.fix):
         assert text.strip()

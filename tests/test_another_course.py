@@ -1,4 +1,4 @@
-"""An assignment is data: another course asks for another text, package, node, period, start, step."""
+"""An assignment is data: another course has another text, package, node, period, start, step."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from grader.batch.systems.gradescope.archive import gradescope_zip
-from tests import stage
+from tests import processes
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
 from tests.marking import ASSIGNMENT, COURSE
@@ -50,7 +50,7 @@ def write_assignment(folder: Path) -> Path:
 
 
 def write_solution(folder: Path) -> Path:
-    """Write the package that the other course asks for."""
+    """Write the package that the other course requires."""
     root = write(RIGHT[0], folder)
     node = root / "my_robot_controller" / "my_first_node.py"
     node.write_text(replaced(node.read_text(), NODE))
@@ -77,8 +77,8 @@ def package(tmp_path: Path) -> Path:
 
 
 def test_its_own_package_gets_full_marks(course: Path, package: Path, tmp_path: Path) -> None:
-    done = stage.run(
-        stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 / 100" in done.stdout
@@ -90,17 +90,19 @@ def test_an_assignment_may_ask_for_the_output_alone(
     text = course.read_text()
     checks = "checks:\n  - {id: package.found, points: 1}\n  - {id: run.output, points: 2}\n"
     course.write_text(text[: text.index("\nchecks:") + 1] + checks)
-    done = stage.run(
-        stage.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 / 3" in done.stdout
 
 
-def test_the_other_courses_package_does_not(course: Path, tmp_path: Path) -> None:
+def test_the_package_of_the_first_course_does_not_get_full_marks(
+    course: Path, tmp_path: Path
+) -> None:
     solution = write(RIGHT[0], tmp_path)
-    done = stage.run(
-        stage.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 1
     assert "turtle_counter" in done.stdout
@@ -109,8 +111,8 @@ def test_the_other_courses_package_does_not(course: Path, tmp_path: Path) -> Non
 def test_a_course_folder_is_named_by_the_environment(
     course: Path, package: Path, tmp_path: Path
 ) -> None:
-    done = stage.run(
-        stage.grader("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
+    done = processes.run(
+        processes.grader("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
         env={"GRADER_COURSE": str(course.parent.parent)},
     )
     assert done.returncode == 0, done.stdout + done.stderr
@@ -118,14 +120,14 @@ def test_a_course_folder_is_named_by_the_environment(
 
 def test_a_self_check_says_how_many_checks_are_hidden(course: Path, package: Path) -> None:
     course.write_text(course.read_text().replace("hidden_checks: 0", "hidden_checks: 2"))
-    done = stage.run(stage.grader("check", package, "--assignment", course))
+    done = processes.run(processes.grader("check", package, "--assignment", course))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "2 hidden checks" in done.stdout
 
 
 @pytest.fixture
 def keys(course: Path, tmp_path: Path) -> Path:
-    """An instructor's folder: what the node prints is asked for there, and announced here."""
+    """An instructor's folder with a hidden check of the output, which the assignment announces."""
     text = course.read_text().replace("hidden_checks: 0", "hidden_checks: 1")
     checks = "checks:\n  - {id: package.found, points: 1}\n"
     course.write_text(text[: text.index("\nchecks:") + 1] + checks)
@@ -135,11 +137,11 @@ def keys(course: Path, tmp_path: Path) -> Path:
     return folder
 
 
-def test_hidden_checks_are_asked_from_the_instructors_folder(
+def test_hidden_checks_are_read_from_the_instructors_folder(
     course: Path, package: Path, keys: Path, tmp_path: Path
 ) -> None:
     words = ("grade", package, "--assignment", course, "--keys", keys, "--out", tmp_path / "o")
-    done = stage.run(stage.grader(*words))
+    done = processes.run(processes.grader(*words))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 / 3" in done.stdout
     (file,) = (tmp_path / "o").rglob("report.json")
@@ -151,7 +153,7 @@ def test_hidden_checks_are_asked_from_the_instructors_folder(
 
 
 @pytest.mark.parametrize("command", ["grade", "grade-all", "validate", "gradescope-zip"])
-def test_without_that_folder_the_announced_checks_are_missed(
+def test_announced_hidden_checks_are_required_without_that_folder(
     course: Path, package: Path, keys: Path, tmp_path: Path, command: str
 ) -> None:
     (keys / "hidden.yaml").unlink()
@@ -161,7 +163,7 @@ def test_without_that_folder_the_announced_checks_are_missed(
         "validate": (course, "--keys", keys),
         "gradescope-zip": (tmp_path / "a.zip", "--assignment", course),
     }[command]
-    done = stage.run(stage.grader(command, *words))
+    done = processes.run(processes.grader(command, *words))
     assert done.returncode == 2, done.stderr
     assert "hidden_checks is 1" in done.stderr
     assert "--keys" in done.stderr
@@ -175,14 +177,14 @@ def test_gradescopes_archive_has_the_hidden_checks(course: Path, keys: Path) -> 
         assert "--keys keys" in archive.read("run_autograder").decode()
 
 
-def test_validate_asks_the_hidden_checks_too(
+def test_validate_runs_the_hidden_checks(
     course: Path, package: Path, keys: Path, tmp_path: Path
 ) -> None:
     (keys / "solution").mkdir()
     package.rename(keys / "solution" / "turtle_counter")
     out = tmp_path / "m.json"
     words = ("validate", course, "--keys", keys, "--static", "--only", "drop*", "--json", out)
-    done = stage.run(stage.grader(*words))
+    done = processes.run(processes.grader(*words))
     assert done.returncode in (0, 1), done.stderr
     assert json.loads(out.read_text())["checks"] == ["package.found", "run.output"]
 

@@ -1,4 +1,4 @@
-"""Loading an assignment: what a wrong one is told, with file and line."""
+"""Loading an assignment: errors with file and line."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def load(tmp_path: Path, text: str | bytes, hidden: str | None = None) -> Assign
 
 
 def refused(tmp_path: Path, text: str | bytes, hidden: str | None = None) -> str:
-    """Return the message with the folder taken off."""
+    """Return the error message without the folder."""
     with pytest.raises(AssignmentError) as caught:
         load(tmp_path, text, hidden)
     assert caught.value.exit_status == 2
@@ -71,7 +71,7 @@ def test_defaults_are_filled_in(tmp_path: Path) -> None:
     assert assignment.limits == {"run_seconds": 20}
 
 
-def test_a_misspelt_key_is_told_once_with_its_line_and_what_was_meant(tmp_path: Path) -> None:
+def test_a_misspelt_key_is_reported_once_with_its_line_and_a_suggestion(tmp_path: Path) -> None:
     said = refused(tmp_path, changed("period:", "perid:"))
     assert said == "assignment.yaml:11: unknown key 'perid' (did you mean 'period'?)"
     said = refused(tmp_path, changed("package: my", "pakcage: my"))
@@ -80,7 +80,7 @@ def test_a_misspelt_key_is_told_once_with_its_line_and_what_was_meant(tmp_path: 
     assert said == "assignment.yaml:15: unknown key 'point' (did you mean 'points'?)"
 
 
-def test_all_faults_are_told_at_once_in_the_order_of_their_lines(tmp_path: Path) -> None:
+def test_all_errors_are_reported_at_once_in_line_order(tmp_path: Path) -> None:
     text = changed("period: 1.0", "period: fast").replace("schema: 1", "schema: 2")
     lines = refused(tmp_path, text).splitlines()
     assert [line.split(":")[1] for line in lines] == ["1", "11"]
@@ -131,7 +131,7 @@ def test_all_faults_are_told_at_once_in_the_order_of_their_lines(tmp_path: Path)
         ("schema: 1", "schema: 1\nsha256: 00", 2, "unknown key 'sha256'"),
     ],
 )
-def test_a_wrong_value_is_told_with_its_line(
+def test_a_wrong_value_is_reported_with_its_line(
     tmp_path: Path, old: str, new: str, line: int, words: str
 ) -> None:
     said = refused(tmp_path, changed(old, new))
@@ -140,13 +140,13 @@ def test_a_wrong_value_is_told_with_its_line(
     ), said
 
 
-def test_a_missing_key_is_told_at_its_parent(tmp_path: Path) -> None:
+def test_a_missing_key_is_reported_at_its_parent(tmp_path: Path) -> None:
     assert refused(tmp_path, changed("title: ", "# ")) == "assignment.yaml:1: missing key 'title'"
     said = refused(tmp_path, changed("{id: run.output, points: 10}", "{id: run.output}"))
     assert said == "assignment.yaml:16: missing key 'points'"
 
 
-def test_checks_must_be_a_list_with_something_in_it(tmp_path: Path) -> None:
+def test_checks_must_be_a_non_empty_list(tmp_path: Path) -> None:
     head = GOOD[: GOOD.index("checks:")]
     assert "checks is empty" in refused(tmp_path, head + "checks: []\n")
     assert "checks must be a list" in refused(tmp_path, head + "checks: {a: 1}\n")
@@ -168,7 +168,7 @@ def test_checks_must_be_a_list_with_something_in_it(tmp_path: Path) -> None:
         (b"#" * 1_000_001, ":1: larger than 1000 kB"),
     ],
 )
-def test_a_file_that_is_no_assignment_is_told_so(
+def test_a_file_that_is_not_an_assignment_is_reported(
     tmp_path: Path, content: bytes, words: str
 ) -> None:
     assert words in refused(tmp_path, content)
@@ -178,7 +178,7 @@ def test_a_byte_order_mark_does_not_matter(tmp_path: Path) -> None:
     assert load(tmp_path, b"\xef\xbb\xbf" + GOOD.encode()).id == "hello_time"
 
 
-def test_a_path_that_cannot_be_read_is_told_so(tmp_path: Path) -> None:
+def test_an_unreadable_path_is_reported(tmp_path: Path) -> None:
     fifo = tmp_path / "fifo"
     os.mkfifo(fifo)
     for path, words in [
@@ -191,7 +191,7 @@ def test_a_path_that_cannot_be_read_is_told_so(tmp_path: Path) -> None:
             load_assignment(path)
 
 
-def test_hidden_checks_are_merged_and_hidden(tmp_path: Path) -> None:
+def test_hidden_checks_are_merged_and_marked_hidden(tmp_path: Path) -> None:
     hidden = (
         "checks:\n"
         "  - {id: run.period, points: 1}\n"
@@ -222,7 +222,7 @@ def test_hidden_checks_are_merged_and_hidden(tmp_path: Path) -> None:
         ("check: []\n", "hidden.yaml:1: unknown key 'check' (did you mean 'checks'?)"),
     ],
 )
-def test_wrong_hidden_checks_are_told_with_their_file(
+def test_wrong_hidden_checks_are_reported_with_their_file(
     tmp_path: Path, hidden: str, said: str
 ) -> None:
     assert refused(tmp_path, GOOD + "hidden_checks: 1\n", hidden) == said
@@ -232,7 +232,7 @@ def test_a_students_machine_has_no_hidden_checks_and_needs_none(tmp_path: Path) 
     assert len(load(tmp_path, GOOD + "hidden_checks: 3\n").checks) == 2
 
 
-def test_the_hash_follows_the_content_and_not_the_layout(tmp_path: Path) -> None:
+def test_the_hash_depends_on_the_content_and_not_on_the_layout(tmp_path: Path) -> None:
     first = load(tmp_path, GOOD).sha256
     assert len(first) == 64
     assert (
@@ -244,7 +244,7 @@ def test_the_hash_follows_the_content_and_not_the_layout(tmp_path: Path) -> None
     assert load(tmp_path, counted, secrets[0]).sha256 != load(tmp_path, counted, secrets[1]).sha256
 
 
-def test_the_known_checks_may_be_given(tmp_path: Path) -> None:
+def test_the_known_checks_can_be_passed(tmp_path: Path) -> None:
     file = tmp_path / "assignment.yaml"
     file.write_text(GOOD.replace("run.output", "my.own"))
     assignment = load_assignment(file, known_checks=["package.found", "my.own"])

@@ -1,4 +1,4 @@
-"""The bubblewrap sandbox keeps a submission in, and lets a person's Ctrl+C through."""
+"""The bubblewrap sandbox confines a submission and passes Ctrl+C on to it."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
-from tests import stage
+from tests import processes
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 
 
-def test_closing_ends_everything_and_leaves_no_control_group(ros_jazzy: Ros) -> None:
+def test_closing_ends_every_process_and_removes_the_control_group(ros_jazzy: Ros) -> None:
     mark = f"sleep 97{secrets.randbelow(10**6)}"
     with Bubblewrap(ros_jazzy, Limits()) as opened:
         script = f"echo up; setsid {mark} & {mark}"
@@ -31,7 +31,7 @@ def test_closing_ends_everything_and_leaves_no_control_group(ros_jazzy: Ros) -> 
         groups = [Path(entry).parent for entry in opened._group.entries]
     process.wait(10)
     process.stdout.close()
-    assert stage.alive(mark) == []
+    assert processes.alive(mark) == []
     assert not any(group.exists() for group in groups)
 
 
@@ -51,17 +51,17 @@ def test_kill_9_of_the_grader_leaves_nothing() -> None:
     mark = f"sleep 96{secrets.randbelow(10**6)}"
     grader = subprocess.Popen(
         [sys.executable, "-c", KILLED.replace("MARK", mark)],
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         stdout=subprocess.PIPE,
     )
     assert grader.stdout is not None
     assert grader.stdout.readline() == b"up\n"
     grader.send_signal(signal.SIGKILL)
     grader.wait()
-    # the pipe's write ends are the sandbox's: its end is the end of every process in it
+    # the sandbox has the pipe's write ends: it closes when every process in it has ended
     assert grader.stdout.read() == b""
     grader.stdout.close()
-    assert [line for line in stage.alive(mark) if "bash -c" not in line] == []
+    assert [line for line in processes.alive(mark) if "bash -c" not in line] == []
 
 
 @pytest.mark.parametrize("name", ["KILL", "INT"])
@@ -69,20 +69,20 @@ def test_a_grader_that_ends_while_the_sandbox_opens_leaves_nothing(
     tmp_path: Path, name: str
 ) -> None:
     adopt_orphans()
-    before = set(stage.descendants())
+    before = set(processes.descendants())
     grader = subprocess.run(
         [sys.executable, "-c", KILLED],
-        cwd=stage.ROOT,
-        env=os.environ | stage.ends_as_bwrap_starts(tmp_path, name),
+        cwd=processes.ROOT,
+        env=os.environ | processes.ends_as_bwrap_starts(tmp_path, name),
         capture_output=True,
         check=False,
     )
     number = signal.Signals["SIG" + name]
     assert grader.returncode == -number, grader.stderr
-    stage.wait_until_gone(before)
+    processes.wait_until_gone(before)
 
 
-def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) -> None:
+def test_the_control_groups_of_a_killed_grader_are_removed(tmp_path: Path) -> None:
     from grader.sandbox.cgroups import open_group
 
     dead = subprocess.Popen(["true"])
@@ -97,7 +97,7 @@ def test_the_control_groups_of_a_killed_grader_are_cleared_away(tmp_path: Path) 
     assert left == {f"{os.getpid()}-1"}
 
 
-def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
+def test_an_ordinary_user_gets_the_same_sandbox(ros_jazzy: Ros) -> None:
     code = (
         "import json\n"
         "from grader.sandbox.limits import Limits\n"
@@ -117,7 +117,7 @@ def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
         "    print(json.dumps([said.output.decode(), probe.output.decode(), "
         "bomb.output.decode(), opened.held_by()]))\n"
     )
-    done = stage.run(stage.as_user([sys.executable, "-c", code]))
+    done = processes.run(processes.as_user([sys.executable, "-c", code]))
     assert done.returncode == 0, done.stderr
     said, probe, bomb, held = json.loads(done.stdout)
     assert said.split()[:2] == ["1000", "1"]
@@ -128,7 +128,7 @@ def test_an_ordinary_user_gets_the_same(ros_jazzy: Ros) -> None:
     assert held["processes"] in ("rlimit", "cgroup")
 
 
-def test_a_machine_that_forbids_namespaces_is_told_why(
+def test_a_machine_without_namespaces_is_reported_with_the_cause(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from grader.base.errors import SurroundingsError

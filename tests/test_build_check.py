@@ -1,4 +1,4 @@
-"""What `build.colcon` says of a setup.py that fails, told from what the real colcon printed."""
+"""The result of `build.colcon` for a failing setup.py, from real colcon output."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BY_NAME = {package.name: package for package in BROKEN}
         ("setup_raises", "RuntimeError: not today", "raise RuntimeError('not today')"),
     ],
 )
-def test_the_error_of_setup_py_is_told_and_not_colcons_own(
+def test_the_error_of_setup_py_is_reported_instead_of_colcons(
     name: str, error: str, code: str, tmp_path: Path
 ) -> None:
     package = write(BY_NAME[name], tmp_path)

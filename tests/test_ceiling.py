@@ -1,4 +1,4 @@
-"""A verdict has one ceiling, whatever is repeated in it, and a limit of the student's ends it."""
+"""A verdict has a total time limit, and is not retried after a student's limit was hit."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import cast
 
 import pytest
 
+from grader.base.unheard import unheard
 from grader.batch.work import TRIES, Answer, Task, Trial
 from grader.report.model import CheckResult, Mistake
 from grader.run import session
@@ -19,7 +20,7 @@ from grader.run.run import Run, observe
 from grader.run.session import Session, Unobserved
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT, tasks
+from tests.batch.pool_tasks import ASSIGNMENT, tasks
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.marking import assert_verdict, mark
@@ -29,20 +30,20 @@ LIMITS = Limits()
 LONG = Event("Hello time: 0", 0.0, 1.0, "logger", 0, None)
 
 
-def test_the_ceiling_has_room_for_a_build_and_two_runs_at_their_limits() -> None:
+def test_the_ceiling_allows_a_build_and_two_runs_at_their_limits() -> None:
     for limits in (LIMITS, LIMITS.override({"build_seconds": 7, "start_seconds": 1})):
         run = limits.start_seconds + limits.run_seconds + limits.stop_seconds
         assert limits.verdict_seconds > limits.build_seconds + 2 * run
 
 
 class Clock:
-    """The time of a session whose runs are not real; each takes as long as it is told."""
+    """The clock of a session with simulated runs; each run takes a given time."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *results: Run | ProbeError) -> None:
         self.now = 1000.0
         self.runs = 0
         self.proofs: list[Sandbox] = []
-        self.seconds: float | None = None  # of each run; None: all that it may
+        self.seconds: float | None = None  # of each run; None: until its time limit
         self._results = results
         monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: self.now))
         monkeypatch.setattr(session, "observe", self._observe)
@@ -76,54 +77,54 @@ class NoSandbox:
         return Outcome(0 if self._works else 1, b"", seconds)
 
 
-def begun(*, works: bool = True) -> Session:
+def new_session(*, works: bool = True) -> Session:
     return Session(cast("Sandbox", NoSandbox(works=works)), ASSIGNMENT)
 
 
-def unheard(event: Event) -> None:
+def ignore(event: Event) -> None:
     del event
 
 
-def doubtful() -> Run:
-    """A run in which ticks were missing: a second opinion is due."""
+def run_with_missing_ticks() -> Run:
+    """Return a run with missing ticks, which requires a second run."""
     return Run("", Watch(clock="virtual", events=[LONG], missing=[1]), started=True)
 
 
-def test_runs_that_take_all_they_may_are_repeated_within_the_ceiling(
+def test_runs_at_their_time_limit_are_repeated_within_the_ceiling(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock = Clock(monkeypatch, ProbeError("no answer"))
-    opened, begin = begun(), clock.now
+    opened, begin = new_session(), clock.now
     with pytest.raises(Unobserved, match="no answer"):
-        opened.run(unheard)
+        opened.run(ignore)
     assert clock.runs == 2
     assert clock.proofs == [opened.sandbox], "what failed may be ros2 itself"
     assert clock.now - begin <= LIMITS.verdict_seconds
 
 
-def test_after_a_build_at_its_limit_there_is_still_a_second_opinion(
+def test_a_build_at_its_limit_leaves_time_for_a_second_run(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    first, second = doubtful(), doubtful()
+    first, second = run_with_missing_ticks(), run_with_missing_ticks()
     clock = Clock(monkeypatch, first, second)
-    opened, begin = begun(), clock.now
+    opened, begin = new_session(), clock.now
     clock.now += LIMITS.build_seconds
-    assert opened.run(unheard) is first
+    assert opened.run(ignore) is first
     assert clock.runs == 2
     assert clock.now - begin <= LIMITS.verdict_seconds
 
 
-def test_quick_faults_of_ours_are_still_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_quick_grader_faults_are_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(monkeypatch, ProbeError("it has ended"))
     clock.seconds = 1.0
     with pytest.raises(Unobserved, match="it has ended"):
-        begun().run(unheard)
+        new_session().run(ignore)
     assert clock.runs == 3
 
 
-def test_without_time_for_a_run_none_is_begun(monkeypatch: pytest.MonkeyPatch) -> None:
-    clock = Clock(monkeypatch, doubtful())
-    opened = begun()
+def test_no_run_starts_without_enough_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock(monkeypatch, run_with_missing_ticks())
+    opened = new_session()
     clock.now += LIMITS.verdict_seconds - 1
     with pytest.raises(Unobserved, match="no time for a run"):
         opened.run(unheard)
@@ -135,13 +136,13 @@ ENDLESS = "trap '' INT TERM HUP; while :; do printf .; sleep 0.05; done"
 
 @pytest.mark.prefix
 @pytest.mark.parametrize(("overlay", "met"), [(ENDLESS, "wall time"), ("exit 0", "")])
-def test_a_node_that_outruns_its_limits_beside_a_silent_probe_has_met_one(
+def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
     make_sandbox: Callable[[Limits], Sandbox],
     monkeypatch: pytest.MonkeyPatch,
     overlay: str,
     met: str,
 ) -> None:
-    """(One that has ended has not: that the probe is silent is our fault then.)"""
+    """If the node has ended, the silent probe is our fault."""
     silent = "import time; print('{}', flush=True); time.sleep(100)"
     limits = Limits().override({"run_seconds": 0.5, "start_seconds": 0.5, "stop_seconds": 0.2})
     with make_sandbox(limits) as opened:
@@ -153,13 +154,13 @@ def test_a_node_that_outruns_its_limits_beside_a_silent_probe_has_met_one(
         link = ProbeLink(opened)
         link.ready()
         begin = time.monotonic()
-        until = begin + 12  # of which an end has ten
+        until = begin + 12  # of which ending the node may take ten
         if met:
-            run = observe(opened, ASSIGNMENT, link, unheard, until=until)
+            run = observe(opened, ASSIGNMENT, link, ignore, until=until)
             assert (run.resource, run.started) == (met, False)
         else:
             with pytest.raises(ProbeError, match="no answer"):
-                observe(opened, ASSIGNMENT, link, unheard, until=until)
+                observe(opened, ASSIGNMENT, link, ignore, until=until)
         assert time.monotonic() - begin < 12
         link.close()
 
@@ -168,7 +169,7 @@ SETUP = "install/local_setup.bash"
 
 
 @pytest.mark.prefix
-def test_a_deaf_node_that_prints_dots_has_its_verdict_at_once(tmp_path: Path) -> None:
+def test_a_node_that_ignores_signals_and_prints_dots_has_a_quick_verdict(tmp_path: Path) -> None:
     package = next(package for package in HOSTILE if package.name == "deaf_and_prints_dots")
     begin = time.monotonic()
     found = mark(write(package, tmp_path))

@@ -1,4 +1,4 @@
-"""A checkout is the same on every machine: Git for Windows asks for CRLF and makes no links."""
+"""A checkout is the same on every machine: Git for Windows uses CRLF and makes no links."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import stage
+from tests import processes
 
 LIKE_WINDOWS = ("-c", "core.autocrlf=true", "-c", "core.eol=crlf", "-c", "core.symlinks=false")
 LIKE_LINUX = ("-c", "core.autocrlf=false", "-c", "core.symlinks=true")
@@ -19,20 +19,20 @@ def git(*words: str | Path, cwd: Path) -> bytes:
 
 @pytest.fixture(scope="module")
 def windows_clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A clone of what is committed here, as Git for Windows makes it."""
+    """A clone of this repository, as Git for Windows makes it."""
     clone = tmp_path_factory.mktemp("windows") / "clone"
-    git(*LIKE_WINDOWS, "clone", "--quiet", stage.ROOT, clone, cwd=stage.ROOT)
+    git(*LIKE_WINDOWS, "clone", "--quiet", processes.ROOT, clone, cwd=processes.ROOT)
     return clone
 
 
 def blobs(checkout: Path) -> dict[str, str]:
-    """Return the object of every file that is committed, by its path."""
+    """Return the Git object of every committed file by its path."""
     rows = git("ls-tree", "-r", "-z", "HEAD", cwd=checkout).decode().split("\0")
     return {row.partition("\t")[2]: row.split()[2] for row in rows if row}
 
 
-def test_every_file_is_byte_for_byte_what_was_committed(windows_clone: Path) -> None:
-    """So shell scripts, Dockerfiles and sources keep LF, and what has CRLF on purpose keeps that."""
+def test_every_file_has_the_committed_bytes(windows_clone: Path) -> None:
+    """Shell scripts, Dockerfiles and sources keep LF; files with intentional CRLF keep it."""
     committed = blobs(windows_clone)
     assert {"docker/Dockerfile", "docker/apt_install.sh", "lab/shell/bashrc"} <= committed.keys()
     listing = "\n".join(committed).encode()
@@ -49,12 +49,12 @@ def test_every_file_is_byte_for_byte_what_was_committed(windows_clone: Path) -> 
 
 @pytest.mark.parametrize("settings", [LIKE_WINDOWS, LIKE_LINUX], ids=["windows", "linux"])
 def test_git_sees_no_change_in_it(settings: tuple[str, ...], windows_clone: Path) -> None:
-    """Neither the Git that made it nor the one of WSL or of a container, on the same files."""
-    git("read-tree", "HEAD", cwd=windows_clone)  # it forgets which files it has looked at
+    """Neither the Git that made it nor that of WSL or of a container on the same files."""
+    git("read-tree", "HEAD", cwd=windows_clone)  # forgets which files are known to be unchanged
     assert git(*settings, "status", "--porcelain", cwd=windows_clone) == b""
 
 
 def test_nothing_needs_a_link(windows_clone: Path) -> None:
-    """Without links Git writes a text file with the target's name: a program would not run."""
+    """Without links Git writes a text file with the target's name, so a program would not run."""
     modes = git("ls-files", "--stage", cwd=windows_clone).decode().splitlines()
     assert [row for row in modes if row.startswith("120000")] == []

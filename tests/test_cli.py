@@ -1,4 +1,4 @@
-"""The contract of the `grader` command: exit statuses, messages, and what it leaves behind."""
+"""The contract of the `grader` command: exit statuses, messages, files and processes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 
 import grader
 from grader.validate.tree import Write
-from tests import stage
+from tests import processes
 from tests.corpus.build import write
 from tests.corpus.model import Package
 
@@ -26,21 +26,21 @@ def solution(folder: Path) -> Path:
 
 
 def waiting(folder: Path, mark: str) -> Path:
-    """A package whose setup.py starts a marked program and waits for it."""
+    """Write a package whose setup.py starts a program with `mark` and waits for it."""
     code = f"import subprocess\nsubprocess.run({mark.split()!r})\n"
     return write(Package(name="waiting", edits=(Write("setup.py", code),)), folder)
 
 
 def test_help_names_the_commands_and_exit_statuses() -> None:
-    done = stage.run(stage.grader("--help"))
+    done = processes.run(processes.grader("--help"))
     assert done.returncode == 0
     for word in ("grade", "check", "prefix", "130"):
         assert word in done.stdout
-    assert stage.run(stage.grader("grade", "--help")).returncode == 0
+    assert processes.run(processes.grader("grade", "--help")).returncode == 0
 
 
 def test_version() -> None:
-    assert grader.__version__ in stage.run(stage.grader("--version")).stdout
+    assert grader.__version__ in processes.run(processes.grader("--version")).stdout
 
 
 @pytest.mark.parametrize(
@@ -59,19 +59,21 @@ def test_version() -> None:
         (["grade", ".", "--limit", "memory=-1"], "above 0"),
     ],
 )
-def test_wrong_usage_is_2_with_a_message_and_no_traceback(words: list[str], said: str) -> None:
-    done = stage.run(stage.grader(*words))
+def test_a_usage_error_has_status_2_with_a_message_and_no_traceback(
+    words: list[str], said: str
+) -> None:
+    done = processes.run(processes.grader(*words))
     assert done.returncode == 2
     assert said in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
 
 
-def test_no_sandbox_is_3_and_says_what_to_install(tmp_path: Path) -> None:
+def test_a_missing_sandbox_has_status_3_and_says_what_to_install(tmp_path: Path) -> None:
     for program in ("sh", "env"):
         (tmp_path / program).symlink_to(f"/bin/{program}")
-    done = stage.run(
-        stage.grader("grade", solution(tmp_path), "--out", tmp_path / "out"),
+    done = processes.run(
+        processes.grader("grade", solution(tmp_path), "--out", tmp_path / "out"),
         env={"PATH": str(tmp_path)},
     )
     assert done.returncode == 3
@@ -79,15 +81,17 @@ def test_no_sandbox_is_3_and_says_what_to_install(tmp_path: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
-def test_a_distro_that_cannot_be_had_here_is_3(tmp_path: Path) -> None:
-    done = stage.run(stage.grader("grade", solution(tmp_path), "--distro", "rolling"))
+def test_an_unavailable_distro_has_status_3(tmp_path: Path) -> None:
+    done = processes.run(processes.grader("grade", solution(tmp_path), "--distro", "rolling"))
     assert done.returncode == 3
     assert "no ROS wheels for rolling" in done.stderr
 
 
-def test_the_report_is_written_where_it_was_asked_for(tmp_path: Path) -> None:
+def test_the_report_is_written_to_the_given_folder(tmp_path: Path) -> None:
     package = solution(tmp_path)
-    done = stage.run(stage.grader("grade", package, "--name", "Ann Lee", "--out", tmp_path / "o"))
+    done = processes.run(
+        processes.grader("grade", package, "--name", "Ann Lee", "--out", tmp_path / "o")
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     files = list((tmp_path / "o").rglob("report.json"))
     assert len(files) == 1
@@ -103,45 +107,47 @@ def test_a_signal_ends_everything(tmp_path: Path, number: signal.Signals, status
     mark = f"sleep 93{secrets.randbelow(10**6)}"
     package = waiting(tmp_path, mark)
     process = subprocess.Popen(
-        stage.grader("grade", package, "--out", tmp_path / "o"),
-        cwd=stage.ROOT,
+        processes.grader("grade", package, "--out", tmp_path / "o"),
+        cwd=processes.ROOT,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )
     assert process.stderr is not None
-    for line in process.stderr:  # a stage a line, as nobody looks at a terminal
+    for line in process.stderr:  # one line for each stage, because it is not a terminal
         if "colcon" in line:
             break
     process.send_signal(number)
     _, said = process.communicate(timeout=30)
     assert process.returncode == status
     assert "Traceback" not in said
-    assert stage.alive(mark) == []
+    assert processes.alive(mark) == []
     assert not list((tmp_path / "o").rglob("report.json"))
 
 
-def test_a_closed_pipe_is_no_traceback(tmp_path: Path) -> None:
+def test_a_closed_pipe_gives_no_traceback(tmp_path: Path) -> None:
     package = solution(tmp_path)
-    command = " ".join(f"'{word}'" for word in stage.grader("grade", package, "--out", tmp_path))
-    done = stage.run(["sh", "-c", f"{command} | true"])
+    command = " ".join(
+        f"'{word}'" for word in processes.grader("grade", package, "--out", tmp_path)
+    )
+    done = processes.run(["sh", "-c", f"{command} | true"])
     assert "Traceback" not in done.stderr
 
 
 def test_a_self_check_shows_the_verdict_and_writes_no_report(tmp_path: Path) -> None:
     package = solution(tmp_path)
-    done = stage.run(stage.grader("check", package), cwd=tmp_path)
+    done = processes.run(processes.grader("check", package), cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "100" in done.stdout
     assert "hidden" in done.stdout
     assert sorted(p.name for p in tmp_path.iterdir()) == ["solution"]
 
 
-def test_a_self_check_looks_into_the_workspace_in_the_home_folder(tmp_path: Path) -> None:
+def test_a_self_check_finds_the_workspace_in_the_home_folder(tmp_path: Path) -> None:
     package = solution(tmp_path / "ros2_ws" / "src")
     package.rename(package.with_name("my_robot_controller"))
-    done = stage.run(
-        stage.grader("check"), env={"HOME": str(tmp_path), "GRADER_CACHE": str(_cache())}
+    done = processes.run(
+        processes.grader("check"), env={"HOME": str(tmp_path), "GRADER_CACHE": str(_cache())}
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert str(tmp_path / "ros2_ws") in done.stderr
@@ -156,17 +162,17 @@ def test_a_self_check_runs_without_a_sandbox_and_says_so(tmp_path: Path) -> None
             if tool.name != "bwrap" and not (tools / tool.name).is_symlink():
                 (tools / tool.name).symlink_to(tool)
     path = {"PATH": str(tools)}
-    refused = stage.run(stage.grader("grade", package, "--out", tmp_path / "o"), env=path)
+    refused = processes.run(processes.grader("grade", package, "--out", tmp_path / "o"), env=path)
     assert refused.returncode == 3
-    done = stage.run(stage.grader("check", package), env=path)
+    done = processes.run(processes.grader("check", package), env=path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "No sandbox was used" in done.stderr
 
 
 def test_two_distros_give_a_matrix(tmp_path: Path) -> None:
     package = solution(tmp_path)
-    done = stage.run(
-        stage.grader("grade", package, "--distro", "jazzy,kilted", "--out", tmp_path / "o")
+    done = processes.run(
+        processes.grader("grade", package, "--distro", "jazzy,kilted", "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     written = {p.name for p in (tmp_path / "o").rglob("*.json")}
@@ -175,9 +181,9 @@ def test_two_distros_give_a_matrix(tmp_path: Path) -> None:
     assert "kilted" in done.stdout
 
 
-def test_start_up_imports_nothing_that_a_help_text_does_not_need() -> None:
+def test_start_up_imports_only_what_a_help_text_needs() -> None:
     code = "import sys, grader.cli.main; print([m for m in ('pydantic', 'rich', 'yaml', 'pexpect') "
-    done = stage.run([sys.executable, "-c", code + "if m in sys.modules])"])
+    done = processes.run([sys.executable, "-c", code + "if m in sys.modules])"])
     assert done.stdout.strip() == "[]"
 
 
@@ -187,9 +193,9 @@ def _cache() -> Path:
     return cache_root()
 
 
-def test_environment_is_not_needed_to_be_a_terminal(tmp_path: Path) -> None:
-    done = stage.run(
-        stage.grader("grade", solution(tmp_path), "--out", tmp_path / "o"),
+def test_the_command_works_with_an_empty_term_variable(tmp_path: Path) -> None:
+    done = processes.run(
+        processes.grader("grade", solution(tmp_path), "--out", tmp_path / "o"),
         env={"TERM": "", "COLUMNS": "40", "LANG": "C", "NO_COLOR": "1"},
     )
     assert done.returncode == 0, done.stderr

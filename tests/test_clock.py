@@ -1,4 +1,4 @@
-"""Virtual time with a terminal that is slower than the network, as a container's is."""
+"""Virtual time with a terminal that is slower than the network, as in a container."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ OUTPUT = load_assignment(COURSE).output
 
 @dataclass
 class SlowConsole(Console):
-    """A terminal on which what was written shows at the second look, or to one who waits."""
+    """A terminal whose output arrives at the second read, or after a wait."""
 
     pieces: list[bytes] = field(default_factory=list)
     shown: bytes = b""
-    looks: int = 0  # since the last piece
+    looks: int = 0  # since the last output
 
     def wait(self, seconds: float) -> bool:
         self.looks += bool(self.pieces)
@@ -48,7 +48,7 @@ class SlowConsole(Console):
 
 
 class Node(ProbeLink):
-    """A node that counts on /clock, as its probe sees it, with prints around each log line."""
+    """A node that counts on /clock, as seen by its probe, with prints around each log line."""
 
     def __init__(self, console: SlowConsole, *, before: str, after: str) -> None:
         self._console = console
@@ -74,7 +74,7 @@ class Node(ProbeLink):
     [("Hello time: {n}\r\n", ""), ("", "Hello time: {n}\r\n"), ("counting\r\n", "counted\r\n")],
     ids=["printed before", "printed after", "both"],
 )
-def test_what_the_terminal_shows_late_belongs_to_its_own_tick(before: str, after: str) -> None:
+def test_late_terminal_output_belongs_to_its_own_tick(before: str, after: str) -> None:
     console = SlowConsole()
     node = Node(console, before=before, after=after)
     observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
@@ -84,7 +84,7 @@ def test_what_the_terminal_shows_late_belongs_to_its_own_tick(before: str, after
     assert {(e.n, e.due) for e in watch.counted} == {(k, k) for k in range(OUTPUT.ticks)}
 
 
-def test_a_logger_that_is_not_shown_is_waited_for_once_only() -> None:
+def test_a_logger_that_is_not_shown_is_waited_for_only_once() -> None:
     console = SlowConsole()
     node = Node(console, before="", after="")
     observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)

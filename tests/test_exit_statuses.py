@@ -1,4 +1,4 @@
-"""An exit status of the student's own code stays theirs, also one that tells of a missing program."""
+"""Exit statuses of the student's code count for the student, even 126 and 127."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if 'develop' in sys.argv and '--help' not in sys.argv:
 {code}
     os._exit({status})  # colcon ends with this status then
 """
-# what would have the programs of ROS fail for the grader as well, if it asked where this code was
+# makes the programs of ROS fail for the grader as well, if they read files that this code wrote
 SPOIL = """
 home = os.path.expanduser('~')
 python = f'python{sys.version_info[0]}.{sys.version_info[1]}'
@@ -41,7 +41,7 @@ UNREADY = "#!/usr/bin/env python3\nimport os\n\n\ndef main():\n    os._exit({sta
 
 
 def installing(status: int, code: str = "") -> Replace:
-    """Return the edit that has setup.py run this code and end while colcon installs the package."""
+    """Return the edit that makes setup.py run this code and exit when colcon installs it."""
     return Replace(
         SETUP, IMPORT, IMPORT + INSTALLING.format(code=indent(code, "    "), status=status)
     )
@@ -66,7 +66,7 @@ def test_a_status_of_setup_py_is_the_students(status: int, tmp_path: Path) -> No
 
 
 @pytest.mark.prefix
-def test_a_setup_py_that_spoils_what_it_can_write_gains_nothing(tmp_path: Path) -> None:
+def test_a_setup_py_that_writes_files_everywhere_gains_nothing(tmp_path: Path) -> None:
     report = mark(write(package(installing(127, SPOIL)), tmp_path))
     found = next(check for check in report.checks if check.id == "build.colcon")
     assert found.status == "failed", summary(report)

@@ -1,4 +1,4 @@
-"""What a student's commands say of themselves, and of wrong words, in the reader's language."""
+"""Help and usage errors of the students' commands in the reader's language."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 
 from grader.cli.localized import language_of, translated_help
 from grader.cli.main import commands
-from tests import stage
+from tests import processes
 
 KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""}
 ENGLISH = {**KOREAN, "LANG": "C.UTF-8"}
@@ -27,23 +27,23 @@ HELPS = [
 ]
 
 
-def said(*words: str, env: dict[str, str]) -> tuple[int, str]:
-    done = stage.run([sys.executable, "-m", *words], env=env)
+def run(*words: str, env: dict[str, str]) -> tuple[int, str]:
+    done = processes.run([sys.executable, "-m", *words], env=env)
     return done.returncode, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, ...]) -> None:
-    status, english = said(*words, "--help", env=ENGLISH)
+    status, english = run(*words, "--help", env=ENGLISH)
     assert status == 0
     assert not HANGUL.search(english)
-    status, korean = said(*words, "--help", env=KOREAN)
+    status, korean = run(*words, "--help", env=KOREAN)
     assert status == 0
     assert not PROSE.search(korean), korean
     options = re.compile(r"^ +(-\S.*?)(?:  |$)", re.MULTILINE)
     assert options.findall(korean) == options.findall(english)
-    assert said(*words, "--lang", "ko", "--help", env=ENGLISH) == (0, korean)
-    assert said(*words, "--lang=en", "--help", env=KOREAN) == (0, english)
+    assert run(*words, "--lang", "ko", "--help", env=ENGLISH) == (0, korean)
+    assert run(*words, "--lang=en", "--help", env=KOREAN) == (0, english)
 
 
 @pytest.mark.parametrize(
@@ -57,8 +57,10 @@ def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, .
     ],
     ids=lambda value: value if isinstance(value, str) else " ".join(value),
 )
-def test_wrong_words_are_told_in_the_readers_language(words: tuple[str, ...], wrong: str) -> None:
-    status, told = said("grader", *words, env=KOREAN)
+def test_usage_errors_are_reported_in_the_readers_language(
+    words: tuple[str, ...], wrong: str
+) -> None:
+    status, told = run("grader", *words, env=KOREAN)
     assert status == 2
     last = told.splitlines()[-1]
     assert wrong in last
@@ -73,11 +75,11 @@ def test_wrong_words_are_told_in_the_readers_language(words: tuple[str, ...], wr
         (("check", "--lang=ko", "x"), "ko"),
         (("check", "--lang", "fr"), "en"),
         (("check", "--lang"), "en"),
-        (("lab", "--", "--lang", "ko"), "en"),  # the command's, in the lab
+        (("lab", "--", "--lang", "ko"), "en"),  # `check` is a command of its own in the lab
         ((), "en"),
     ],
 )
-def test_the_language_of_a_command_line(
+def test_the_language_is_read_from_the_command_line(
     words: tuple[str, ...], wanted: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in ENGLISH.items():
@@ -85,7 +87,7 @@ def test_the_language_of_a_command_line(
     assert language_of(words) == wanted
 
 
-def test_it_speaks_as_long_as_it_lasts() -> None:
+def test_the_language_lasts_as_long_as_the_block() -> None:
     def state() -> tuple[str, str | None, str, str | None]:
         help_text = commands.commands["check"].help
         usage = click.Context(commands).get_usage()

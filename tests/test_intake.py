@@ -1,4 +1,4 @@
-"""Intake of real trees: what is left out, within which bounds, and what is said about it."""
+"""Intake of real folders: left out files, limits and notes."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from .handed_in import NODE, NODE_PATH, PACKAGE, make, notes, paths, take, write
+from .small_package import NODE, NODE_PATH, PACKAGE, make, notes, paths, take, write
 
 
-def test_links_that_lead_out_are_left_out_and_inner_ones_kept(tmp_path: Path) -> None:
+def test_links_to_the_outside_are_left_out_and_inner_ones_kept(tmp_path: Path) -> None:
     secret = tmp_path / "secret.txt"
     secret.write_text("the key")
     root = make(tmp_path / "given" / "pkg")
@@ -54,7 +54,7 @@ def test_links_that_lead_out_are_left_out_and_inner_ones_kept(tmp_path: Path) ->
         assert found.file(name) is None
 
 
-def test_what_is_neither_file_nor_folder_is_never_opened(tmp_path: Path) -> None:
+def test_special_files_are_never_opened(tmp_path: Path) -> None:
     root = make(tmp_path / "p")
     os.mkfifo(root / "fifo")
     os.mkfifo(root / PACKAGE / "node.py")
@@ -76,7 +76,7 @@ def test_a_fifo_in_place_of_the_manifest_does_not_block(tmp_path: Path) -> None:
     assert found.file("package.xml") is None
 
 
-def test_what_colcon_and_other_tools_have_made_is_left_out(tmp_path: Path) -> None:
+def test_files_made_by_colcon_and_other_tools_are_left_out(tmp_path: Path) -> None:
     ws = tmp_path / "ws"
     root = make(ws / "src" / PACKAGE)
     for base in (ws, root):
@@ -101,7 +101,7 @@ def test_a_students_own_module_called_log_or_build_is_not_lost(tmp_path: Path) -
     assert not found.notes
 
 
-def test_hostile_names_are_left_out_and_shown_harmlessly(tmp_path: Path) -> None:
+def test_hostile_names_are_left_out_and_shown_escaped(tmp_path: Path) -> None:
     root = make(tmp_path / "p")
     for name in (b"\xff\xfe.py", b"a\nb.py", b"\x1b[2J.py", "a\u2028b".encode(), b"x\x7fy"):
         (Path(os.fsdecode(os.fsencode(root) + b"/" + name))).write_text("x")
@@ -115,7 +115,7 @@ def test_hostile_names_are_left_out_and_shown_harmlessly(tmp_path: Path) -> None
     text.encode()
 
 
-def test_a_package_in_a_folder_of_a_hostile_name_is_not_taken(tmp_path: Path) -> None:
+def test_a_package_in_a_folder_with_a_hostile_name_is_not_used(tmp_path: Path) -> None:
     make(Path(os.fsdecode(os.fsencode(tmp_path) + b"/given/p\xff")))
     assert take(tmp_path / "given").problem_mistake == "package.empty"
     inside = take(Path(os.fsdecode(os.fsencode(tmp_path) + b"/given/p\xff")))
@@ -136,7 +136,7 @@ def test_a_tree_that_is_too_deep_is_cut(tmp_path: Path) -> None:
     assert "folders deep" in notes(found)
 
 
-def test_ten_thousand_files_in_the_package_are_too_many_and_beside_it_no_matter(
+def test_ten_thousand_files_are_too_many_only_inside_the_package(
     tmp_path: Path,
 ) -> None:
     root = make(tmp_path / "given/src" / PACKAGE)
@@ -155,7 +155,7 @@ def test_ten_thousand_files_in_the_package_are_too_many_and_beside_it_no_matter(
     assert time.monotonic() - begin < 5
 
 
-def test_one_folder_of_very_many_names_is_cut(tmp_path: Path) -> None:
+def test_a_folder_with_too_many_names_is_cut(tmp_path: Path) -> None:
     make(tmp_path / "given/z")
     (tmp_path / "given/data").mkdir()
     for n in range(6_000):
@@ -165,7 +165,7 @@ def test_one_folder_of_very_many_names_is_cut(tmp_path: Path) -> None:
     assert "first 5000 names" in notes(found)
 
 
-def test_a_large_file_has_no_data_and_a_reason(tmp_path: Path) -> None:
+def test_a_large_file_has_a_reason_instead_of_data(tmp_path: Path) -> None:
     root = make(tmp_path / "p")
     with (root / "bag.db3").open("wb") as file:
         file.truncate(3_000_000_000)
@@ -178,7 +178,7 @@ def test_a_large_file_has_no_data_and_a_reason(tmp_path: Path) -> None:
     assert "bag.db3" in notes(found)
 
 
-def test_a_package_of_very_many_bytes_is_too_large(tmp_path: Path) -> None:
+def test_a_package_with_too_many_bytes_is_too_large(tmp_path: Path) -> None:
     root = make(tmp_path / "p")
     (root / "0").write_bytes(b"x" * 4_900_000)
     for n in range(1, 12):
@@ -206,7 +206,7 @@ def test_links_that_multiply_take_bounded_time(tmp_path: Path) -> None:
     assert time.monotonic() - begin < 5
 
 
-def test_a_file_that_cannot_be_read_is_kept_with_the_reason(
+def test_an_unreadable_file_is_kept_with_the_reason(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root = make(tmp_path / "p")
@@ -225,9 +225,7 @@ def test_a_file_that_cannot_be_read_is_kept_with_the_reason(
     assert "Permission denied" in notes(take(root))
 
 
-def test_a_folder_that_cannot_be_read_is_noted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_unreadable_folder_is_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = make(tmp_path / "p")
     really = os.scandir
 

@@ -1,4 +1,4 @@
-"""What intake knows of a submission: its hash, its name, its exec bits."""
+"""What intake finds out about a submission: hash, name, exec bits."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import pytest
 from grader.package.intake.modes import git_ignores_modes, git_modes, keeps_modes
 from grader.package.intake.naming import sanitise, submission_name
 
-from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take
+from .small_package import NODE, NODE_PATH, PACKAGE, make, paths, take
 
 
-def test_the_hash_follows_content_and_exec_bit_and_not_place_or_time(tmp_path: Path) -> None:
+def test_the_hash_depends_on_content_and_exec_bit_only(tmp_path: Path) -> None:
     first = take(make(tmp_path / "a"))
     second = make(tmp_path / "b/c/d")
     assert take(tmp_path / "b").sha256 == first.sha256
@@ -49,7 +49,7 @@ def test_the_hash_follows_content_and_exec_bit_and_not_place_or_time(tmp_path: P
         ("/x/Jane Doe (2)", "Jane_Doe_2_"),
     ],
 )
-def test_the_name_is_the_folders_or_that_of_the_first_parent_that_says_more(
+def test_the_name_is_that_of_the_folder_or_of_the_nearest_specific_parent(
     path: str, name: str
 ) -> None:
     assert submission_name(Path(path), PACKAGE) == name
@@ -74,7 +74,7 @@ def test_the_name_is_the_folders_or_that_of_the_first_parent_that_says_more(
         ("$(reboot); rm -rf /", "_reboot_rm_-rf_"),
     ],
 )
-def test_a_name_is_made_fit_for_a_file(given: str, name: str) -> None:
+def test_a_name_is_made_a_valid_file_name(given: str, name: str) -> None:
     assert sanitise(given) == name
 
 
@@ -86,7 +86,7 @@ def test_a_given_name_is_sanitised(tmp_path: Path) -> None:
     assert take(make(tmp_path / "p"), name="../Jane").name == "_Jane"
 
 
-def test_file_systems_without_modes_are_known_by_the_mount_that_is_nearest(tmp_path: Path) -> None:
+def test_file_systems_without_modes_are_detected_by_the_nearest_mount(tmp_path: Path) -> None:
     mounts = tmp_path / "mountinfo"
     mounts.write_text(
         "1 0 8:1 / / rw shared:1 - ext4 /dev/a rw\n"
@@ -122,7 +122,7 @@ def git(folder: Path, *words: str) -> None:
 
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
-    """A checkout with the exec bit in its index and none in its files."""
+    """A checkout with the exec bit in its index but not on its files."""
     root = tmp_path / "clone"
     make(root / "src" / PACKAGE)
     git(root, "init", "-q")
@@ -131,7 +131,7 @@ def checkout(tmp_path: Path) -> Path:
     return root
 
 
-def test_a_checkout_is_known_as_one(checkout: Path) -> None:
+def test_a_checkout_is_recognised(checkout: Path) -> None:
     found = take(checkout)
     assert (found.origin, found.modes) == ("git", "recorded")
     node = found.file(NODE_PATH)
@@ -140,7 +140,7 @@ def test_a_checkout_is_known_as_one(checkout: Path) -> None:
     assert not any(".git" in path for path in paths(found))
 
 
-def test_where_git_ignores_exec_bits_its_index_tells_them(checkout: Path) -> None:
+def test_if_git_ignores_exec_bits_they_come_from_its_index(checkout: Path) -> None:
     git(checkout, "config", "core.fileMode", "false")
     found = take(checkout)
     node = found.file(NODE_PATH)
@@ -169,7 +169,7 @@ def test_the_index_is_read_as_git_wrote_it(checkout: Path) -> None:
     assert len(modes) == 5
     git(checkout, "add", "--intent-to-add", "--all")
     (checkout / "later.py").touch()
-    git(checkout, "add", "--intent-to-add", "later.py")  # an extended flag: version 3
+    git(checkout, "add", "--intent-to-add", "later.py")  # an extended flag requires version 3
     assert struct.unpack(">I", (checkout / ".git/index").read_bytes()[4:8]) == (3,)
     assert len(git_modes(checkout)) == 6
 
@@ -187,13 +187,13 @@ def test_the_index_is_read_as_git_wrote_it(checkout: Path) -> None:
         ("[core]\n\tfilemode = false\n[other]\n\tfilemode = true\n", True),
     ],
 )
-def test_gits_configuration_is_read_as_text(tmp_path: Path, text: str, ignored: bool) -> None:
+def test_the_git_configuration_is_read_as_text(tmp_path: Path, text: str, ignored: bool) -> None:
     (tmp_path / ".git").mkdir()
     (tmp_path / ".git/config").write_text(text)
     assert git_ignores_modes(tmp_path) is ignored
 
 
-def test_a_repository_whose_configuration_would_run_a_program_runs_none(checkout: Path) -> None:
+def test_a_program_in_a_repositorys_configuration_is_not_run(checkout: Path) -> None:
     mark = checkout / "ran"
     config = f"[core]\n\tfileMode = false\n\tfsmonitor = touch {mark}\n\tpager = touch {mark}\n"
     (checkout / ".git/config").write_text(config)
@@ -201,7 +201,7 @@ def test_a_repository_whose_configuration_would_run_a_program_runs_none(checkout
     assert not mark.exists()
 
 
-def test_the_submission_is_left_as_it_was(tmp_path: Path) -> None:
+def test_the_submission_is_not_changed(tmp_path: Path) -> None:
     root = make(tmp_path / "p")
     before = sorted((str(p), p.stat().st_mtime_ns) for p in root.rglob("*"))
     take(root)
@@ -209,7 +209,7 @@ def test_the_submission_is_left_as_it_was(tmp_path: Path) -> None:
     shutil.rmtree(root)
 
 
-def test_where_the_nodes_file_lies_outside_the_package_is_told(tmp_path: Path) -> None:
+def test_a_node_file_outside_the_package_is_located(tmp_path: Path) -> None:
     root = make(tmp_path / "ws/src" / PACKAGE)
     (root / NODE_PATH).rename(tmp_path / "ws/src" / NODE)
     assert take(tmp_path / "ws").node_files == (f"src/{NODE}",)

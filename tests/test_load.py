@@ -1,4 +1,4 @@
-"""A verdict does not depend on how busy the machine is."""
+"""A verdict does not depend on the load of the machine."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TIMES = 30
 
 @pytest.fixture
 def busy_cores() -> Iterator[None]:
-    """Keep every core busy with other work until the test is done."""
+    """Keep every core busy with other work during the test."""
     work = [
         subprocess.Popen([sys.executable, "-c", "while True: pass"])
         for _ in range(os.cpu_count() or 1)

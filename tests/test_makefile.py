@@ -1,4 +1,4 @@
-"""The front door: `make` gives help, and its variables are data, never shell or make code."""
+"""The Makefile: `make` prints help, and variables are data, never shell or make code."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from grader.validate.tree import Replace
-from tests import stage, weather
+from tests import processes, weather
 from tests.test_cli import solution
 
 HOSTILE = [
@@ -35,8 +35,8 @@ HOSTILE = [
 ]
 
 
-def make(*words: str, cwd: Path = stage.ROOT) -> tuple[int, str, str]:
-    done = stage.run(["make", "--no-print-directory", *words], cwd=cwd)
+def make(*words: str, cwd: Path = processes.ROOT) -> tuple[int, str, str]:
+    done = processes.run(["make", "--no-print-directory", *words], cwd=cwd)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -55,15 +55,15 @@ def test_grade_without_a_student_says_how() -> None:
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_name_is_data(name: str, tmp_path: Path) -> None:
-    """make, the shell and the grader all get it as it is: the path that is missed is this one."""
+def test_a_hostile_name_is_passed_as_data(name: str, tmp_path: Path) -> None:
+    """make, the shell and the grader all get it unchanged: the missing path is this one."""
     missing = tmp_path / name
     status, out, err = make("grade", f"STUDENT={missing}", "OUT=HACKED")
     assert status == 2
     assert str(missing).split("\n")[0] in err.replace("\\n", "\n")
     assert "Traceback" not in err
     assert out == ""
-    assert not (stage.ROOT / "HACKED").exists()
+    assert not (processes.ROOT / "HACKED").exists()
     assert not (tmp_path / "HACKED").exists()
 
 
@@ -71,7 +71,7 @@ def test_a_hostile_name_is_data(name: str, tmp_path: Path) -> None:
     "variable",
     ["ASSIGNMENT", "DISTRO", "SANDBOX", "PACKAGE", "NAME", "GRADER_COURSE", "GRADER_ASSIGNMENT"],
 )
-def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None:
+def test_every_other_variable_is_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     target = "check" if variable == "PACKAGE" else "grade"
     status, _, _ = make(target, f"STUDENT={tmp_path}/none", f"{variable}={hostile}")
@@ -80,7 +80,7 @@ def test_every_other_variable_is_data_too(variable: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("variable", ["KEYS", "ASSIGNMENT", "SANDBOX"])
-def test_the_variables_of_an_assignments_own_test_are_data(variable: str, tmp_path: Path) -> None:
+def test_the_variables_of_make_validate_are_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     status, _, said = make("validate", f"{variable}={hostile}")
     assert status == 2
@@ -88,7 +88,7 @@ def test_the_variables_of_an_assignments_own_test_are_data(variable: str, tmp_pa
     assert not (tmp_path / "HACKED").exists()
 
 
-def test_another_courses_lesson_is_taken_through_make(tmp_path: Path) -> None:
+def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     package = weather.write_package(tmp_path, Replace(weather.SETUP, weather.ENTRY, ""))
     words = ("fix", f"PACKAGE={package}", f"GRADER_COURSE={course}")
@@ -99,7 +99,7 @@ def test_another_courses_lesson_is_taken_through_make(tmp_path: Path) -> None:
     assert weather.ENTRY in shown
 
 
-def test_a_package_is_fixed_through_make(tmp_path: Path) -> None:
+def test_a_package_can_be_fixed_through_make(tmp_path: Path) -> None:
     package = solution(tmp_path)
     (package / "setup.cfg").unlink()
     status, shown, _ = make("fix", f"PACKAGE={package}")
@@ -117,7 +117,7 @@ def test_a_package_is_fixed_through_make(tmp_path: Path) -> None:
         *("GRADE_COLUMN", "FEEDBACK_COLUMN", "ACCEPT"),
     ],
 )
-def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> None:
+def test_the_variables_of_a_class_are_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     words = {"SUBMISSIONS": f"{tmp_path}/none", "OUT": f"{tmp_path}/out", variable: hostile}
     status, _, said = make("grade-all", *(f"{name}={value}" for name, value in words.items()))
@@ -127,13 +127,13 @@ def test_the_variables_of_a_class_are_data(variable: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("words", [("LC_ALL=", "LANG=ko_KR.UTF-8"), ("GRADER_LANG=ko",)])
-def test_the_language_is_a_variable_too(words: tuple[str, ...], tmp_path: Path) -> None:
+def test_the_language_is_a_variable(words: tuple[str, ...], tmp_path: Path) -> None:
     status, _, said = make("grade", f"STUDENT={tmp_path / 'missing'}", *words)
     assert status == 2
     assert "폴더가 없습니다" in said
 
 
-def test_the_columns_of_a_class_and_what_is_accepted_reach_the_command(tmp_path: Path) -> None:
+def test_the_column_and_accept_variables_reach_the_command(tmp_path: Path) -> None:
     (tmp_path / "sheet.csv").write_text("Identifier,Punkte,Text\nParticipant 1,,\n")
     words = [f"SUBMISSIONS={tmp_path}", f"OUT={tmp_path / 'out'}"]
     sheet = [*words, f"WORKSHEET={tmp_path / 'sheet.csv'}"]
@@ -154,7 +154,7 @@ def test_grade_all_without_a_class_says_how() -> None:
 
 
 @pytest.mark.prefix
-def test_a_class_is_marked_through_make(tmp_path: Path) -> None:
+def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
     solution(tmp_path / "the class")
     folder, out = tmp_path / "the class", tmp_path / "out put"
     status, said, err = make(
@@ -169,8 +169,8 @@ def test_a_class_is_marked_through_make(tmp_path: Path) -> None:
     assert "Marked again: 1, 1 of them with the same result." in said
 
 
-def test_a_variable_of_the_environment_works_as_well(tmp_path: Path) -> None:
-    done = stage.run(["make", "grade"], env={"STUDENT": f"{tmp_path}/$(touch HACKED)"})
+def test_an_environment_variable_works(tmp_path: Path) -> None:
+    done = processes.run(["make", "grade"], env={"STUDENT": f"{tmp_path}/$(touch HACKED)"})
     assert done.returncode == 2
     assert "$(touch HACKED)" in done.stderr
 
@@ -182,14 +182,14 @@ def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
     assert status == 0, err
     assert "100" in out
     assert len(list((tmp_path / "out put").rglob("report.json"))) == 1
-    assert not (stage.ROOT / "HACKED").exists()
+    assert not (processes.ROOT / "HACKED").exists()
 
 
 def copy_checkout(folder: Path) -> Path:
-    """Copy of this checkout what marking needs, without what was made in it."""
+    """Copy the files of this checkout that marking needs, without generated ones."""
     folder.mkdir(parents=True)
     for name in ("Makefile", "grader", "lab", "tests"):
-        source = stage.ROOT / name
+        source = processes.ROOT / name
         if source.is_dir():
             shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
         else:
@@ -197,8 +197,8 @@ def copy_checkout(folder: Path) -> Path:
     return folder
 
 
-def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path) -> None:
-    """A set-up that was killed half-way has no stamp, and is not taken for a whole one."""
+def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
+    """A set-up that was killed half-way has no stamp, so it does not count as complete."""
     checkout = copy_checkout(tmp_path / "checkout")
     half = checkout / ".venv" / "bin"
     half.mkdir(parents=True)
@@ -214,13 +214,13 @@ def test_the_environment_is_made_again_when_half_of_it_is_missing(tmp_path: Path
         assert "setting up" not in err
 
 
-def test_a_path_that_no_environment_can_have_is_told(tmp_path: Path) -> None:
-    """venv refuses a colon, since PATH is a list with colons between its folders."""
+def test_a_path_that_venv_refuses_is_reported(tmp_path: Path) -> None:
+    """venv refuses a colon, because PATH separates folders with colons."""
     folder = tmp_path / "a:b"
     for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(stage.ROOT / name, folder / name)
-    done = stage.run([sys.executable, folder / "grader/bootstrap.py"])
+        shutil.copy(processes.ROOT / name, folder / name)
+    done = processes.run([sys.executable, folder / "grader/bootstrap.py"])
     assert done.returncode == 3
     assert done.stderr.splitlines() == [
         f"The path of this checkout contains a ':', which Python environments do not allow: {folder}",
@@ -231,19 +231,21 @@ def test_a_path_that_no_environment_can_have_is_told(tmp_path: Path) -> None:
 
 @pytest.mark.full  # it makes an environment and a prefix
 @pytest.mark.prefix
-def test_a_bare_machine_marks_in_a_checkout_whose_path_no_shebang_can_name(tmp_path: Path) -> None:
+def test_a_bare_machine_can_mark_in_a_checkout_with_a_path_too_long_for_a_shebang(
+    tmp_path: Path,
+) -> None:
     place = tmp_path / f"some path ü {'l' * 130}"
     checkout = copy_checkout(place / "checkout")
     environment = {"GRADER_CACHE": "", "XDG_CACHE_HOME": str(place / "cache")}
     command = ["make", "--no-print-directory", "grade", "SANDBOX=bubblewrap"]
     command += [f"STUDENT={solution(place)}", f"OUT={place / 'out'}"]
-    first = stage.run(command, cwd=checkout, env=environment, timeout=600)
+    first = processes.run(command, cwd=checkout, env=environment, timeout=600)
     assert first.returncode == 0, first.stdout + first.stderr
     assert "100 / 100" in first.stdout
     assert "setting up the grader's Python environment" in first.stderr
     (prefix,) = (place / "cache" / "ros2_teaching_lab" / "prefixes").glob("jazzy-*")
     assert "is ready in" in first.stderr
-    # nothing in it needs the checkout that made it
+    # nothing in it depends on the checkout that made it
     shutil.rmtree(checkout / ".venv")
     programs = [path for path in (prefix / "bin").iterdir() if path.is_file()]
     assert [path.name for path in programs if b".venv" in path.read_bytes()] == []

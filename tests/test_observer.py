@@ -1,4 +1,4 @@
-"""What is taken for the count, and which lines are judged, however the pieces of a run arrive."""
+"""Which lines of a run are the count and which are judged, however the output is split."""
 
 from __future__ import annotations
 
@@ -33,30 +33,30 @@ def run_of(*events: Event, ended: bool) -> Evidence:
     return Evidence(assignment, submission, build=lambda: BUILT, run=lambda: run)
 
 
-def test_a_traceback_that_arrives_in_pieces_is_no_count() -> None:
+def test_a_traceback_in_pieces_is_not_the_count() -> None:
     pieces = ["Traceback (most recent call last):", '  File "a.py", line 1', "ValueError: no"]
     watch = Watch(clock="virtual", events=[event(text, due=at) for at, text in enumerate(pieces)])
     assert watch.counted == []
 
 
-def test_wrong_lines_before_a_traceback_are_still_the_count() -> None:
+def test_wrong_lines_before_a_traceback_count() -> None:
     wrong = [event("Hello Time: 0", due=0), event("Hello Time: 1", due=1)]
     crash = [event("Traceback (most recent call last):", due=2), event("ValueError: no", due=3)]
     assert Watch(clock="virtual", events=wrong + crash).counted == wrong
 
 
-def test_a_record_lost_with_its_node_is_not_called_a_forgery() -> None:
+def test_a_record_lost_with_its_node_is_not_a_forgery() -> None:
     last = event("Hello time: 2", due=2, source="faked", n=2)
     assert logger.function(run_of(last, ended=True)) is not None
 
 
-def test_a_forged_record_of_a_node_that_runs_on_is_one() -> None:
+def test_a_forged_record_of_a_running_node_is_a_forgery() -> None:
     with pytest.raises(Failed) as failed:
         logger.function(run_of(event("Hello time: 2", due=2, source="faked", n=2), ended=False))
     assert failed.value.mistake
 
 
-def test_a_forgery_long_before_the_end_is_one_all_the_same() -> None:
+def test_a_forgery_long_before_the_end_is_detected() -> None:
     lines = [event(f"Hello time: {n}", due=n, source="faked", n=n) for n in (0, 5)]
     with pytest.raises(Failed):
         logger.function(run_of(*lines, ended=True))

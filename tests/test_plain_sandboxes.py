@@ -1,4 +1,4 @@
-"""`account` and `none`: what they promise without namespaces, and what they refuse."""
+"""`account` and `none`: their guarantees without namespaces, and their refusals."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
 from grader.sandbox.plain import NoSandbox
+from tests import processes
 from tests import sandbox_contract as contract
-from tests import stage
 from tests.test_cli import solution
 
 ACCOUNT = """
@@ -50,8 +50,8 @@ print(json.dumps(out))
 @pytest.mark.full  # needs root, which `make test` does not
 def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> None:
     mark = f"sleep 95{secrets.randbelow(10**6)}"
-    command = stage.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
-    done = stage.run(command, env={"SECRET_TOKEN": "abc"})
+    command = processes.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
+    done = processes.run(command, env={"SECRET_TOKEN": "abc"})
     assert done.returncode == 0, done.stderr
     said = json.loads(done.stdout)
     student, probe = said["uids"]
@@ -64,7 +64,7 @@ def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> No
     assert said["ros"].strip() == "rclpy"
     assert "SECRET_TOKEN" not in said["env"]
     assert "all" not in said["bomb"].split() or "unavailable" in said["bomb"]
-    assert stage.alive(mark) == []
+    assert processes.alive(mark) == []
     assert not Path(said["folder"]).exists()
 
 
@@ -90,9 +90,9 @@ for _ in range(2):
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_two_graders_with_accounts_do_not_need_each_others_link(ros_jazzy: Ros) -> None:
-    command = stage.as_root_of_a_container([sys.executable, "-c", TWO_ACCOUNTS])
-    done = stage.run(command)
+def test_two_graders_with_accounts_do_not_depend_on_each_others_link(ros_jazzy: Ros) -> None:
+    command = processes.as_root_of_a_container([sys.executable, "-c", TWO_ACCOUNTS])
+    done = processes.run(command)
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == ["True", "True"]
 
@@ -104,7 +104,7 @@ def test_account_needs_root(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> 
         open_sandbox("account", find_distro("jazzy"), Limits())
 
 
-def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
+def test_without_a_sandbox_every_process_still_ends(ros_jazzy: Ros) -> None:
     mark = f"sleep 94{secrets.randbelow(10**6)}"
     with NoSandbox(ros_jazzy, Limits()) as opened:
         # it says up when it has left the group, which ends with the command
@@ -112,12 +112,12 @@ def test_without_a_sandbox_everything_still_ends(ros_jazzy: Ros) -> None:
         outcome = opened.run(["bash", "-c", f"read < <({escaped}); pwd"], seconds=10)
         folder = Path(opened.workspace).parent.parent
         assert outcome.output.decode().strip() == opened.workspace
-        assert stage.alive(mark) != []
-    assert stage.alive(mark) == []
+        assert processes.alive(mark) != []
+    assert processes.alive(mark) == []
     assert not folder.exists()
 
 
-def test_without_a_sandbox_the_environment_is_still_a_list(
+def test_without_a_sandbox_the_environment_has_only_listed_variables(
     ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", "/own")
@@ -132,17 +132,19 @@ def test_without_a_sandbox_the_environment_is_still_a_list(
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("name", ["some path ü", "l" * 150, "it's $HOME `id`", 'a "b":c', "a\nb"])
-def test_no_sandbox_needs_a_tame_path(
+def test_without_a_sandbox_odd_paths_work(
     name: str, ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Neither of the prefix nor for temporary files: the student's own scripts name a short one."""
+    """Both the prefix and TMPDIR may be odd: the student's own scripts have a short path."""
     odd = tmp_path / name
     monkeypatch.setenv("GRADER_CACHE", str(odd / "cache"))
     prefix = prefix_path(find_distro("jazzy"))
     prefix.parent.mkdir(parents=True)
     prefix.symlink_to(ros_jazzy.path)
-    command = stage.grader("grade", solution(tmp_path), "--sandbox", "none", "--out", odd / "out")
-    done = stage.run(command, env={"TMPDIR": str(odd)})
+    command = processes.grader(
+        "grade", solution(tmp_path), "--sandbox", "none", "--out", odd / "out"
+    )
+    done = processes.run(command, env={"TMPDIR": str(odd)})
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 / 100" in done.stdout
 
@@ -150,9 +152,9 @@ def test_no_sandbox_needs_a_tame_path(
 @pytest.mark.parametrize(
     "holds",
     [
-        contract.test_dots_without_a_line_end_extend_no_wait,
-        contract.test_a_pipe_that_never_says_a_line_extends_no_wait,
-        contract.test_what_nobody_reads_on_stderr_stops_no_pipe,
+        contract.test_output_without_a_line_end_extends_no_wait,
+        contract.test_a_pipe_without_a_complete_line_extends_no_wait,
+        contract.test_unread_stderr_does_not_block_a_pipe,
     ],
 )
 def test_without_a_sandbox_no_output_extends_a_wait(
@@ -172,7 +174,9 @@ def test_auto_never_marks_without_a_sandbox(
     assert "apt-get install bubblewrap" in caught.value.remedy
 
 
-def test_own_code_may_run_without_one(ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_own_code_may_run_without_a_sandbox(
+    ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+) -> None:
     import shutil
 
     real = shutil.which

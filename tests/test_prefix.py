@@ -1,4 +1,4 @@
-"""The ROS prefix made of wheels: made once, whole or not at all, and with ROS's own environment."""
+"""The ROS prefix made of wheels: made once, completely or not at all, with ROS's environment."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from grader.base.errors import SurroundingsError, UsageError
 from grader.ros.distro import distros, find_distro
 from grader.ros.prefix import Ros, prefix_path
 from grader.sandbox.proof import proven_ros
-from tests import stage
+from tests import processes
 
 SETUP_VARIABLES = {
     "ROS_DISTRO": "jazzy",
@@ -52,7 +52,7 @@ def test_setup_bash_gives_the_environment_of_ros(jazzy_prefix: Path) -> None:
     assert Path(found["LD_LIBRARY_PATH"], "librcl.so").exists()
 
 
-def test_sourcing_twice_changes_nothing_more(jazzy_prefix: Path) -> None:
+def test_sourcing_twice_changes_nothing(jazzy_prefix: Path) -> None:
     once, twice = (environment(sourced(jazzy_prefix, "env", times=n)) for n in (1, 2))
     assert once.pop("_", "") == twice.pop("_", "")
     assert once == twice
@@ -70,7 +70,7 @@ def test_setup_bash_works_in_every_folder(name: str, jazzy_prefix: Path, tmp_pat
 
 
 def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_path: Path) -> None:
-    # the wheels' .pth marks the second start by a variable
+    # the wheels' .pth marks a second start with a variable
     code = (
         "import os, rclpy; rclpy.init(); print(rclpy.create_node('a').get_name(), "
         "'_ROS_WHEELS_BOOTSTRAP_COMPLETE' in os.environ)"
@@ -79,7 +79,7 @@ def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_p
     assert said.split() == ["a", "False"]
 
 
-def test_the_distros_own_versions_are_in_it(ros_jazzy: Ros, ros_kilted: Ros) -> None:
+def test_the_prefix_has_the_distros_versions(ros_jazzy: Ros, ros_kilted: Ros) -> None:
     for ros, rclpy in ((ros_jazzy, "7.1.6"), (ros_kilted, "9.1.2")):
         assert ros.versions["rclpy"] == rclpy == ros.distro.rclpy
         assert ros.versions["setuptools"] == ros.distro.setuptools
@@ -95,10 +95,10 @@ def test_colcon_and_ros2_are_on_the_path(jazzy_prefix: Path) -> None:
     assert "rclpy" in sourced(jazzy_prefix, "ros2 pkg list").split()
 
 
-def test_our_ros2_is_never_put_where_the_real_one_is(
+def test_our_ros2_is_never_installed_beside_the_real_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A system's own /opt/ros is taken as it is; nothing is written into it."""
+    """A system's /opt/ros is used unchanged; nothing is written into it."""
     from grader.ros import prefix
 
     system = tmp_path / "opt" / "ros" / "jazzy"
@@ -126,7 +126,7 @@ def test_a_lock_pins_every_package_with_a_hash() -> None:
 
 
 def test_a_distros_row_has_its_documentation_and_its_fast_dds_variable() -> None:
-    """(Fast DDS 3, from kilted on, fails if the older variable is set.)"""
+    """Fast DDS 3, from kilted on, fails if the older variable is set."""
     old = {name for name, row in distros().items() if row.dds_profile.startswith("FASTRTPS_")}
     assert old == {"humble", "jazzy"}
     for name, row in distros().items():
@@ -134,7 +134,7 @@ def test_a_distros_row_has_its_documentation_and_its_fast_dds_variable() -> None
         assert row.dds_profile.endswith("_DEFAULT_PROFILES_FILE")
 
 
-def test_a_distro_without_wheels_is_refused_with_what_to_do() -> None:
+def test_a_distro_without_wheels_is_refused_with_a_fix() -> None:
     with pytest.raises(SurroundingsError, match="no ROS wheels for humble"):
         prefix_path(find_distro("humble"))
 
@@ -145,7 +145,7 @@ def test_a_misspelt_distro_gets_a_suggestion() -> None:
     assert "did you mean 'jazzy'?" in caught.value.remedy
 
 
-def test_the_cache_is_where_it_was_asked_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_cache_is_in_the_requested_folder(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("GRADER_CACHE", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", "/somewhere")
     assert cache.cache_root() == Path("/somewhere/ros2_teaching_lab")
@@ -176,11 +176,11 @@ def maker(folder: Path) -> subprocess.Popen[str]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
     )
 
 
-def test_what_is_killed_half_way_is_not_there_and_is_made_anew(tmp_path: Path) -> None:
+def test_a_prefix_killed_half_way_does_not_exist_and_is_made_again(tmp_path: Path) -> None:
     folder = tmp_path / "prefixes" / "jazzy"
     with maker(folder) as first:
         assert first.stdout is not None
@@ -195,7 +195,7 @@ def test_what_is_killed_half_way_is_not_there_and_is_made_anew(tmp_path: Path) -
     assert list(folder.parent.glob(".jazzy.making-*")) == []
 
 
-def test_two_at_once_make_one(tmp_path: Path) -> None:
+def test_two_concurrent_makers_make_one_prefix(tmp_path: Path) -> None:
     folder = tmp_path / "prefixes" / "jazzy"
     with maker(folder) as first, maker(folder) as second:
         assert first.stdout is not None
@@ -208,7 +208,7 @@ def test_two_at_once_make_one(tmp_path: Path) -> None:
         assert waiting.communicate("\n")[0] == "found\n"
 
 
-def test_a_full_disk_is_told_with_what_to_do(tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_with_its_fix(tmp_path: Path) -> None:
     def full(staging: Path) -> None:
         raise OSError(28, "No space left on device", str(staging))
 
@@ -221,11 +221,16 @@ def test_a_full_disk_is_told_with_what_to_do(tmp_path: Path) -> None:
 
 @pytest.mark.full
 def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
-    """From the network, as on a bare machine: killed while it unpacks, then made by two at once."""
+    """From the network, as on a new machine: killed while unpacking, then made by two at once."""
     env = {**os.environ, "GRADER_CACHE": str(tmp_path), "PYTHONUNBUFFERED": "1"}
-    command = stage.grader("prefix", "--distro", "jazzy")
+    command = processes.grader("prefix", "--distro", "jazzy")
     with subprocess.Popen(
-        command, cwd=stage.ROOT, env=env, stderr=subprocess.PIPE, text=True, start_new_session=True
+        command,
+        cwd=processes.ROOT,
+        env=env,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
     ) as first:
         assert first.stderr is not None
         for line in first.stderr:
@@ -236,7 +241,7 @@ def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
     pair = [
         subprocess.Popen(
             command,
-            cwd=stage.ROOT,
+            cwd=processes.ROOT,
             env=env,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

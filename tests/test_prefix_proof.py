@@ -1,4 +1,4 @@
-"""A prefix is proven before it counts as made, and a broken one is made again."""
+"""A prefix is tested before it counts as made, and a broken one is made again."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from grader.sandbox import proof
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.proof import prove_again, prove_ros
-from tests import stage
+from tests import processes
 from tests.test_cli import solution
 
 JAZZY = find_distro("jazzy")
 
 
 def small_prefix(folder: Path, *, python: Path | None = None) -> Path:
-    """Put what a prefix must have at least into a folder: programs that say nothing and succeed."""
+    """Write a minimal prefix into a folder: programs that print nothing and succeed."""
     (folder / "bin").mkdir(parents=True)
     (folder / "bin" / "python3").symlink_to(python or base_interpreter())
     for name in ("colcon", "ros2"):
@@ -36,7 +36,7 @@ def small_prefix(folder: Path, *, python: Path | None = None) -> Path:
 
 
 class Maker:
-    """Makes small prefixes where pip would make real ones; the first `broken` fail their proof."""
+    """Makes small prefixes instead of pip's; the first `broken` ones fail their proof."""
 
     def __init__(self, broken: int = 0) -> None:
         self.broken = broken
@@ -49,7 +49,7 @@ class Maker:
         self.made.append(small_prefix(staging))
 
     def prove(self, ros: Ros) -> None:
-        assert not prefix.prefix_path(JAZZY).exists()  # it does not count before that
+        assert not prefix.prefix_path(JAZZY).exists()  # it does not count before its proof
         self.proven.append(ros.path)
         if len(self.made) <= self.broken:
             raise BrokenRosError("colcon does not run", remedy="Do this.")
@@ -80,14 +80,14 @@ def test_a_prefix_is_proven_once(maker: Callable[[int], Maker]) -> None:
     assert second.made == second.proven == []
 
 
-def test_one_that_fails_is_made_once_more(maker: Callable[[int], Maker]) -> None:
+def test_a_prefix_that_fails_its_proof_is_made_again(maker: Callable[[int], Maker]) -> None:
     made = maker(1)
     assert made.find().is_dir()
     assert len(made.made) == len(made.proven) == 2
     assert "colcon does not run\nmaking the prefix once more" in made.heard
 
 
-def test_one_that_fails_twice_is_told_and_never_kept(maker: Callable[[int], Maker]) -> None:
+def test_a_prefix_that_fails_twice_is_reported_and_not_kept(maker: Callable[[int], Maker]) -> None:
     made = maker(2)
     with pytest.raises(SurroundingsError) as caught:
         made.find()
@@ -100,7 +100,7 @@ def test_one_that_fails_twice_is_told_and_never_kept(maker: Callable[[int], Make
 
 @pytest.mark.parametrize("program", ["python3", "colcon", "ros2"])
 @pytest.mark.parametrize("how", ["removed", "closed", "points nowhere"])
-def test_one_whose_programs_have_gone_is_made_again(
+def test_a_prefix_with_missing_programs_is_made_again(
     program: str, how: str, maker: Callable[[int], Maker]
 ) -> None:
     path = maker(0).find() / "bin" / program
@@ -118,7 +118,7 @@ def test_one_whose_programs_have_gone_is_made_again(
     assert [p.name for p in folder.parent.iterdir() if "making" in p.name] == []
 
 
-def test_one_of_an_older_format_is_not_taken(
+def test_a_prefix_of_an_older_format_is_not_used(
     maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(prefix, "FORMAT", 1)
@@ -128,7 +128,7 @@ def test_one_of_an_older_format_is_not_taken(
     assert prefix.prefix_path(JAZZY).name != older.name
 
 
-def test_a_damaged_one_that_cannot_be_removed_is_told(
+def test_a_damaged_prefix_that_cannot_be_removed_is_reported(
     maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = maker(0).find()
@@ -144,14 +144,14 @@ def test_a_damaged_one_that_cannot_be_removed_is_told(
 
 @pytest.fixture(params=["bubblewrap", "none"])
 def surroundings(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
-    """What the proof is run in; `none` if bubblewrap does not open."""
+    """The sandbox in which the proof runs; `none` if bubblewrap does not open."""
     if request.param == "none":
         real = shutil.which
         monkeypatch.setattr("shutil.which", lambda name: None if name == "bwrap" else real(name))
     return str(request.param)
 
 
-def test_the_real_prefix_passes(ros_jazzy: Ros, surroundings: str) -> None:
+def test_the_real_prefix_passes_its_proof(ros_jazzy: Ros, surroundings: str) -> None:
     prove_ros(ros_jazzy)
 
 
@@ -164,7 +164,7 @@ def test_the_real_prefix_passes(ros_jazzy: Ros, surroundings: str) -> None:
         ("python3", "#!/bin/sh\necho No module named rclpy\nexit 1\n", "No module named rclpy"),
     ],
 )
-def test_a_prefix_with_a_program_that_fails_does_not(
+def test_a_prefix_with_a_failing_program_does_not_pass(
     program: str, text: str, said: str, tmp_path: Path, surroundings: str
 ) -> None:
     folder = small_prefix(tmp_path / "some 'path' $ü")
@@ -176,7 +176,7 @@ def test_a_prefix_with_a_program_that_fails_does_not(
     assert "GRADER_CACHE" in caught.value.remedy
 
 
-def test_a_ros_of_the_system_is_never_removed(tmp_path: Path) -> None:
+def test_a_system_ros_is_never_removed(tmp_path: Path) -> None:
     """ros-jazzy-ros-base has no colcon."""
     folder = small_prefix(tmp_path / "jazzy")
     (folder / "bin" / "colcon").unlink()
@@ -188,7 +188,7 @@ def test_a_ros_of_the_system_is_never_removed(tmp_path: Path) -> None:
     assert folder.is_dir()
 
 
-def test_a_proof_that_is_not_finished_removes_nothing(
+def test_an_unfinished_proof_removes_nothing(
     maker: Callable[[int], Maker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = maker(0).find()
@@ -205,8 +205,8 @@ def test_a_proof_that_is_not_finished_removes_nothing(
 def own_cache(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Callable[[str, str], Path]]:
-    """What puts a prefix into a cache of its own and replaces one of its programs there."""
-    # (the lab's is never touched: other graders use it)
+    """A function that copies the prefix to a separate cache and replaces a program there."""
+    # (the shared prefix is never touched, because other graders use it)
     monkeypatch.setenv("GRADER_CACHE", str(tmp_path / "cache"))
 
     def damaged(program: str, text: str) -> Path:
@@ -224,7 +224,7 @@ def own_cache(
 def _link(source: str, target: str) -> None:
     try:
         os.link(source, target, follow_symlinks=False)
-    except OSError:  # another disk
+    except OSError:  # the cache may be on another disk
         shutil.copy2(source, target, follow_symlinks=False)
 
 
@@ -232,7 +232,7 @@ def _link(source: str, target: str) -> None:
 @pytest.mark.parametrize(
     ("program", "text"),
     [
-        # what the grader itself left behind in a checkout whose path was long
+        # as made by an earlier version in a checkout with a long path
         ("colcon", "#!/bin/sh\n'''exec' \"/no/such/.venv/bin/python\" \"$0\" \"$@\"\n' '''\n"),
         ("colcon", "#!/no/such/python\n"),
         ("colcon", "#!/bin/sh\nexec python3 -c 'import no_such_colcon'\n"),
@@ -240,15 +240,15 @@ def _link(source: str, target: str) -> None:
         ("python3", "#!/bin/sh\nexit 126\n"),
     ],
 )
-def test_a_program_of_ours_that_does_not_run_is_nobodys_mistake(
+def test_a_broken_program_of_the_prefix_is_a_surroundings_error(
     program: str, text: str, own_cache: Callable[[str, str], Path], tmp_path: Path
 ) -> None:
     folder = own_cache(program, text)
-    command = stage.grader("grade", solution(tmp_path), "--sandbox", "bubblewrap")
-    done = stage.run([*command, "--out", tmp_path / "out"])
+    command = processes.grader("grade", solution(tmp_path), "--sandbox", "bubblewrap")
+    done = processes.run([*command, "--out", tmp_path / "out"])
     assert done.returncode == 3, done.stdout + done.stderr
     assert "a program of ROS jazzy does not run" in done.stderr
     assert "Run the command again to make a new one." in done.stderr
     assert "Traceback (most recent call last)" not in done.stdout
     assert list((tmp_path / "out").rglob("report.json")) == []
-    assert not folder.exists()  # so the next command makes it anew
+    assert not folder.exists()  # so the next command makes it again

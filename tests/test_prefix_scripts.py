@@ -1,4 +1,4 @@
-"""The programs of a prefix run wherever it is, whatever pip wrote: pip writes them here for real."""
+"""The programs of a prefix run wherever it is; in these tests the real pip writes them."""
 
 from __future__ import annotations
 
@@ -50,13 +50,13 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with zipfile.ZipFile(path, "w") as archive:
         for name, text in WHEEL.items():
             entry = zipfile.ZipInfo(name)
-            entry.external_attr = 0o100755 << 16  # pip keeps the mode of a script
+            entry.external_attr = 0o100755 << 16  # pip keeps a script's mode
             archive.writestr(entry, text)
     return path
 
 
 def environment(folder: Path) -> Path:
-    """Return the Python of a virtual environment: these two files are one (PEP 405)."""
+    """Return the Python of a virtual environment, made of two files (PEP 405)."""
     python = folder / "bin" / "python"
     python.parent.mkdir(parents=True)
     python.symlink_to(base_interpreter())
@@ -64,7 +64,7 @@ def environment(folder: Path) -> Path:
     return python
 
 
-def said(command: list[str | Path], *, path: str = "", **variables: str) -> str:
+def output_of(command: list[str | Path], *, path: str = "", **variables: str) -> str:
     done = subprocess.run(
         command,
         env={"PATH": f"{path}:/usr/bin:/bin", "LANG": "C.UTF-8", **variables},
@@ -77,18 +77,20 @@ def said(command: list[str | Path], *, path: str = "", **variables: str) -> str:
 
 
 def installed(folder: Path, wheel: Path) -> tuple[Path, Path]:
-    """Install the wheel as the prefix' wheels are; return the prefix and the Python that did it."""
+    """Install the wheel like those of a prefix; return the prefix and the Python used."""
     python = environment(folder / ".venv")
     words = ["--quiet", "--no-index", "--no-deps", "--no-warn-script-location", "--prefix"]
     ours = sysconfig.get_path("purelib")
-    said([python, "-m", "pip", "install", *words, folder / "prefix", wheel], PYTHONPATH=ours)
+    output_of([python, "-m", "pip", "install", *words, folder / "prefix", wheel], PYTHONPATH=ours)
     return folder / "prefix", python
 
 
 @pytest.mark.parametrize("name", FOLDERS, ids=range(len(FOLDERS)))
-def test_what_pip_wrote_runs_wherever_the_prefix_is(name: str, tmp_path: Path, wheel: Path) -> None:
+def test_programs_written_by_pip_run_wherever_the_prefix_is(
+    name: str, tmp_path: Path, wheel: Path
+) -> None:
     made, python = installed(tmp_path / name, wheel)
-    # an interpreter whose own path no `#!` line can name
+    # an interpreter whose path does not fit into a `#!` line
     other = tmp_path / "my pythons" / "python3"
     other.parent.mkdir()
     other.symlink_to(base_interpreter())
@@ -108,14 +110,14 @@ def test_what_pip_wrote_runs_wherever_the_prefix_is(name: str, tmp_path: Path, w
     for program in PROGRAMS:
         script = prefix / "bin" / program
         wanted = f"{[str(prefix / 'bin' / 'python3'), str(script), *words]}\n"
-        assert said([script, *words], PYTHONPATH=packages) == wanted
+        assert output_of([script, *words], PYTHONPATH=packages) == wanted
     by_name = ["sh", "-c", f'exec {script.name} "$@"', "sh"]
-    for start in (by_name, ["python3", script]):  # (it stays a Python program)
-        assert said([*start, *words], path=str(script.parent), PYTHONPATH=packages) == wanted
+    for start in (by_name, ["python3", script]):  # (it is still a Python program)
+        assert output_of([*start, *words], path=str(script.parent), PYTHONPATH=packages) == wanted
 
 
 def test_pip_writes_more_than_one_form(tmp_path: Path, wheel: Path) -> None:
-    """Else the test above would prove little."""
+    """Otherwise the test above would prove little."""
     short, long = (
         (installed(tmp_path / name, wheel)[0] / "bin" / "tiny").read_text()
         for name in ("s", "l" * 150)
@@ -125,10 +127,10 @@ def test_pip_writes_more_than_one_form(tmp_path: Path, wheel: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["s", "some path", "some path ü", "l" * 150])
-def test_what_setuptools_writes_is_known(name: str, tmp_path: Path) -> None:
+def test_the_header_that_setuptools_writes_is_recognised(name: str, tmp_path: Path) -> None:
     python = environment(tmp_path / name)
     ours = sysconfig.get_path("purelib")
-    header = said([python, "-c", HEADER_OF_SETUPTOOLS], PYTHONPATH=ours)
+    header = output_of([python, "-c", HEADER_OF_SETUPTOOLS], PYTHONPATH=ours)
     assert str(python) in header
     script = os.fsencode(header + SCRIPT)
     for installer in (str(python), "/another/python"):
@@ -143,7 +145,7 @@ def test_what_setuptools_writes_is_known(name: str, tmp_path: Path) -> None:
         (b"#! /usr/bin/python\n", True),
         (b"#!python\n", True),
         (HEADER, True),
-        # uv's, which finds its Python in the same way
+        # uv's header, which finds its Python in the same way
         (
             b'#!/bin/sh\n\'\'\'exec\' "$(dirname -- "$(realpath -- "$0")")"/\'python\' "$0" "$@"\n'
             b"' '''\n",

@@ -1,4 +1,4 @@
-"""The project is itself an ament_python package: colcon builds it and its command works."""
+"""The project itself is an ament_python package: colcon builds it and its command works."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import grader
-from tests import stage
+from tests import processes
 
 
 @pytest.fixture(scope="module")
@@ -20,12 +20,12 @@ def overlay(jazzy_prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Pat
     workspace = tmp_path_factory.mktemp("ros2_ws")
     project = workspace / "src" / "ros2_teaching_lab"
     tracked = subprocess.run(
-        ["git", "ls-files", "-z"], cwd=stage.ROOT, capture_output=True, text=True, check=True
+        ["git", "ls-files", "-z"], cwd=processes.ROOT, capture_output=True, text=True, check=True
     )
     for name in filter(None, tracked.stdout.split("\0")):
-        if (stage.ROOT / name).is_file():
+        if (processes.ROOT / name).is_file():
             (project / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(stage.ROOT / name, project / name)
+            shutil.copy(processes.ROOT / name, project / name)
     said = bash(jazzy_prefix, workspace, f"'{sys.executable}' -m colcon build 2>&1")
     assert "Summary: 1 package finished" in said, said
     return workspace
@@ -41,9 +41,7 @@ def bash(prefix: Path, workspace: Path, script: str) -> str:
     return done.stdout + done.stderr
 
 
-def test_its_command_runs_under_the_python_that_colcon_ran_with(
-    overlay: Path, jazzy_prefix: Path
-) -> None:
+def test_the_command_runs_under_the_python_of_colcon(overlay: Path, jazzy_prefix: Path) -> None:
     script = overlay / "install/ros2_teaching_lab/lib/ros2_teaching_lab/grader"
     assert script.read_text().splitlines()[0] == f"#!{sys.executable}"
     said = bash(
@@ -52,11 +50,11 @@ def test_its_command_runs_under_the_python_that_colcon_ran_with(
     assert grader.__version__ in said
 
 
-def test_what_it_needs_at_run_time_is_installed_with_it(overlay: Path, jazzy_prefix: Path) -> None:
-    """The installed copy, not this checkout, marks the solution: data files and all."""
+def test_run_time_data_files_are_installed(overlay: Path, jazzy_prefix: Path) -> None:
+    """The installed copy, not this checkout, marks the solution, including its data files."""
     share = overlay / "install/ros2_teaching_lab/share/ros2_teaching_lab"
     assert (share / "course/hello_time/assignment.yaml").is_file()
-    solution = stage.ROOT / "grader/keys/hello_time/solution/my_robot_controller"
+    solution = processes.ROOT / "grader/keys/hello_time/solution/my_robot_controller"
     said = bash(
         jazzy_prefix,
         overlay,
@@ -67,43 +65,43 @@ def test_what_it_needs_at_run_time_is_installed_with_it(overlay: Path, jazzy_pre
     assert "100 / 100" in said
 
 
-def test_the_keys_are_not_among_what_a_student_gets() -> None:
-    names = [p.relative_to(stage.ROOT / "lab") for p in (stage.ROOT / "lab").rglob("*")]
+def test_a_student_does_not_get_the_keys() -> None:
+    names = [p.relative_to(processes.ROOT / "lab") for p in (processes.ROOT / "lab").rglob("*")]
     assert not [name for name in names if "solution" in name.parts or "hidden.yaml" in name.parts]
 
 
 def test_the_readme_names_only_targets_that_exist() -> None:
-    makefile = (stage.ROOT / "Makefile").read_text()
+    makefile = (processes.ROOT / "Makefile").read_text()
     targets = set(re.findall(r"^([a-z-]+):", makefile, re.MULTILINE))
-    named = set(re.findall(r"`?make ([a-z-]+)", (stage.ROOT / "README.md").read_text()))
+    named = set(re.findall(r"`?make ([a-z-]+)", (processes.ROOT / "README.md").read_text()))
     assert named - {"turns"} <= targets
 
 
 def test_the_readme_links_to_files_that_exist() -> None:
-    links = re.findall(r"\]\(([^)#]+)\)", (stage.ROOT / "README.md").read_text())
+    links = re.findall(r"\]\(([^)#]+)\)", (processes.ROOT / "README.md").read_text())
     assert links
     for link in links:
-        assert (stage.ROOT / link).exists(), link
+        assert (processes.ROOT / link).exists(), link
 
 
 def test_the_versions_agree() -> None:
-    manifest = (stage.ROOT / "package.xml").read_text()
-    setup = (stage.ROOT / "setup.py").read_text()
+    manifest = (processes.ROOT / "package.xml").read_text()
+    setup = (processes.ROOT / "setup.py").read_text()
     assert f"<version>{grader.__version__}</version>" in manifest
     assert f'version="{grader.__version__}"' in setup
 
 
 def test_grader_never_imports_lab() -> None:
-    for source in (stage.ROOT / "grader").rglob("*.py"):
+    for source in (processes.ROOT / "grader").rglob("*.py"):
         assert not re.search(r"^\s*(from|import) lab\b", source.read_text(), re.MULTILINE), source
 
 
-def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Path) -> None:
-    recipe = (stage.ROOT / "docker/wheels.Dockerfile").read_text().replace("\\\n", " ")
+def test_the_wheels_image_has_all_modules_that_make_a_prefix(tmp_path: Path) -> None:
+    recipe = (processes.ROOT / "docker/wheels.Dockerfile").read_text().replace("\\\n", " ")
     for line in re.findall(r"^COPY (grader/.*)$", recipe, re.MULTILINE):
         *sources, folder = line.split()
         into = tmp_path / folder
-        for source in (stage.ROOT / name for name in sources):
+        for source in (processes.ROOT / name for name in sources):
             if source.is_dir():
                 shutil.copytree(source, into)
             else:
@@ -113,13 +111,13 @@ def test_the_wheels_base_is_given_all_that_making_a_prefix_imports(tmp_path: Pat
         "from grader.ros import distro, prefix; print(prefix.__file__, distro.find_distro('jazzy'))"
     )
     command = [sys.executable, "-c", code]
-    done = stage.run(command, cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)})
+    done = processes.run(command, cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)})
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith(str(tmp_path))
 
 
-def test_nothing_is_printed_past_the_gate() -> None:
-    """(See grader.base.gate: what is printed with styles has a console that is a gate, too.)"""
+def test_all_printing_goes_through_the_gate() -> None:
+    """See grader.base.gate; styled output uses a console that is a gate as well."""
     ways = (
         "rich.console import Console",
         "sys.__std",
@@ -133,9 +131,9 @@ def test_nothing_is_printed_past_the_gate() -> None:
         "lab/supervisor.py",
     }  # two translate to a program
     found = {
-        path.relative_to(stage.ROOT).as_posix()
+        path.relative_to(processes.ROOT).as_posix()
         for folder in ("grader", "lab")
-        for path in (stage.ROOT / folder).rglob("*.py")
+        for path in (processes.ROOT / folder).rglob("*.py")
         if any(way in path.read_text(encoding="utf-8") for way in ways)
     }
     assert found <= own

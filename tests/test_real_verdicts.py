@@ -13,7 +13,7 @@ import pytest
 from grader.base.cache import cache_root
 from grader.report.model import Report
 from grader.sandbox.processes import adopt_orphans
-from tests import stage
+from tests import processes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
@@ -56,13 +56,13 @@ def test_a_broken_package_fails_where_and_why_it_must(package: Package, tmp_path
 )
 def test_a_hostile_package_harms_nothing(package: Package, tmp_path: Path) -> None:
     adopt_orphans()
-    before = set(stage.descendants())
+    before = set(processes.descendants())
     begin = time.monotonic()
     report = mark(write(package, tmp_path))
     assert time.monotonic() - begin < PATIENCE
     assert_verdict(package, report)
     assert len(report.model_dump_json()) < 1_000_000
-    left = {pid: line for pid, line in stage.descendants().items() if pid not in before}
+    left = {pid: line for pid, line in processes.descendants().items() if pid not in before}
     assert left == {}
 
 
@@ -113,8 +113,8 @@ def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -
 def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -> None:
     package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
     root = write(package, tmp_path)
-    command = stage.grader("grade", root, "--sandbox", "account", "--out", tmp_path / "out")
-    done = stage.run(stage.as_root_of_a_container(command))
+    command = processes.grader("grade", root, "--sandbox", "account", "--out", tmp_path / "out")
+    done = processes.run(processes.as_root_of_a_container(command))
     assert done.returncode == (0 if package in RIGHT else 1), done.stdout + done.stderr
     (written,) = (tmp_path / "out").rglob("report.json")
     report = Report.model_validate(json.loads(written.read_text()))
@@ -127,8 +127,8 @@ def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -
 
 def test_an_ordinary_user_gets_the_same_verdict(open_folder: Path) -> None:
     root = write(RIGHT[0], open_folder)
-    done = stage.run(
-        stage.as_user(stage.grader("grade", root, "--out", open_folder / "reports")),
+    done = processes.run(
+        processes.as_user(processes.grader("grade", root, "--out", open_folder / "reports")),
         env={"HOME": str(open_folder), "GRADER_CACHE": str(cache_root())},
     )
     assert done.returncode == 0, done.stdout + done.stderr

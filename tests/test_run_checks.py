@@ -1,4 +1,4 @@
-"""The checks of a run, before runs that were put together: what each says of what it sees."""
+"""The run checks on constructed runs."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def on_time(walls: Sequence[float]) -> Run:
 
 
 def ended(transcript: str, status: int) -> Run:
-    """Return a run that Ctrl+C has ended."""
+    """Return a run that ended by Ctrl+C."""
     return Run(
         "ros2 run",
         started=True,
@@ -70,7 +70,7 @@ def ended(transcript: str, status: int) -> Run:
     )
 
 
-def test_one_line_much_too_late_is_a_wrong_period(bench: Bench) -> None:
+def test_a_single_very_late_line_is_a_wrong_period(bench: Bench) -> None:
     seen = Watch(clock="virtual", dues=[1.0], missing=[0])
     seen.events.append(line(0, virtual=10.0, wall=1.0, due=None))
     with pytest.raises(Failed) as caught:
@@ -80,7 +80,7 @@ def test_one_line_much_too_late_is_a_wrong_period(bench: Bench) -> None:
     assert "10.00 s" in caught.value.actual
 
 
-def test_one_line_on_time_and_no_more_is_left_to_the_output(bench: Bench) -> None:
+def test_a_single_line_on_time_is_left_to_the_output_check(bench: Bench) -> None:
     run = on_time([0.1])
     run.watch.dues.append(2.0)
     run.watch.missing.append(1)
@@ -90,7 +90,7 @@ def test_one_line_on_time_and_no_more_is_left_to_the_output(bench: Bench) -> Non
     assert caught.value.by == "run.output"
 
 
-def test_a_callback_that_sleeps_for_longer_than_the_period_is_late(bench: Bench) -> None:
+def test_a_callback_that_sleeps_longer_than_the_period_is_late(bench: Bench) -> None:
     source = RIGHT.replace(STEP, f"{STEP}\n        time.sleep(3)")
     with pytest.raises(Failed) as caught:
         ask(period, bench, on_time([0.1, 3.1, 6.2, 9.2]), source)
@@ -105,7 +105,7 @@ def test_a_callback_that_sleeps_for_longer_than_the_period_is_late(bench: Bench)
         (RIGHT.replace(STEP, f"{STEP}\n        later(lambda: time.sleep(3))"), [0.1, 0.2, 0.3]),
     ],
 )
-def test_a_slow_machine_makes_nobody_late(bench: Bench, source: str, walls: list[float]) -> None:
+def test_a_slow_machine_makes_no_node_late(bench: Bench, source: str, walls: list[float]) -> None:
     assert ask(period, bench, on_time(walls), source) is not None
 
 
@@ -114,7 +114,7 @@ def test_a_slow_machine_makes_nobody_late(bench: Bench, source: str, walls: list
     ["NameError: name 'KeyboardInterupt' is not defined. Did you mean: 'KeyboardInterrupt'?",
      "AttributeError: 'MyFirstNode' object has no attribute 'destroy'"],
 )  # fmt: skip
-def test_a_handler_of_ctrl_c_that_fails_is_an_error_at_the_stop(bench: Bench, error: str) -> None:
+def test_a_failing_ctrl_c_handler_is_an_error_at_the_stop(bench: Bench, error: str) -> None:
     with pytest.raises(Failed) as caught:
         ask(interrupt, bench, ended(HANDLER.format(line=26, error=error), status=1))
     assert caught.value.mistake.id == "run.error_at_stop"
@@ -131,5 +131,5 @@ def test_a_handler_of_ctrl_c_that_fails_is_an_error_at_the_stop(bench: Bench, er
         PLAIN + "Exception ignored in: <function x>\nAttributeError: 'NoneType' object\n",
     ],
 )
-def test_the_traceback_of_ctrl_c_itself_is_no_error(bench: Bench, transcript: str) -> None:
+def test_the_traceback_of_ctrl_c_itself_is_not_an_error(bench: Bench, transcript: str) -> None:
     assert ask(interrupt, bench, ended(transcript, status=1)) is not None

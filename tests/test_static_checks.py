@@ -1,4 +1,4 @@
-"""The static checks of the package: each way to be wrong, and what it is told."""
+"""The static checks of the package: each mistake and its report."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_a_right_package_passes_without_advice(bench: Bench) -> None:
     assert not passed.advice
 
 
-def test_the_checks_have_the_ids_and_the_dependency_of_the_design() -> None:
+def test_the_checks_have_the_documented_ids_and_dependencies() -> None:
     assert [check.id for check in STATIC] == [use.id for use in ASSIGNMENT.checks][:7]
     assert not package.found.depends
     assert all(check.depends == ("package.found",) for check in STATIC[1:])
@@ -45,7 +45,7 @@ def test_the_checks_have_the_ids_and_the_dependency_of_the_design() -> None:
 # package.found
 
 
-def test_where_there_is_no_package_the_problem_is_told(tmp_path: Path) -> None:
+def test_a_missing_package_is_reported_with_the_problem(tmp_path: Path) -> None:
     bench = Bench(tmp_path / "jane")
     for path in FILES:
         (bench.root / path).unlink()
@@ -81,7 +81,7 @@ def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
         ("<?xml-model", "<!DOCTYPE package>\n<?xml-model", "manifest_doctype", 2, "document type"),
     ],
 )
-def test_a_wrong_manifest_is_told_with_its_line(
+def test_a_wrong_manifest_is_reported_with_its_line(
     bench: Bench, old: str, new: str, wanted: str, at: int | None, words: str
 ) -> None:
     bench.change("package.xml", old, new)
@@ -94,7 +94,7 @@ def test_a_wrong_manifest_is_told_with_its_line(
         assert line(failed) == at
 
 
-def test_a_manifest_that_is_missing_or_empty_or_no_text_is_told(bench: Bench) -> None:
+def test_a_missing_empty_or_binary_manifest_is_reported(bench: Bench) -> None:
     for content, wanted in [
         (b"", "package.broken_xml"),
         (b"PK\x03\x04\0\0", "package.broken_xml"),
@@ -122,21 +122,21 @@ def test_entities_are_refused_before_they_are_expanded(bench: Bench) -> None:
         assert "root:" not in failed.actual
 
 
-def test_setup_pys_name_must_be_the_manifests(bench: Bench) -> None:
+def test_the_name_in_setup_py_must_match_the_manifest(bench: Bench) -> None:
     bench.change("setup.py", "package_name = 'my_robot_controller'", "package_name = 'robot'")
     failed = bench.fails(package.manifest)
     assert (mistake(failed), line(failed)) == ("package.name_mismatch", 3)
     assert failed.mistakes[0].params == {"name": "robot", "file": "setup.py"}
 
 
-def test_a_setup_py_that_cannot_be_parsed_leaves_the_manifest_alone(bench: Bench) -> None:
+def test_an_unparsable_setup_py_does_not_fail_the_manifest(bench: Bench) -> None:
     bench.change("setup.py", "setup(\n", "setup((\n")
     bench.passes(package.manifest)
     bench.passes(package.marker)
     assert bench.maps() is None
 
 
-def test_dependencies_are_advice_only(bench: Bench) -> None:
+def test_missing_dependencies_are_only_advice(bench: Bench) -> None:
     bench.change("package.xml", "  <depend>rclpy</depend>\n", "  <depend>std_msg</depend>\n")
     first, second = bench.passes(package.manifest).advice
     assert "<depend>rclpy</depend>" in first
@@ -148,7 +148,7 @@ def test_dependencies_are_advice_only(bench: Bench) -> None:
 # package.marker
 
 
-def test_a_missing_marker_is_told(bench: Bench) -> None:
+def test_a_missing_marker_is_reported(bench: Bench) -> None:
     (bench.root / MARKER).rename(bench.root / "resource/my_robot_controler")
     failed = bench.fails(package.marker)
     assert mistake(failed) == "package.marker_missing"
@@ -159,13 +159,13 @@ def test_a_missing_marker_is_told(bench: Bench) -> None:
     assert "is a folder" in bench.fails(package.marker).actual
 
 
-def test_a_marker_that_setup_py_does_not_install_is_told(bench: Bench) -> None:
+def test_a_marker_that_setup_py_does_not_install_is_reported(bench: Bench) -> None:
     bench.change("setup.py", "            ['resource/' + package_name]),", "            []),")
     failed = bench.fails(package.marker)
     assert (mistake(failed), line(failed)) == ("package.marker_not_installed", 9)
 
 
-def test_a_marker_of_another_name_is_told(bench: Bench) -> None:
+def test_a_marker_with_another_name_is_reported(bench: Bench) -> None:
     bench.change("setup.py", "'resource/' + package_name", "'resource/robot'")
     failed = bench.fails(package.marker)
     assert (mistake(failed), line(failed)) == ("package.marker_missing", 11)
@@ -173,7 +173,7 @@ def test_a_marker_of_another_name_is_told(bench: Bench) -> None:
     assert mistake(bench.fails(package.marker)) == "package.marker_not_installed"
 
 
-def test_what_setup_py_computes_is_not_held_against_the_marker(bench: Bench) -> None:
+def test_computed_values_in_setup_py_do_not_fail_the_marker(bench: Bench) -> None:
     bench.change("setup.py", "        ('share/ament_index", "    ] + more() + [\n        ('share/x")
     bench.passes(package.marker)
 
@@ -211,7 +211,7 @@ def test_the_marker_may_be_written_in_any_plain_way(bench: Bench, written: str) 
         ("[develop]", "\ufeff[develop]", "syntax", 1, "byte order mark"),
     ],
 )
-def test_a_wrong_setup_cfg_is_told_with_its_line(
+def test_a_wrong_setup_cfg_is_reported_with_its_line(
     bench: Bench, old: str, new: str, wanted: str, at: int | None, words: str
 ) -> None:
     bench.change("setup.cfg", old, new)
@@ -222,7 +222,7 @@ def test_a_wrong_setup_cfg_is_told_with_its_line(
         assert line(failed) == at
 
 
-def test_a_missing_setup_cfg_is_told(bench: Bench) -> None:
+def test_a_missing_setup_cfg_is_reported(bench: Bench) -> None:
     (bench.root / "setup.cfg").unlink()
     assert mistake(bench.fails(package.setup_cfg)) == "package.setup_cfg_missing"
     bench.write("setup.cfg", b"\xff\xfe")

@@ -1,4 +1,4 @@
-"""The entry point as it is written: each way to be wrong, and what it is told."""
+"""The static check of the entry point: each mistake and its report."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_the_entry_may_be_written_in_any_plain_way(bench: Bench, entry: str) -> 
     assert "my_first_node" in passed.actual
 
 
-def test_the_entry_may_be_in_a_text_or_in_setup_cfg(bench: Bench) -> None:
+def test_the_entry_point_may_be_in_a_string_or_in_setup_cfg(bench: Bench) -> None:
     start = FILES["setup.py"].index("    entry_points={")
     head = FILES["setup.py"][:start]
     bench.write(
@@ -93,7 +93,7 @@ def test_the_entry_may_be_in_a_text_or_in_setup_cfg(bench: Bench) -> None:
         (ENTRY + ENTRY, "duplicate_entry", "2 times"),
     ],
 )
-def test_each_way_to_miss_the_entry_is_told_apart(
+def test_each_wrong_entry_point_has_its_own_mistake(
     bench: Bench, entry: str, wanted: str, words: str
 ) -> None:
     bench.write(f"{NAME}/second.py", "def main(): pass\n")
@@ -106,7 +106,7 @@ def test_each_way_to_miss_the_entry_is_told_apart(
     assert line(failed) in ((16, 17) if wanted == "no_entry" else (17,))
 
 
-def test_a_missing_comma_is_told_at_its_line_wherever_it_is(bench: Bench) -> None:
+def test_a_missing_comma_is_reported_at_its_line(bench: Bench) -> None:
     entries = [f"'n{n} = my_robot_controller.n{n}:main'" for n in range(4)]
     bench.change("setup.py", ENTRY, ENTRY + "\n" + ",\n".join(entries[:2]) + "\n" + entries[2])
     failed = bench.misses()
@@ -115,14 +115,14 @@ def test_a_missing_comma_is_told_at_its_line_wherever_it_is(bench: Bench) -> Non
 
 
 @pytest.mark.parametrize("group", ["console_script", "consol_scripts", "consolescripts", "scripts"])
-def test_a_misspelt_group_is_told(bench: Bench, group: str) -> None:
+def test_a_misspelt_group_is_reported(bench: Bench, group: str) -> None:
     bench.change("setup.py", "'console_scripts'", f"'{group}'")
     failed = bench.misses()
     assert (mistake(failed), line(failed)) == ("setup.group_misspelt", 16)
     assert group in failed.actual
 
 
-def test_a_missing_setup_py_is_told(bench: Bench) -> None:
+def test_a_missing_setup_py_is_reported(bench: Bench) -> None:
     (bench.root / "setup.py").unlink()
     assert mistake(bench.misses()) == "setup.missing"
     bench.passes(package.manifest)
@@ -141,11 +141,11 @@ def test_a_missing_setup_py_is_told(bench: Bench) -> None:
         ("package_name = 'my_robot_controller'\n", "a = a = b = [b]\nsetup()\n"),
     ],
 )
-def test_what_only_running_setup_py_would_tell_is_not_judged(
+def test_values_known_only_by_running_setup_py_are_not_judged(
     bench: Bench, old: str, new: str
 ) -> None:
     bench.change("setup.py", old, new)
-    if "settings" in new:  # the entry points come from there then
+    if "settings" in new:  # then the entry points are defined there
         bench.change("setup.py", "entry_points=", "nothing=")
     assert bench.maps() is None
 
@@ -190,7 +190,7 @@ def test_a_node_without_the_function_is_advice(bench: Bench) -> None:
     assert "did you mean 'mein'?" in passed.advice[0]
 
 
-def test_what_the_student_wrote_is_shown_harmlessly(bench: Bench) -> None:
+def test_the_students_text_is_shown_escaped(bench: Bench) -> None:
     bench.change("setup.py", ENTRY, "'test_node = \\ud800\\x1b[2J\\u202e.a:b',")
     assert "\\ud800" in bench.misses().actual
     bench.change(

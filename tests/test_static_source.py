@@ -1,4 +1,4 @@
-"""The static checks of the node's file: each way to be wrong, and what it is told."""
+"""The static checks of the node's file: each mistake and its report."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def bench(tmp_path: Path) -> Bench:
         (b"a = 1\n" * 20_000, None, "size"),
     ],
 )
-def test_a_node_that_python_cannot_read_is_told_with_its_line(
+def test_a_node_with_a_syntax_error_is_reported_with_its_line(
     bench: Bench, code: bytes, at: int | None, kind: str
 ) -> None:
     bench.write(NODE, code)
@@ -61,12 +61,12 @@ def test_a_node_that_python_cannot_read_is_told_with_its_line(
         b"\x0ca = 1",
     ],
 )
-def test_what_python_reads_is_right_however_it_is_encoded(bench: Bench, code: bytes) -> None:
+def test_any_encoding_that_python_reads_is_right(bench: Bench, code: bytes) -> None:
     bench.write(NODE, code)
     bench.passes(source.node_file)
 
 
-def test_an_empty_node_is_told_to_be_saved(bench: Bench) -> None:
+def test_an_empty_node_has_the_hint_to_save_it(bench: Bench) -> None:
     bench.write(NODE, " \n")
     failed = bench.fails(source.node_file)
     assert mistake(failed) == "source.empty_node_file"
@@ -86,7 +86,7 @@ def test_an_empty_node_is_told_to_be_saved(bench: Bench) -> None:
         (f"{NAME}/talker.py", "no_node_file"),
     ],
 )
-def test_a_node_in_the_wrong_place_is_named(bench: Bench, to: str, wanted: str) -> None:
+def test_a_node_in_the_wrong_folder_is_named(bench: Bench, to: str, wanted: str) -> None:
     (bench.root / to).parent.mkdir(exist_ok=True)
     (bench.root / NODE).rename(bench.root / to)
     failed = bench.fails(source.node_file)
@@ -107,7 +107,7 @@ def test_a_node_outside_the_package_is_found(tmp_path: Path) -> None:
     assert "src/my_first_node.py, outside" in failed.actual
 
 
-def test_a_node_that_is_a_link_is_followed_inside_and_told_outside(bench: Bench) -> None:
+def test_a_linked_node_is_followed_inside_and_reported_outside(bench: Bench) -> None:
     (bench.root / NODE).rename(bench.root / "my_first_node.py")
     (bench.root / NODE).symlink_to("../my_first_node.py")
     for check in (source.node_file, source.exec_bit, source.shebang):
@@ -117,7 +117,7 @@ def test_a_node_that_is_a_link_is_followed_inside_and_told_outside(bench: Bench)
     assert mistake(bench.fails(source.node_file)) == "source.node_file_is_link"
 
 
-def test_a_folder_or_a_fifo_of_the_nodes_name_is_no_node(bench: Bench) -> None:
+def test_a_folder_or_fifo_with_the_nodes_name_is_not_a_node(bench: Bench) -> None:
     (bench.root / NODE).unlink()
     os.mkfifo(bench.root / NODE)
     assert mistake(bench.fails(source.node_file)) == "source.no_node_file"
@@ -126,7 +126,7 @@ def test_a_folder_or_a_fifo_of_the_nodes_name_is_no_node(bench: Bench) -> None:
     assert mistake(bench.fails(source.node_file)) == "source.no_node_file"
 
 
-def test_a_node_that_is_too_large_to_be_taken_in_is_told_so(bench: Bench) -> None:
+def test_a_node_that_is_too_large_is_reported(bench: Bench) -> None:
     bench.write(NODE, b"#" * 6_000_000)
     failed = bench.fails(source.node_file)
     assert mistake(failed) == "source.unreadable_node_file"
@@ -135,7 +135,7 @@ def test_a_node_that_is_too_large_to_be_taken_in_is_told_so(bench: Bench) -> Non
         source.shebang.function(bench.evidence())
 
 
-def test_a_lost_init_file_is_advice(bench: Bench) -> None:
+def test_a_missing_init_file_is_advice(bench: Bench) -> None:
     (bench.root / NAME / "__init__.py").unlink()
     assert "__init__.py" in bench.passes(source.node_file).advice[0]
 
@@ -143,7 +143,7 @@ def test_a_lost_init_file_is_advice(bench: Bench) -> None:
 # source.exec_bit
 
 
-def test_a_node_without_exec_bit_is_told_the_truth_about_it(bench: Bench) -> None:
+def test_a_node_without_exec_bit_has_an_accurate_explanation(bench: Bench) -> None:
     (bench.root / NODE).chmod(0o644)
     failed = bench.fails(source.exec_bit)
     assert mistake(failed) == "source.not_executable"
@@ -156,7 +156,7 @@ def test_a_node_without_exec_bit_is_told_the_truth_about_it(bench: Bench) -> Non
     bench.passes(source.exec_bit)
 
 
-def test_exec_bits_that_nobody_recorded_cost_what_the_assignment_says(bench: Bench) -> None:
+def test_unknown_exec_bits_cost_what_the_assignment_says(bench: Bench) -> None:
     (bench.root / NODE).chmod(0o644)
     (bench.root / ".git").mkdir()
     (bench.root / ".git/config").write_text("[core]\n\tfilemode = false\n")
@@ -187,9 +187,7 @@ def test_exec_bits_that_nobody_recorded_cost_what_the_assignment_says(bench: Ben
         ("#!/home/jane/miniconda3/bin/python3\n", "wrong_shebang"),
     ],
 )
-def test_a_first_line_that_does_not_name_python_is_told(
-    bench: Bench, start: str, wanted: str
-) -> None:
+def test_a_first_line_without_python_is_reported(bench: Bench, start: str, wanted: str) -> None:
     bench.write(NODE, start + "def main():\n    pass\n")
     failed = bench.fails(source.shebang)
     assert mistake(failed) == f"source.{wanted}"
@@ -208,6 +206,6 @@ def test_a_first_line_that_does_not_name_python_is_told(
         "#!/bin/python3",
     ],
 )
-def test_any_shebang_of_python_3_will_do(bench: Bench, start: str) -> None:
+def test_any_shebang_of_python_3_is_accepted(bench: Bench, start: str) -> None:
     bench.write(NODE, start + "\nx = (\n")
     bench.passes(source.shebang)

@@ -1,4 +1,4 @@
-"""A status that a submission ends with is never taken for one of the grader's own, nor the reverse."""
+"""Exit statuses of a submission and of the grader's own commands are never confused."""
 
 from __future__ import annotations
 
@@ -9,31 +9,32 @@ from typing import cast
 import pytest
 
 from grader.base.errors import SurroundingsError
+from grader.base.unheard import unheard
 from grader.package.submission import Submission, take_in
 from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import BUILD, build
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT
+from tests.batch.pool_tasks import ASSIGNMENT
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.hostile import HOSTILE
-from tests.test_ceiling import Clock, begun, unheard
+from tests.test_ceiling import Clock, ignore, new_session
 
 LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
 
 
 @pytest.fixture
 def submission() -> Submission:
-    return taken_in(SOLUTION)
+    return intake(SOLUTION)
 
 
-def taken_in(path: Path) -> Submission:
+def intake(path: Path) -> Submission:
     return take_in(path, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
 
 
-class Told:
-    """A sandbox whose commands end as they are told: laying out, colcon, the listing."""
+class FakeSandbox:
+    """A sandbox whose commands (laying out, colcon, the listing) end with given statuses."""
 
     limits = Limits()
     ros_path = "/opt/ros/jazzy"
@@ -46,40 +47,42 @@ class Told:
         return Outcome(status, LISTED, 0.1)
 
 
-def built(submission: Submission, **statuses: int) -> int | None:
-    sandbox = cast("Sandbox", Told(**statuses))
+def build_status(submission: Submission, **statuses: int) -> int | None:
+    sandbox = cast("Sandbox", FakeSandbox(**statuses))
     return build(sandbox, submission, package=ASSIGNMENT.package).status
 
 
 @pytest.mark.parametrize("status", range(256))
-def test_every_status_of_colcon_is_the_submissions(submission: Submission, status: int) -> None:
-    assert built(submission, colcon=status) == status
+def test_every_status_of_colcon_counts_for_the_submission(
+    submission: Submission, status: int
+) -> None:
+    assert build_status(submission, colcon=status) == status
 
 
 @pytest.mark.parametrize(
     ("ours", "said"), [("lay_out", "could not be laid out"), ("listing", "could not be listed")]
 )
-def test_a_command_of_ours_that_fails_is_our_fault(
+def test_a_failing_command_of_the_grader_is_a_surroundings_error(
     submission: Submission, ours: str, said: str
 ) -> None:
     with pytest.raises(SurroundingsError, match=said):
-        built(submission, **{ours: 2})
+        build_status(submission, **{ours: 2})
 
 
 @pytest.mark.prefix
-def test_a_setup_py_that_ends_with_a_status_of_its_own_has_not_built(
+def test_a_setup_py_that_exits_early_is_not_a_successful_build(
     sandbox: Sandbox, tmp_path: Path
 ) -> None:
     name, status = "setup_paints_and_ends_with_250", 250
     package = next(package for package in HOSTILE if package.name == name)
-    made = build(sandbox, taken_in(write(package, tmp_path)), package=ASSIGNMENT.package)
+    made = build(sandbox, intake(write(package, tmp_path)), package=ASSIGNMENT.package)
     assert (made.status, made.stopped_by) == (status, "")
     assert "Score 100 / 100" in made.log
     assert not made.is_installed(ASSIGNMENT.package)
 
 
 @pytest.mark.prefix
-def test_what_does_not_fit_into_the_workspace_is_told_in_tars_own_words(
+def test_a_full_workspace_is_reported_with_the_message_of_tar(
     make_sandbox: Callable[[Limits], Sandbox], submission: Submission
 ) -> None:
     limits = Limits().override({"workspace": 8192})
@@ -93,15 +96,15 @@ def ended_at_once() -> Run:
 
 
 @pytest.mark.parametrize("works", [True, False])
-def test_a_node_that_ends_at_once_is_judged_if_the_sandbox_still_starts_commands(
+def test_a_node_that_ends_at_once_is_judged_only_if_the_sandbox_still_works(
     monkeypatch: pytest.MonkeyPatch, works: bool
 ) -> None:
     run = ended_at_once()
     clock = Clock(monkeypatch, run)
     clock.seconds = 1.0
-    opened = begun(works=works)
+    opened = new_session(works=works)
     if works:
-        assert opened.run(unheard) is run
+        assert opened.run(ignore) is run
         assert clock.runs == 1
     else:
         with pytest.raises(Unobserved, match="no longer starts commands"):

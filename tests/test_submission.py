@@ -1,4 +1,4 @@
-"""Intake of real trees: where the package lies, and which one it is."""
+"""Intake of real folders: finding the package and choosing between several."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import pytest
 from grader.base.errors import UsageError
 from grader.base.i18n.message import Message
 
-from .handed_in import NODE, NODE_PATH, PACKAGE, make, paths, take, write
+from .small_package import NODE, NODE_PATH, PACKAGE, make, paths, take, write
 
 
 @pytest.mark.parametrize("place", [".", PACKAGE, f"src/{PACKAGE}", f"week 1/ros2/ä/{PACKAGE}"])
-def test_the_package_is_found_wherever_it_lies(tmp_path: Path, place: str) -> None:
+def test_the_package_is_found_in_any_folder(tmp_path: Path, place: str) -> None:
     make(tmp_path / "jane" / place)
     found = take(tmp_path / "jane")
     assert found.root == place
@@ -31,7 +31,7 @@ def test_the_package_is_found_wherever_it_lies(tmp_path: Path, place: str) -> No
     assert (found.origin, found.modes) == ("directory", "recorded")
 
 
-def test_a_path_through_a_link_is_the_folder_that_it_leads_to(tmp_path: Path) -> None:
+def test_a_path_through_a_link_is_the_target_folder(tmp_path: Path) -> None:
     make(tmp_path / "jane")
     (tmp_path / "link").symlink_to("jane")
     assert take(tmp_path / "link").name == "jane"
@@ -47,7 +47,7 @@ def test_a_path_through_a_link_is_the_folder_that_it_leads_to(tmp_path: Path) ->
         (lambda p: p.symlink_to("gone"), "there is no file or folder"),
     ],
 )
-def test_a_path_that_is_no_folder_is_wrong_usage(
+def test_a_path_that_is_not_a_folder_is_a_usage_error(
     tmp_path: Path, make_it: object, words: str
 ) -> None:
     path = tmp_path / "thing"
@@ -57,7 +57,7 @@ def test_a_path_that_is_no_folder_is_wrong_usage(
     assert caught.value.exit_status == 2
 
 
-def test_a_folder_that_cannot_be_read_is_wrong_usage(
+def test_an_unreadable_folder_is_a_usage_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(path: object) -> None:
@@ -76,14 +76,14 @@ def test_a_folder_that_cannot_be_read_is_wrong_usage(
 # which package
 
 
-def test_of_several_packages_the_one_with_the_right_name_is_taken(tmp_path: Path) -> None:
+def test_the_package_with_the_right_name_is_chosen_of_several(tmp_path: Path) -> None:
     make(tmp_path / "src/a", "another")
     make(tmp_path / "src/b")
     make(tmp_path / "src/c", "third")
     assert take(tmp_path).root == "src/b"
 
 
-def test_the_name_is_the_manifests_else_setup_pys_else_the_folders(tmp_path: Path) -> None:
+def test_the_name_comes_from_the_manifest_then_setup_py_then_the_folder(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     (tmp_path / "a/setup.py").write_text(f"n = '{PACKAGE}'\nsetup(name=n)\n")
     assert take(tmp_path).candidates[0].name == PACKAGE
@@ -94,7 +94,7 @@ def test_the_name_is_the_manifests_else_setup_pys_else_the_folders(tmp_path: Pat
     assert take(tmp_path).candidates[0].name == "a"
 
 
-def test_two_packages_of_the_right_name_are_a_mistake_that_names_both(tmp_path: Path) -> None:
+def test_two_packages_with_the_right_name_are_a_mistake_that_names_both(tmp_path: Path) -> None:
     make(tmp_path / "src/b")
     make(tmp_path / "src/backup")
     found = take(tmp_path)
@@ -107,7 +107,7 @@ def test_two_packages_of_the_right_name_are_a_mistake_that_names_both(tmp_path: 
     assert take(tmp_path).root == "src/b"
 
 
-def test_a_package_inside_another_is_explained_as_colcon_sees_it(tmp_path: Path) -> None:
+def test_a_package_inside_another_is_explained_as_colcon_treats_it(tmp_path: Path) -> None:
     make(tmp_path / "one")
     make(tmp_path / "one" / "again" / PACKAGE)
     found = take(tmp_path)
@@ -120,7 +120,7 @@ def test_a_package_inside_another_is_explained_as_colcon_sees_it(tmp_path: Path)
     assert "is inside another package (outer, in outer)" in found.hints[0]
 
 
-def test_the_only_package_is_taken_whatever_it_is_called(tmp_path: Path) -> None:
+def test_the_only_package_is_chosen_whatever_its_name(tmp_path: Path) -> None:
     make(tmp_path / "a", "my_robot")
     found = take(tmp_path)
     assert found.root == "a"
@@ -128,7 +128,7 @@ def test_the_only_package_is_taken_whatever_it_is_called(tmp_path: Path) -> None
     assert not found.hints
 
 
-def test_of_several_wrong_ones_the_one_with_the_node_or_the_nearest_name_is_taken(
+def test_of_several_wrong_packages_the_one_with_the_node_or_nearest_name_is_chosen(
     tmp_path: Path,
 ) -> None:
     make(tmp_path / "a", "alpha")
@@ -140,7 +140,7 @@ def test_of_several_wrong_ones_the_one_with_the_node_or_the_nearest_name_is_take
     assert take(tmp_path).root == "a"
 
 
-def test_a_package_that_colcon_is_told_to_ignore_is_marked_with_a_hint(tmp_path: Path) -> None:
+def test_a_package_with_colcon_ignore_is_marked_with_a_hint(tmp_path: Path) -> None:
     make(tmp_path / "src/a")
     (tmp_path / "src/COLCON_IGNORE").touch()
     found = take(tmp_path)
@@ -165,7 +165,7 @@ def test_a_package_that_colcon_is_told_to_ignore_is_marked_with_a_hint(tmp_path:
         (["build/COLCON_IGNORE", "log/x"], "package.only_build", "build/"),
     ],
 )
-def test_where_there_is_no_package_it_is_said_what_was_seen(
+def test_without_a_package_the_found_files_are_listed(
     tmp_path: Path, files: list[str], mistake: str, words: str
 ) -> None:
     write(tmp_path, files)
@@ -176,7 +176,7 @@ def test_where_there_is_no_package_it_is_said_what_was_seen(
     assert len(found.sha256) == 64
 
 
-def test_a_link_in_place_of_the_package_is_said(tmp_path: Path) -> None:
+def test_a_link_in_place_of_the_package_is_reported(tmp_path: Path) -> None:
     make(tmp_path / "elsewhere")
     (tmp_path / "given").mkdir()
     (tmp_path / "given" / PACKAGE).symlink_to(tmp_path / "elsewhere")

@@ -1,4 +1,4 @@
-"""What is read from a terminal: lines, within the time that was given, whatever is printed."""
+"""Reading lines from a terminal within the time limit, whatever is printed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RECORD = "[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0"
 
 
 class Endless(Console):
-    """A console on which there is always more to read, and which nothing ends."""
+    """A console with endless output that never ends."""
 
     def __init__(self, piece: bytes) -> None:
         self._piece = piece
@@ -36,8 +36,8 @@ class Endless(Console):
 
 
 @pytest.mark.parametrize("piece", [b".", b"x\n"])
-def test_output_that_never_ceases_extends_no_deadline(piece: bytes) -> None:
-    terminal = Terminal(Endless(piece), most=5_000)  # (seconds of it)
+def test_endless_output_extends_no_deadline(piece: bytes) -> None:
+    terminal = Terminal(Endless(piece), most=5_000)  # (several seconds of output)
     begin = time.monotonic()
     lines = terminal.read()
     assert time.monotonic() - begin < 0.5
@@ -49,7 +49,7 @@ def test_output_that_never_ceases_extends_no_deadline(piece: bytes) -> None:
     assert time.monotonic() - begin < 1.5
 
 
-def test_nothing_of_it_is_lost_between_two_reads() -> None:
+def test_no_output_is_lost_between_two_reads() -> None:
     terminal = Terminal(Endless(b"ab\nc"), most=400_000)
     lines = [line.text for _ in range(4) for line in terminal.read(0.05)]
     assert lines[0] == "ab"
@@ -57,7 +57,7 @@ def test_nothing_of_it_is_lost_between_two_reads() -> None:
     assert terminal.transcript.count("ab") == len(lines)
 
 
-def test_a_log_record_after_text_without_a_line_end_is_one() -> None:
+def test_a_log_record_after_text_without_a_line_end_is_found() -> None:
     assert Line(RECORD, 1.0).parts() == [Line(RECORD, 1.0)]
     glued = Line(f"....{RECORD}", 1.0).parts()
     assert glued == [Line("....", 1.0), Line(RECORD, 1.0)]
@@ -70,6 +70,6 @@ def test_a_log_record_after_text_without_a_line_end_is_one() -> None:
     assert Line("100% [done]: well", 1.0).parts() == [Line("100% [done]: well", 1.0)]
 
 
-def test_a_record_that_quotes_another_stays_one() -> None:
+def test_a_record_that_quotes_another_stays_one_record() -> None:
     line = Line(f"{RECORD} {RECORD}", 1.0)
     assert line.parts() == [line]

@@ -34,7 +34,7 @@ def test_the_starter_does_not_get_full_marks() -> None:
     assert report.status == "graded"
 
 
-def test_the_tutorials_traceback_is_advice_and_not_a_fault(tmp_path: Path) -> None:
+def test_the_tutorials_traceback_is_advice_and_not_a_failure(tmp_path: Path) -> None:
     tutorial = next(package for package in RIGHT if package.name == "tutorial")
     report = mark(write(tutorial, tmp_path))
     assert report.score == 100

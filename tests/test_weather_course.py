@@ -1,4 +1,4 @@
-"""Students of another course read nothing of ours: texts, commands and links are their lesson's."""
+"""Students of another course read only texts, commands and links of their own lesson."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from grader.validate.tree import Delete, Edit, Replace
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
-from tests import stage, weather
+from tests import processes, weather
 from tests.weather import LOG, NODE, SETUP, STEP, TIMER
 
 LANGUAGES = ["en", "ko"]
@@ -55,17 +55,17 @@ def env(course: Path, **more: str) -> dict[str, str]:
 
 
 def sources() -> Iterator[Path]:
-    """Yield the grader's and the lab's files but for the lesson's own: its course and its keys."""
-    listed = stage.run(["git", "ls-files", "-z", "grader", "lab"]).stdout.split("\0")
+    """Yield the files of the grader and the lab, except the lesson's course and keys."""
+    listed = processes.run(["git", "ls-files", "-z", "grader", "lab"]).stdout.split("\0")
     for name in filter(None, listed):
         if not name.startswith(("grader/keys/", "lab/course/")) and not name.endswith(".mo"):
-            yield stage.ROOT / name
+            yield processes.ROOT / name
 
 
-def test_no_file_but_the_lessons_own_names_a_part_of_it() -> None:
+def test_only_the_lessons_own_files_mention_its_parts() -> None:
     words = re.compile(OURS.pattern.partition(r"|\bmain\b")[0], re.IGNORECASE)
     found = [
-        f"{path.relative_to(stage.ROOT)}:{number}: {line.strip()}"
+        f"{path.relative_to(processes.ROOT)}:{number}: {line.strip()}"
         for path in sources()
         if path.is_file()
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
@@ -91,12 +91,12 @@ def test_an_entry_of_the_catalogue_is_filled_by_the_lesson(kind: Kind, tmp_path:
         assert "docs.ros.org" not in link or f"/en/{name}/" in link
 
 
-# typical mistakes, judged by the checks on runs that were put together
+# typical mistakes, judged by the checks on constructed runs
 
 
 @dataclass(frozen=True)
 class Mistake:
-    """A broken package: its edits, what a run of it shows, the check that fails, and for what."""
+    """A broken package: its edits, its run, the check that fails and the mistake."""
 
     edits: tuple[Edit, ...]
     check: str
@@ -106,7 +106,7 @@ class Mistake:
 
 
 def counted(text: str, *, node: NodeSeen = STATION) -> Run:
-    """Return a run whose lines come on time, each with the next number in place of {n}."""
+    """Return a run whose lines come on time, with the next number for {n} in each."""
     numbers = range(1, 5)
     events = [
         Event(text.replace("{n}", str(k)), k / 10, k / 2, "logger", _number(text, k), k - 1)
@@ -218,8 +218,8 @@ MISTAKES = {
 }  # fmt: skip
 
 
-def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) -> CheckResult:
-    """Return what the check says of a broken package, with the change that fixes it."""
+def result_of(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) -> CheckResult:
+    """Return the check's result for a broken package, with the patch that fixes it."""
     submission = weather.taken(folder, *mistake.edits)
     run = mistake.run or counted("Reading {n}")
     evidence = Evidence(assignment, submission, build=lambda: BUILT, run=lambda: run)
@@ -229,7 +229,7 @@ def judged(mistake: Mistake, assignment: Assignment, folder: Path, lang: str) ->
 
 
 def texts(result: CheckResult) -> str:
-    """Return all that a student reads of a result, without the student's own lines of a patch."""
+    """Return all texts of a result that a student reads, without their own lines in a patch."""
     given = result.model_dump(include={"title", "rationale", "expected", "actual", "fix", "advice"})
     added = [line for line in result.patch.splitlines() if line.startswith("+")]
     params = [mistake.params for mistake in result.mistakes]
@@ -238,11 +238,11 @@ def texts(result: CheckResult) -> str:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("name", MISTAKES)
-def test_a_mistake_is_explained_in_the_words_of_the_lesson(
+def test_a_mistake_is_explained_with_the_lessons_texts(
     name: str, lang: str, tmp_path: Path
 ) -> None:
     mistake = MISTAKES[name]
-    result = judged(mistake, weather.assignment(tmp_path), tmp_path, lang)
+    result = result_of(mistake, weather.assignment(tmp_path), tmp_path, lang)
     assert result.mistakes[0].id == mistake.named
     said = texts(result)
     assert mistake.says in said
@@ -252,8 +252,8 @@ def test_a_mistake_is_explained_in_the_words_of_the_lesson(
 # the commands
 
 
-def test_the_right_package_passes_every_check_of_a_run(tmp_path: Path) -> None:
-    """(The stand-in runs above fail for the mistake alone.)"""
+def test_the_right_package_passes_every_run_check(tmp_path: Path) -> None:
+    """This shows that the constructed runs above fail because of the mistake only."""
     wanted = weather.assignment(tmp_path)
     run = counted("Reading {n}")
     evidence = Evidence(wanted, weather.taken(tmp_path), build=lambda: BUILT, run=lambda: run)
@@ -268,10 +268,12 @@ def test_the_right_package_passes_every_check_of_a_run(tmp_path: Path) -> None:
 @pytest.mark.prefix
 def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path)
-    graded = stage.run(stage.grader("grade", package, "--out", tmp_path / "o"), env=env(course))
+    graded = processes.run(
+        processes.grader("grade", package, "--out", tmp_path / "o"), env=env(course)
+    )
     assert graded.returncode == 0, graded.stdout + graded.stderr
     assert f"{weather.FULL_MARKS} / {weather.FULL_MARKS}" in graded.stdout
-    checked = stage.run(stage.grader("check", package), env=env(course))
+    checked = processes.run(processes.grader("check", package), env=env(course))
     assert checked.returncode == 0, checked.stdout + checked.stderr
     for said in (graded, checked):
         assert not OURS.search(said.stdout), said.stdout
@@ -279,34 +281,34 @@ def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_real_verdict_names_nothing_of_our_lesson(
+def test_a_real_verdict_mentions_nothing_of_our_lesson(
     course: Path, tmp_path: Path, lang: str
 ) -> None:
     package = weather.write_package(tmp_path, Replace(NODE, "f'Reading {", "f'Readings {"))
-    done = stage.run(stage.grader("check", "--lang", lang, "-v", package), env=env(course))
+    done = processes.run(processes.grader("check", "--lang", lang, "-v", package), env=env(course))
     assert done.returncode == 1, done.stderr
     assert "Reading 1" in done.stdout
     assert not OURS.search(done.stdout), done.stdout
 
 
 @pytest.mark.prefix
-def test_fix_fixes_by_the_lesson(course: Path, tmp_path: Path) -> None:
+def test_fix_uses_the_lesson(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
-    done = stage.run(stage.grader("fix", "--no-run", package), env=env(course))
+    done = processes.run(processes.grader("fix", "--no-run", package), env=env(course))
     assert done.returncode == 0, done.stderr
     assert f"+{' ' * 12}{weather.ENTRY}" in done.stdout
     assert not OURS.search(done.stdout + done.stderr)
 
 
 def explained(*words: str, **more: str) -> str:
-    done = stage.run(
-        stage.grader("explain", *words), env={"ROS_DISTRO": "", "COLUMNS": "300", **more}
+    done = processes.run(
+        processes.grader("explain", *words), env={"ROS_DISTRO": "", "COLUMNS": "300", **more}
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
-def test_explain_takes_the_lesson_and_the_distro(course: Path) -> None:
+def test_explain_uses_the_lesson_and_the_distro(course: Path) -> None:
     said = explained("run.no_lines", ROS_DISTRO="kilted", **env(course))
     assert "create_timer(0.5, self." in said
     assert "https://docs.ros.org/en/kilted/" in said
@@ -315,7 +317,7 @@ def test_explain_takes_the_lesson_and_the_distro(course: Path) -> None:
     assert "source /opt/ros/kilted/" in explained("lab.ros_not_sourced", "--distro", "kilted")
 
 
-def test_explain_without_a_lesson_shows_what_a_lesson_would_tell(tmp_path: Path) -> None:
+def test_explain_without_a_lesson_shows_placeholders(tmp_path: Path) -> None:
     several = weather.write_course(tmp_path, "winds")
     said = explained("run.no_lines", **env(several))
     assert "create_timer(<period>, self.<callback>)" in said
@@ -325,13 +327,13 @@ def test_explain_without_a_lesson_shows_what_a_lesson_would_tell(tmp_path: Path)
 
 def guide(*words: str | Path, **more: str) -> tuple[int, str, str]:
     line = [sys.executable, "-m", "lab.guide", *map(str, words)]
-    done = stage.run(
+    done = processes.run(
         line, env={"AMENT_PREFIX_PATH": "/opt/ros/kilted", "ROS_DISTRO": "kilted", **more}
     )
     return done.returncode, done.stdout, done.stderr
 
 
-def test_the_guide_goes_through_the_courses_own_lesson(course: Path, tmp_path: Path) -> None:
+def test_the_guide_uses_the_courses_own_lesson(course: Path, tmp_path: Path) -> None:
     workspace = tmp_path / "ws"
     status, said, _ = guide("--workspace", workspace, **env(course))
     assert status == 0
@@ -354,7 +356,7 @@ def test_the_guide_goes_through_the_courses_own_lesson(course: Path, tmp_path: P
         assert not OURS.search(each)
 
 
-def test_the_guide_tells_when_everything_is_done(course: Path, tmp_path: Path) -> None:
+def test_the_guide_says_when_everything_is_done(course: Path, tmp_path: Path) -> None:
     (tmp_path / "ws/src").mkdir(parents=True)
     weather.write_package(tmp_path / "ws/src")
     status, said, _ = guide("--workspace", tmp_path / "ws", **env(course))
@@ -371,7 +373,7 @@ def test_the_guide_tells_when_everything_is_done(course: Path, tmp_path: Path) -
         (None, "no lesson with steps"),
     ],
 )
-def test_a_lesson_that_the_guide_cannot_use_is_told(
+def test_a_lesson_that_the_guide_cannot_use_is_reported(
     course: Path, tmp_path: Path, text: str | None, said: str
 ) -> None:
     file = course / "readings" / "lesson.md"
@@ -384,7 +386,7 @@ def test_a_lesson_that_the_guide_cannot_use_is_told(
     assert "Traceback" not in errors
 
 
-# which lesson is meant
+# choosing the lesson
 
 COMMANDS = {
     "grade": ("grade", "."),
@@ -401,14 +403,14 @@ def run(command: str, cwd: Path, **more: str) -> tuple[int, str]:
     words = {
         "guide": [sys.executable, "-m", "lab.guide"],
         "lab": [sys.executable, "-m", "lab", "--workspace", str(cwd / "ws"), "--", "true"],
-    }.get(command) or stage.grader(*COMMANDS[command])
-    done = stage.run(words, cwd=cwd, env=more)
+    }.get(command) or processes.grader(*COMMANDS[command])
+    done = processes.run(words, cwd=cwd, env=more)
     assert "Traceback" not in done.stderr
     return done.returncode, done.stderr
 
 
 @pytest.mark.parametrize("command", [*COMMANDS, "guide", "lab"])
-def test_of_several_lessons_one_has_to_be_named(command: str, tmp_path: Path) -> None:
+def test_one_of_several_lessons_must_be_named(command: str, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     before = sorted(tmp_path.rglob("*"))
     status, errors = run(command, tmp_path, **env(course))
@@ -419,7 +421,7 @@ def test_of_several_lessons_one_has_to_be_named(command: str, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("command", ["check", "guide", "lab", "validate"])
-def test_a_course_folder_that_is_none_is_told(command: str, course: Path, tmp_path: Path) -> None:
+def test_an_invalid_course_folder_is_reported(command: str, course: Path, tmp_path: Path) -> None:
     for folder, said in (
         (tmp_path / "nowhere", "there is no course folder"),
         (course / "readings", "is a lesson, not a course"),
@@ -432,22 +434,22 @@ def test_a_course_folder_that_is_none_is_told(command: str, course: Path, tmp_pa
             assert said in errors
 
 
-def test_the_environment_names_the_lesson_that_is_meant(tmp_path: Path) -> None:
+def test_the_environment_selects_the_lesson(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     more = env(course, GRADER_ASSIGNMENT="winds")
     package = weather.write_package(tmp_path, Replace(SETUP, weather.ENTRY, ""))
-    done = stage.run(stage.grader("fix", "--no-run", package), env=more)
+    done = processes.run(processes.grader("fix", "--no-run", package), env=more)
     assert done.returncode == 0, done.stderr
     words = ("fix", "--check", "x", "--assignment", "readings", package)
-    done = stage.run(stage.grader(*words), env=more)
+    done = processes.run(processes.grader(*words), env=more)
     assert "no check 'x' in readings" in done.stderr, "the command line comes first"
     status, errors = run("check", tmp_path, **env(course, GRADER_ASSIGNMENT="wind"))
     assert status == 2
     assert "readings, winds" in errors
 
 
-def test_another_courses_solution_is_not_looked_for_among_our_keys(tmp_path: Path) -> None:
-    """(A lesson may be called as one of ours is.)"""
+def test_our_keys_are_not_searched_for_another_courses_solution(tmp_path: Path) -> None:
+    """A lesson may have the name of one of ours."""
     course = weather.write_course(tmp_path)
     (course / "readings").rename(course / "hello_time")
     status, errors = run("validate", tmp_path, **env(course))

@@ -1,4 +1,4 @@
-"""Another course, small: a package `weather_station` that counts readings from 1, each 0.5 s."""
+"""A small other course: a package `weather_station` that counts readings from 1, every 0.5 s."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ TREE = {
 
 
 def write_course(folder: Path, *others: str) -> Path:
-    """Write the course, with lessons of other ids beside its own, and return its folder."""
+    """Write the course, with further lessons of the given ids, and return its folder."""
     for lesson in ("readings", *others):
         place = folder / "course" / lesson
         place.mkdir(parents=True)
@@ -174,5 +174,5 @@ def assignment(folder: Path) -> Assignment:
 
 
 def taken(folder: Path, *edits: Edit) -> Submission:
-    """Return the right package with these edits, as it is handed in."""
+    """Return the submission of the right package with these edits."""
     return take_in(write_package(folder, *edits), package=NAME, node_file="station.py")

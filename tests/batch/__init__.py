@@ -1,1 +1,1 @@
-"""A whole class: what is downloaded, and what becomes of it."""
+"""Marking a whole class: downloads, roster, workers, ledger and policy."""

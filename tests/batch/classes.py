@@ -1,4 +1,4 @@
-"""Classes on the disk: folders of students with packages of the corpus, or many small ones."""
+"""Classes on disk: folders of students with packages of the corpus, or many small ones."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.batch.works import package
+from tests.batch.pool_tasks import package
 from tests.corpus.broken import BROKEN
 from tests.corpus.right import RIGHT
-from tests.stage import ROOT, grader
+from tests.processes import ROOT, grader
 
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
 
 
-def of_corpus(folder: Path, names: Sequence[str]) -> Path:
-    """Make a class of packages of the corpus, one student each: `s00-solution`, …"""
+def corpus_class(folder: Path, names: Sequence[str]) -> Path:
+    """Write a class of packages of the corpus, one student each: `s00-solution`, …"""
     width = len(str(len(names)))
     for number, name in enumerate(names):
         package(name, folder, called=f"s{number:0{width}}-{name}")
@@ -27,9 +27,9 @@ def of_corpus(folder: Path, names: Sequence[str]) -> Path:
 
 
 def mixed_names(count: int) -> list[str]:
-    """Return the names of `count` packages: the solution, right variants and broken ones, evenly.
+    """Return the names of `count` packages, evenly split: the solution, right and broken variants.
 
-    (Without those that wait on the wall clock: what they cost is their own.)
+    Packages that wait on the wall clock are left out because they would distort the timing.
     """
     right = [p.name for p in RIGHT if not p.wall_clock]
     broken = [p.name for p in BROKEN if not p.wall_clock and not p.hostile and not p.undecided]
@@ -39,8 +39,8 @@ def mixed_names(count: int) -> list[str]:
     return [name for pair in zip(half, other, strict=False) for name in pair] + other[len(half) :]
 
 
-def of_many(folder: Path, count: int) -> Path:
-    """Make a class of `count` students with a package each that differs in one comment."""
+def large_class(folder: Path, count: int) -> Path:
+    """Write a class of `count` students whose packages differ only in one comment."""
     files = {p.relative_to(SOLUTION): p for p in SOLUTION.rglob("*") if p.is_file()}
     contents = {place: path.read_bytes() for place, path in files.items() if place.suffix != ".pyc"}
     for number in range(count):
@@ -58,7 +58,7 @@ def of_many(folder: Path, count: int) -> Path:
 def grade_all(
     folder: Path, out: Path, *words: str, env: dict[str, str] | None = None, timeout: float = 900
 ) -> subprocess.CompletedProcess[str]:
-    """Run the command on a class, without a line a student unless asked for."""
+    """Run the command on a class, with `--quiet` by default."""
     command = grader("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", *words)
     return subprocess.run(
         command,
@@ -91,7 +91,7 @@ def measured(
 ) -> tuple[int, float]:
     """Run the command on a class; return its exit status and the peak of its own memory in MB.
 
-    With a `report` the workers are stubs that hand it out.
+    With a `report` the workers are stubs that return it.
     """
     stub = [] if report is None else [sys.executable, "-m", "tests.batch.stub_worker", str(report)]
     command = [sys.executable, "-c", MEASURED, json.dumps(stub), "grade-all", str(folder)]
@@ -111,14 +111,14 @@ def measured(
     return found["status"], found["peak"]
 
 
-def verdicts_beside(path: Path) -> int:
-    """Return how many verdicts a ledger has that another process has open; 0 before it is made."""
+def count_verdicts(path: Path) -> int:
+    """Return the number of verdicts in a ledger in use by another process; 0 if it is missing."""
     if not path.is_file():
         return 0
     connection = sqlite3.connect(path, timeout=20)
     try:
         return int(connection.execute("SELECT count(*) FROM verdict").fetchone()[0])
-    except sqlite3.OperationalError:  # its tables are being made
+    except sqlite3.OperationalError:  # its tables are being created
         return 0
     finally:
         connection.close()

@@ -1,8 +1,8 @@
-"""What Moodle and Canvas give an instructor: the zip and the list of one class, made to agree.
+"""Downloads of Moodle and Canvas for one class: the zip of submissions and the matching list.
 
-Moodle by mod/assign/gradingtable.php (columns, status, group), feedback/offline/locallib.php and
-classes/downloader.php (`clean_filename` of lib/moodlelib.php); Canvas by lib/content_zipper.rb and
-lib/gradebook_exporter.rb. The words are those of Moodle's English and Korean language packs.
+Moodle follows mod/assign/gradingtable.php (columns, status, group), feedback/offline/locallib.php
+and classes/downloader.php (`clean_filename` of lib/moodlelib.php); Canvas lib/content_zipper.rb and
+lib/gradebook_exporter.rb. The terms are those of Moodle's English and Korean language packs.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from tests.batch.handed_out import package, zipped
-from tests.site.classes import FIRST, LAST
+from tests.batch.archives import package, zipped
+from tests.pages.classes import FIRST, LAST
 
 DATE = "Friday, 20 November 2026, 7:00 PM"
 BOM = b"\xef\xbb\xbf"
@@ -24,7 +24,7 @@ BOM = b"\xef\xbb\xbf"
 
 @dataclass(frozen=True)
 class Words:
-    """One language pack; `participant` is `hiddenuser`, to which the number is appended."""
+    """Terms of a language pack; `participant` is `hiddenuser`, followed by the number."""
 
     header: tuple[str, ...]
     group: str
@@ -63,7 +63,7 @@ KOREAN = Words(
     "기본 모둠",
     "예",
 )
-# a language whose words the grader does not know, though the letters are
+# the grader knows the letters of this language but not its terms
 FINNISH = Words(
     (
         *(
@@ -104,7 +104,7 @@ GIVEN = [
 
 @dataclass(frozen=True)
 class Person:
-    """A participant: `number` is Moodle's, `grade` what the worksheet has already."""
+    """A participant: `number` is Moodle's, `grade` the one already in the worksheet."""
 
     number: int
     name: str
@@ -116,7 +116,7 @@ class Person:
 
 
 def people(count: int, *, first: int = 1000, korean: bool = False) -> list[Person]:
-    """Return so many participants, every one called otherwise."""
+    """Return `count` participants with different names."""
     found = []
     for n in range(count):
         name = f"{FAMILY[n % 10]}{GIVEN[n // 10]}" if korean else f"{FIRST[n % 10]} {LAST[n // 10]}"
@@ -125,12 +125,12 @@ def people(count: int, *, first: int = 1000, korean: bool = False) -> list[Perso
 
 
 def marked(class_: Iterable[Person], grade: str) -> list[Person]:
-    """Return the same people with a grade in the worksheet."""
+    """Return the same participants with a grade in the worksheet."""
     return [replace(person, grade=grade) for person in class_]
 
 
 def scored(score: float) -> dict[str, bytes]:
-    """Return a package for which the stub worker gives so many points."""
+    """Return a package to which the stub worker gives this score."""
     return package(f"# score: {score}\n")
 
 
@@ -142,7 +142,7 @@ def worksheet(
     bom: bool = False,
     end: str = "\r\n",
 ) -> bytes:
-    """Return the grading worksheet, with the column of groups if anybody is in one."""
+    """Return the grading worksheet, with a group column if any participant has a group."""
     groups = any(person.group for person in class_)
     header = [*words.header[:5], *([words.group] if groups else []), *words.header[5:]]
     out = io.StringIO()
@@ -163,19 +163,19 @@ def worksheet(
 
 
 def clean_filename(name: str) -> str:
-    """Return a name as Moodle's PARAM_FILE leaves it."""
+    """Return a name cleaned as by Moodle's PARAM_FILE."""
     return re.sub(r"[\x00-\x1f\x7f]|[&<>\"`|':\\/]", "", name)
 
 
 def moodle_prefix(name: str, number: int | None) -> str:
-    """Return how a submission's folder begins; the default group has no number."""
+    """Return the prefix of a submission's folder; the default group has no number."""
     escaped = re.sub(r"&(?![a-zA-Z0-9#]{1,8};)", "&amp;", name)  # format_string
     suffix = "" if number is None else f"_{number}"
     return clean_filename(escaped.replace("_", " ") + suffix)
 
 
 def moodle_zip(path: Path, submissions: Iterable[tuple[str, int | None, dict[str, bytes]]]) -> Path:
-    """Write "Download all submissions": of each person or group the zip that was handed in."""
+    """Write "Download all submissions": the submitted zip of each person or group."""
     with zipfile.ZipFile(path, "w") as archive:
         for name, number, files in submissions:
             prefix = moodle_prefix(name, number)
@@ -187,12 +187,12 @@ def moodle_zip(path: Path, submissions: Iterable[tuple[str, int | None, dict[str
 def of_people(
     class_: Iterable[Person], score: float = 90
 ) -> list[tuple[str, int | None, dict[str, bytes]]]:
-    """Return what everybody who handed in has handed in."""
+    """Return the submissions of all participants that have one."""
     return [(p.name, p.number, scored(score)) for p in class_ if p.submitted]
 
 
 def canvas_zip(path: Path, class_: Iterable[Person], score: float = 90) -> Path:
-    """Write Canvas' "Download Submissions" of the same people; the number is the user's id."""
+    """Write Canvas' "Download Submissions" of these people; the number is the user's id."""
     with zipfile.ZipFile(path, "w") as archive:
         for person in class_:
             if person.submitted:
@@ -208,7 +208,7 @@ def canvas_gradebook(
     *,
     columns: Sequence[str] = ("Your first ROS 2 node: Hello time (77)",),
 ) -> bytes:
-    """Return Canvas' gradebook export; the last column holds the people's grades."""
+    """Return Canvas' gradebook export; the last column has the grades."""
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
     own = ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]

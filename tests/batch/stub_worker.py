@@ -1,6 +1,6 @@
-"""A worker without a sandbox: it hands out a report that was made before.
+"""A worker without a sandbox that answers each task with the same prepared report.
 
-For what a class of thousands costs the process that coordinates it, and nothing else.
+It serves to measure only the cost in the coordinating process for a class of thousands.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from grader.report.model import Report
 
 
 def main(argv: list[str]) -> int:
-    """Answer until the input ends: `stub_worker.py REPORT PARENT`."""
+    """Answer tasks until the input ends: `stub_worker.py REPORT PARENT`."""
     report = Report.model_validate_json(Path(argv[0]).read_bytes())
     sys.stdin.readline()
     for line in iter(sys.stdin.readline, ""):

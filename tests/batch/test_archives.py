@@ -1,4 +1,4 @@
-"""Archives that students hand in: what is in them is marked, as if it were a folder."""
+"""Submitted archives: their content is marked like a folder."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from grader.verdict.outcome import Failed
 
 from ..installed import installed
 from ..static_bench import ASSIGNMENT, StandIn
-from .handed_out import (
+from .archives import (
     NODE,
     NODE_PATH,
     PACKAGE,
@@ -47,7 +47,7 @@ TARS = [("w", "jane.tar"), ("w:gz", "jane.tgz"), ("w:xz", "jane.tar.xz"), ("w:bz
 
 
 def is_the_package(found: Submission, root: str) -> None:
-    """The package of `package()`, whole, with the exec bit on the node's file."""
+    """Assert that this is the complete package of `package()`, with the node's exec bit set."""
     assert (found.problem, found.root) == ("", root)
     assert {f.path: f.data for f in found.files if f.kind == "file"} == package()
     assert found.modes == "recorded"
@@ -59,7 +59,7 @@ def is_the_package(found: Submission, root: str) -> None:
 
 @pytest.mark.parametrize("below", ["", PACKAGE, f"ws/src/{PACKAGE}"])
 @pytest.mark.parametrize(("mode", "name"), TARS)
-def test_a_tar_is_taken_in_however_it_is_packed(
+def test_a_tar_is_read_with_any_compression(
     tmp_path: Path, mode: str, name: str, below: str
 ) -> None:
     found = hand_in(tmp_path, tarred(package(below=below), mode), name)
@@ -68,19 +68,19 @@ def test_a_tar_is_taken_in_however_it_is_packed(
 
 
 @pytest.mark.parametrize("below", ["", f"ws/src/{PACKAGE}"])
-def test_a_zip_of_unix_is_taken_in_with_its_modes(tmp_path: Path, below: str) -> None:
+def test_a_zip_made_on_unix_keeps_its_modes(tmp_path: Path, below: str) -> None:
     found = hand_in(tmp_path, zipped(package(below=below)))
     is_the_package(found, below or ".")
     assert (found.origin, found.name) == ("zip", "jane")
 
 
 @pytest.mark.parametrize("name", ["jane.tar.gz", "jane.pdf", "jane"])
-def test_the_kind_is_told_by_content_and_not_by_name(tmp_path: Path, name: str) -> None:
+def test_the_archive_type_is_detected_by_content_not_by_name(tmp_path: Path, name: str) -> None:
     is_the_package(hand_in(tmp_path, zipped(package()), name), ".")
 
 
-def test_an_archive_of_info_zip_and_of_gnu_tar_has_the_hash_of_the_folder(tmp_path: Path) -> None:
-    """The three ways to hand the same work in are the same work."""
+def test_archives_of_info_zip_and_gnu_tar_have_the_hash_of_the_folder(tmp_path: Path) -> None:
+    """The same package has one hash in a folder, a zip and a tar."""
     folder = write(tmp_path / "jane" / PACKAGE, package())
     (folder / "setup_link").symlink_to("setup.py")
     (folder / "empty").mkdir()
@@ -106,7 +106,7 @@ def test_an_archive_of_info_zip_and_of_gnu_tar_has_the_hash_of_the_folder(tmp_pa
     assert other.sha256 == take(above).sha256
 
 
-def test_a_hard_link_is_one_more_copy_of_its_file(tmp_path: Path) -> None:
+def test_a_hard_link_is_read_as_a_copy_of_its_file(tmp_path: Path) -> None:
     odd = odd_member("copy.py", tarfile.LNKTYPE, "setup.py")
     found = hand_in(tmp_path, tar_with(odd))
     copy = found.file("copy.py")
@@ -117,7 +117,7 @@ def test_a_hard_link_is_one_more_copy_of_its_file(tmp_path: Path) -> None:
 # exec bits
 
 
-def test_a_zip_made_on_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
+def test_a_zip_made_on_windows_has_unknown_exec_bits(tmp_path: Path) -> None:
     found = hand_in(tmp_path, zipped(package(), system=WINDOWS))
     assert found.modes == "unknown"
     assert not found.problem
@@ -125,8 +125,8 @@ def test_a_zip_made_on_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
     assert found.sha256 != hand_in(tmp_path, zipped(without)).sha256
 
 
-def test_unknown_exec_bits_and_missing_ones_are_not_the_same_work(tmp_path: Path) -> None:
-    """They are marked differently, so that one may not stand for the other."""
+def test_unknown_and_missing_exec_bits_have_different_hashes(tmp_path: Path) -> None:
+    """They are marked differently, so one verdict must not be reused for the other."""
     folder = write(tmp_path / "jane", package())
     (folder / NODE_PATH).chmod(0o644)
     found = hand_in(tmp_path, zipped(package(), system=WINDOWS), "windows.zip")
@@ -135,8 +135,8 @@ def test_unknown_exec_bits_and_missing_ones_are_not_the_same_work(tmp_path: Path
     assert take(folder, modes_kept=False).sha256 == found.sha256
 
 
-def test_githubs_download_zip_tells_exec_bits_by_leaving_them_out(tmp_path: Path) -> None:
-    """git archive says "made by Unix" of executable files only, and names the commit."""
+def test_exec_bits_are_known_in_the_zip_that_github_makes(tmp_path: Path) -> None:
+    """`git archive` sets "made by Unix" only on executable files, and names the commit."""
     repository = write(tmp_path / "repository", package())
     commit = ["-c", "user.name=j", "-c", "user.email=j@x", "commit", "-qm", "x"]
     for words in (["init", "-q"], ["add", "."], commit, ["archive", "-o", "../jane.zip", "HEAD"]):
@@ -151,7 +151,7 @@ def test_githubs_download_zip_tells_exec_bits_by_leaving_them_out(tmp_path: Path
     assert (found.modes, node.mode) == ("recorded", 0o644)
 
 
-def test_a_windows_zip_of_a_checkout_has_the_exec_bits_of_gits_index(tmp_path: Path) -> None:
+def test_a_windows_zip_of_a_checkout_takes_exec_bits_from_the_git_index(tmp_path: Path) -> None:
     repository = write(tmp_path / "repository", package())
     for words in (["init", "-q"], ["add", "."], ["config", "core.fileMode", "false"]):
         subprocess.run(["git", *words], cwd=repository, check=True)
@@ -167,7 +167,7 @@ def test_a_windows_zip_of_a_checkout_has_the_exec_bits_of_gits_index(tmp_path: P
     assert found.sha256 == take(repository).sha256
 
 
-def test_the_assignments_policy_says_what_unknown_exec_bits_cost(tmp_path: Path) -> None:
+def test_the_assignments_policy_decides_what_unknown_exec_bits_cost(tmp_path: Path) -> None:
     submission = hand_in(tmp_path, zipped(package(), system=WINDOWS))
     passed = exec_bit.function(cast("Evidence", StandIn(ASSIGNMENT, submission)))
     assert passed is not None
@@ -180,10 +180,10 @@ def test_the_assignments_policy_says_what_unknown_exec_bits_cost(tmp_path: Path)
     assert "tar" in Diagnosis.of(caught.value).fix
 
 
-# what tools and systems add
+# files that tools and operating systems add
 
 
-def test_what_macos_adds_is_left_out_and_noted(tmp_path: Path) -> None:
+def test_files_that_macos_adds_are_left_out_and_noted(tmp_path: Path) -> None:
     extra = {
         f"__MACOSX/{PACKAGE}/._setup.py": b"x",
         f"{PACKAGE}/.DS_Store": b"x",
@@ -196,7 +196,7 @@ def test_what_macos_adds_is_left_out_and_noted(tmp_path: Path) -> None:
         assert name in notes(found)
 
 
-def test_a_windows_zip_with_backslashes_has_folders(tmp_path: Path) -> None:
+def test_backslashes_in_a_windows_zip_separate_folders(tmp_path: Path) -> None:
     files = {path.replace("/", "\\"): data for path, data in package(below=PACKAGE).items()}
     found = hand_in(tmp_path, zipped(files, system=WINDOWS))
     assert found.root == PACKAGE
@@ -204,8 +204,8 @@ def test_a_windows_zip_with_backslashes_has_folders(tmp_path: Path) -> None:
     assert "backslashes" in notes(found)
 
 
-def test_names_in_code_page_437_and_in_unmarked_utf8_are_read(tmp_path: Path) -> None:
-    """zipfile writes what is not ASCII as marked UTF-8: the mark is taken off again."""
+def test_names_in_code_page_437_and_in_unflagged_utf8_are_read(tmp_path: Path) -> None:
+    """zipfile sets the UTF-8 flag on non-ASCII names, so the test clears it."""
     made = zipped({**package(), "grüße.txt": b"x"})
     unmarked = bytearray(made)
     for start, flags in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
@@ -234,7 +234,7 @@ def test_a_tar_name_that_is_not_utf8_is_left_out_and_noted(tmp_path: Path) -> No
     assert all(line.isprintable() for line in found.notes)
 
 
-def test_a_name_that_is_there_twice_is_the_last_one_and_noted(tmp_path: Path) -> None:
+def test_of_a_duplicate_name_the_last_file_counts_and_it_is_noted(tmp_path: Path) -> None:
     pairs = [(zipfile.ZipInfo(p), d) for p, d in package().items()]
     with pytest.warns(UserWarning, match="Duplicate"):
         data = zip_of([*pairs, (zipfile.ZipInfo(NODE_PATH), b"second")])
@@ -245,7 +245,7 @@ def test_a_name_that_is_there_twice_is_the_last_one_and_noted(tmp_path: Path) ->
     assert f"twice in the archive: the last one was used: {NODE_PATH}" in notes(found)
 
 
-def test_names_that_differ_only_in_case_are_kept_apart_and_noted(tmp_path: Path) -> None:
+def test_names_that_differ_only_in_case_are_both_kept_and_noted(tmp_path: Path) -> None:
     found = hand_in(tmp_path, zipped({**package(), "Setup.py": b"other"}))
     assert found.file("setup.py") != found.file("Setup.py")
     assert "differ only in case" in notes(found)
@@ -256,7 +256,7 @@ def test_names_that_differ_only_in_case_are_kept_apart_and_noted(tmp_path: Path)
 
 
 @pytest.mark.parametrize("packed", [1, 2, 3])
-def test_an_archive_in_an_archive_is_looked_into(tmp_path: Path, packed: int) -> None:
+def test_an_archive_in_an_archive_is_opened(tmp_path: Path, packed: int) -> None:
     data = tarred(package(below=PACKAGE), "w:gz")
     for depth in range(packed):
         data = zipped({f"week/inner{depth}.zip": data})
@@ -268,7 +268,7 @@ def test_an_archive_in_an_archive_is_looked_into(tmp_path: Path, packed: int) ->
     assert found.sha256 == take(write(tmp_path / "folder", package())).sha256
 
 
-def test_too_many_archives_in_each_other_are_a_mistake(tmp_path: Path) -> None:
+def test_archives_nested_too_deeply_are_a_mistake(tmp_path: Path) -> None:
     data = zipped(package())
     for _ in range(6):
         data = zipped({"again.zip": data})
@@ -276,22 +276,22 @@ def test_too_many_archives_in_each_other_are_a_mistake(tmp_path: Path) -> None:
     assert found.problem_mistake == "package.archive_nested"
 
 
-def test_a_folder_with_nothing_but_an_archive_is_looked_into(tmp_path: Path) -> None:
-    """So Moodle's folders come: one for each student, with the zip in it."""
+def test_a_folder_that_holds_only_an_archive_is_opened(tmp_path: Path) -> None:
+    """Moodle's download has such a folder for each student, with the zip in it."""
     (tmp_path / "Ann_1_assignsubmission_file").mkdir()
     found = hand_in(tmp_path / "Ann_1_assignsubmission_file", zipped(package()), "hw.zip")
     assert take(tmp_path / "Ann_1_assignsubmission_file").root == "hw.zip"
     assert take(tmp_path / "Ann_1_assignsubmission_file").sha256 == found.sha256
 
 
-def test_where_there_is_a_package_no_archive_beside_it_is_opened(tmp_path: Path) -> None:
+def test_an_archive_beside_a_package_is_not_opened(tmp_path: Path) -> None:
     write(tmp_path / "jane" / "src" / PACKAGE, package())
     found = hand_in(tmp_path / "jane", b"PK\x03\x04 broken", "old.zip")
     assert found.problem_mistake == "package.archive_corrupt"
     assert take(tmp_path / "jane").root == f"src/{PACKAGE}"
 
 
-def test_a_broken_archive_in_a_folder_is_the_problem_that_is_told(tmp_path: Path) -> None:
+def test_a_broken_archive_in_a_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "jane").mkdir()
     hand_in(tmp_path / "jane", zipped(package())[:300], "hw.zip")
     found = take(tmp_path / "jane")
@@ -299,7 +299,7 @@ def test_a_broken_archive_in_a_folder_is_the_problem_that_is_told(tmp_path: Path
     assert "hw.zip" in found.problem
 
 
-def test_two_archives_with_the_package_are_two_packages(tmp_path: Path) -> None:
+def test_two_archives_with_the_package_are_ambiguous(tmp_path: Path) -> None:
     (tmp_path / "jane").mkdir()
     for name in ("first.zip", "second.zip"):
         hand_in(tmp_path / "jane", zipped(package()), name)
@@ -308,7 +308,7 @@ def test_two_archives_with_the_package_are_two_packages(tmp_path: Path) -> None:
     assert "first.zip" in found.problem
 
 
-def test_a_document_is_not_opened_though_it_is_a_zip(tmp_path: Path) -> None:
+def test_an_office_document_is_not_opened_as_a_zip(tmp_path: Path) -> None:
     (tmp_path / "jane").mkdir()
     hand_in(tmp_path / "jane", zipped({"word/document.xml": b"x"}), "report.docx")
     found = take(tmp_path / "jane")
@@ -316,7 +316,7 @@ def test_a_document_is_not_opened_though_it_is_a_zip(tmp_path: Path) -> None:
     assert "report.docx" in found.problem
 
 
-# what is no archive, or none that can be opened
+# files that are not archives, or cannot be opened
 
 
 @pytest.mark.parametrize(
@@ -341,10 +341,10 @@ def test_a_document_is_not_opened_though_it_is_a_zip(tmp_path: Path) -> None:
         (zipped({"notes.txt": b"x"}), "a.zip", "package.no_manifest", "notes.txt"),
         (zipped({NODE: b"x"}), "a.zip", "package.only_node", NODE),
     ],
-    # an archive may hold the moment at which it was made, and a test's name may not
+    # explicit ids: an archive may contain the time of its creation, and a test id must not
     ids=lambda value: value[:4].hex() if isinstance(value, bytes) else None,
 )
-def test_what_cannot_be_opened_is_the_students_mistake_with_a_fix(
+def test_an_archive_that_cannot_be_opened_is_a_mistake_with_a_fix(
     tmp_path: Path, data: bytes, name: str, mistake: str, words: str
 ) -> None:
     found = hand_in(tmp_path, data, name)
@@ -367,7 +367,7 @@ def test_two_different_broken_archives_have_different_hashes(tmp_path: Path) -> 
     assert first.sha256 != hand_in(tmp_path, zipped(package())[:201]).sha256
 
 
-def test_a_damaged_byte_in_the_middle_is_noticed(tmp_path: Path) -> None:
+def test_a_damaged_byte_in_the_middle_is_detected(tmp_path: Path) -> None:
     for data, name in ((zipped(package()), "a.zip"), (tarred(package(), "w:gz"), "a.tgz")):
         broken = bytearray(data)
         at = data.find(b"PK\x03\x04", 10) + 30 if name == "a.zip" else len(data) // 2
@@ -378,7 +378,7 @@ def test_a_damaged_byte_in_the_middle_is_noticed(tmp_path: Path) -> None:
     assert hand_in(tmp_path, bytes(lost), "a.tar").problem_mistake == "package.archive_corrupt"
 
 
-def test_a_zip_with_a_password_is_told(tmp_path: Path) -> None:
+def test_a_zip_with_a_password_is_reported(tmp_path: Path) -> None:
     write(tmp_path / PACKAGE, package())
     words = [str(installed("zip", "zip")), "-qr", "-P", "secret", "jane.zip", PACKAGE]
     subprocess.run(words, cwd=tmp_path, check=True)
@@ -388,7 +388,7 @@ def test_a_zip_with_a_password_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
-def test_a_zip_packed_by_a_rare_method_is_named(tmp_path: Path, method: int) -> None:
+def test_an_unsupported_zip_compression_is_named(tmp_path: Path, method: int) -> None:
     with zipfile.ZipFile(tmp_path / "jane.zip", "w", method) as archive:
         for path, data in package().items():
             archive.writestr(path, data)
@@ -396,15 +396,15 @@ def test_a_zip_packed_by_a_rare_method_is_named(tmp_path: Path, method: int) -> 
     assert found.problem_mistake == "package.archive_unsupported"
 
 
-def test_an_archive_is_read_where_nothing_can_be_written(
+def test_an_archive_is_read_without_writing_to_disk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Small archives never touch the disk, so that no killed run leaves anything."""
+    """Small archives are never written to disk, so a killed run leaves nothing."""
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
     is_the_package(hand_in(tmp_path, tarred(package(), "w:xz"), "jane.tar.xz"), ".")
 
 
-def test_the_name_of_the_student_is_the_archives_or_the_folders_that_says_more(
+def test_the_students_name_comes_from_the_archive_or_from_its_folder(
     tmp_path: Path,
 ) -> None:
     (tmp_path / "jane").mkdir()
@@ -412,7 +412,7 @@ def test_the_name_of_the_student_is_the_archives_or_the_folders_that_says_more(
     assert hand_in(tmp_path, zipped(package()), "Jane Doe.tar.gz").name == "Jane_Doe"
 
 
-def test_the_solution_in_an_archive_is_the_solution_in_its_folder(tmp_path: Path) -> None:
+def test_the_solution_in_an_archive_equals_the_solution_in_a_folder(tmp_path: Path) -> None:
     solution = Path("grader/keys/hello_time/solution")
     packed = shutil.make_archive(str(tmp_path / "jane"), "gztar", solution)
     by_folder = take_in(solution, package=PACKAGE, node_file=NODE)

@@ -1,4 +1,4 @@
-"""The archive of a whole class: unpacked once, and hostile members cost only their own student."""
+"""The archive of a whole class: unpacked once; hostile members affect only their own student."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from grader.batch.model import ClassFolder, HandedIn
 from grader.package.intake.archive_limits import ArchiveLimits
 from tests.installed import installed
 
-from .handed_out import (
+from .archives import (
     PACKAGE,
     WINDOWS,
     everything_below,
@@ -46,18 +46,18 @@ def found_in(tmp_path: Path, data: bytes, name: str = "class.zip") -> ClassFolde
     return discover(tmp_path / name, unpack=tmp_path / "work")
 
 
-def one(folder: ClassFolder, key: str) -> HandedIn:
+def submission_of(folder: ClassFolder, key: str) -> HandedIn:
     (found,) = [given for given in folder.handed_in if given.student.key == key]
     return found
 
 
-def said(thing: ClassFolder | HandedIn) -> str:
+def notes_of(thing: ClassFolder | HandedIn) -> str:
     return "\n".join(thing.notes)
 
 
 def are_marked(folder: ClassFolder, *keys: str) -> None:
     for key in keys:
-        given = one(folder, key)
+        given = submission_of(folder, key)
         assert not given.problem
         found = take(given.path, modes_kept=given.modes_kept)
         assert found.problem == ""
@@ -66,35 +66,35 @@ def are_marked(folder: ClassFolder, *keys: str) -> None:
 
 @pytest.mark.parametrize("top", ["", "hw1/", "hw1/all/"])
 @pytest.mark.parametrize("kind", ["zip", "tar", "tar.gz", "tar.xz"])
-def test_a_class_in_an_archive_is_found_in_it(tmp_path: Path, kind: str, top: str) -> None:
+def test_a_class_in_an_archive_is_discovered(tmp_path: Path, kind: str, top: str) -> None:
     files = {f"{top}{path}": data for path, data in two().items()}
     files[f"{top}kim.zip"] = zipped(package())
     mode = {"tar": "w"}.get(kind, f"w:{kind[4:]}")
     data = zipped(files) if kind == "zip" else tarred(files, mode)
     found = found_in(tmp_path, data, f"class.{kind}")
     assert found.path == tmp_path / f"class.{kind}"
-    assert one(found, "kim").path.name == "kim.zip"
+    assert submission_of(found, "kim").path.name == "kim.zip"
     are_marked(found, "ann", "joe", "kim")
 
 
-def test_an_archive_is_unpacked_once_and_found_again(tmp_path: Path) -> None:
+def test_an_archive_is_unpacked_only_once(tmp_path: Path) -> None:
     first = found_in(tmp_path, zipped(two()))
-    before = (one(first, "ann").path / "ws" / "setup.py").stat().st_ino
+    before = (submission_of(first, "ann").path / "ws" / "setup.py").stat().st_ino
     again = found_in(tmp_path, zipped(two()), "renamed.zip")
     assert [given.path for given in again.handed_in] == [given.path for given in first.handed_in]
-    assert (one(again, "ann").path / "ws" / "setup.py").stat().st_ino == before
+    assert (submission_of(again, "ann").path / "ws" / "setup.py").stat().st_ino == before
     other = found_in(tmp_path, zipped(two(**{"ann/ws/setup.py": b"changed"})))
-    assert one(other, "ann").path != one(first, "ann").path
+    assert submission_of(other, "ann").path != submission_of(first, "ann").path
 
 
-def test_what_is_unpacked_is_the_owners_alone(tmp_path: Path) -> None:
+def test_unpacked_files_are_readable_by_their_owner_only(tmp_path: Path) -> None:
     found = found_in(tmp_path, zipped(two()))
     for path in (tmp_path / "work", *(tmp_path / "work").iterdir()):
         assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0
-    assert one(found, "ann").path.is_relative_to(tmp_path / "work")
+    assert submission_of(found, "ann").path.is_relative_to(tmp_path / "work")
 
 
-def test_a_run_that_was_killed_while_unpacking_is_taken_up_again(tmp_path: Path) -> None:
+def test_unpacking_resumes_after_a_kill(tmp_path: Path) -> None:
     (tmp_path / "class.zip").write_bytes(zipped(two()))
     script = (
         "import os, sys; from pathlib import Path\n"
@@ -116,7 +116,7 @@ def test_a_run_that_was_killed_while_unpacking_is_taken_up_again(tmp_path: Path)
     assert not [path for path in everything_below(tmp_path / "work") if ".part" in path]
 
 
-def test_what_a_stranger_changed_in_the_record_is_unpacked_anew(tmp_path: Path) -> None:
+def test_an_altered_record_of_unpacking_unpacks_again(tmp_path: Path) -> None:
     found_in(tmp_path, zipped(two()))
     (record,) = (tmp_path / "work").glob("*/unpacked.json")
     other = '{"form": 0, "remarks": [["ann", "of old"]], "modes_recorded": true}'
@@ -124,10 +124,10 @@ def test_what_a_stranger_changed_in_the_record_is_unpacked_anew(tmp_path: Path) 
         record.write_text(text)
         found = found_in(tmp_path, zipped(two()))
         are_marked(found, "ann", "joe")
-        assert not said(one(found, "ann"))
+        assert not notes_of(submission_of(found, "ann"))
 
 
-def test_a_zip_of_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
+def test_a_class_zip_made_on_windows_has_unknown_exec_bits(tmp_path: Path) -> None:
     found = found_in(tmp_path, zipped(two(), system=WINDOWS))
     assert [given.modes_kept for given in found.handed_in] == [False, False]
 
@@ -138,24 +138,24 @@ def test_a_zip_of_windows_does_not_tell_exec_bits(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "name", ["../evil", "/etc/evil", "ann/../../evil", "C:\\evil", "ann\\..\\..\\e"]
 )
-def test_a_name_that_leads_out_is_left_out_and_told(tmp_path: Path, name: str) -> None:
+def test_a_member_outside_the_folder_is_left_out_and_reported(tmp_path: Path, name: str) -> None:
     before = everything_below(tmp_path)
     members = [(zipfile.ZipInfo(path), data) for path, data in two().items()]
     found = found_in(tmp_path, zip_of([*members, (zipfile.ZipInfo(name), b"evil")]))
     made = everything_below(tmp_path) - before
     assert not [path for path in made if "evil" in path]
     assert not Path("/etc/evil").exists()
-    assert "leads out" in said(found) + said(one(found, "ann"))
+    assert "leads out" in notes_of(found) + notes_of(submission_of(found, "ann"))
     are_marked(found, "ann", "joe")
     by_tar = found_in(tmp_path, tarred({**two(), name.replace("\\", "/"): b"evil"}), "class.tar")
-    assert "leads out" in said(by_tar) + said(one(by_tar, "ann"))
+    assert "leads out" in notes_of(by_tar) + notes_of(submission_of(by_tar, "ann"))
     are_marked(by_tar, "ann", "joe")
 
 
 @pytest.mark.parametrize(
     "kind", [tarfile.SYMTYPE, tarfile.LNKTYPE, tarfile.CHRTYPE, tarfile.BLKTYPE, tarfile.FIFOTYPE]
 )
-def test_links_devices_and_pipes_are_never_made(tmp_path: Path, kind: bytes) -> None:
+def test_links_devices_and_pipes_are_never_created(tmp_path: Path, kind: bytes) -> None:
     odd = [
         odd_member("ann/ws/way", kind, "/etc"),
         odd_member("ann/ws/way/passwd", tarfile.REGTYPE),
@@ -165,22 +165,22 @@ def test_links_devices_and_pipes_are_never_made(tmp_path: Path, kind: bytes) -> 
     for path in (tmp_path / "work").rglob("*"):
         assert path.is_dir() or path.is_file()
         assert not path.is_symlink()
-    assert "ann/ws/way" in said(one(found, "ann"))
-    assert "not unpacked" in one(found, "eve").problem
-    assert not said(one(found, "joe"))
+    assert "ann/ws/way" in notes_of(submission_of(found, "ann"))
+    assert "not unpacked" in submission_of(found, "eve").problem
+    assert not notes_of(submission_of(found, "joe"))
     are_marked(found, "joe")
 
 
-def test_a_hard_link_is_a_copy_of_a_file_in_the_archive(tmp_path: Path) -> None:
+def test_a_hard_link_becomes_a_copy_of_its_file(tmp_path: Path) -> None:
     odd = odd_member("ann/ws/copy.py", tarfile.LNKTYPE, "ann/ws/setup.py")
     found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
-    copy = one(found, "ann").path / "ws" / "copy.py"
+    copy = submission_of(found, "ann").path / "ws" / "copy.py"
     assert copy.read_bytes() == package()["setup.py"]
     assert copy.stat().st_nlink == 1
 
 
-def test_a_file_whose_bytes_are_damaged_costs_its_student_alone(tmp_path: Path) -> None:
-    """The other students' are whole; a student whose archive is lost is not lost himself."""
+def test_a_damaged_file_affects_only_its_student(tmp_path: Path) -> None:
+    """Other students are complete, and a student whose archive is damaged is still listed."""
     files = {**two(), "kim.zip": os.urandom(300), "max/ws/setup.py": os.urandom(300)}
     data = bytearray(zipped(files))
     with zipfile.ZipFile(io.BytesIO(bytes(data))) as archive:
@@ -188,20 +188,20 @@ def test_a_file_whose_bytes_are_damaged_costs_its_student_alone(tmp_path: Path) 
             at = archive.getinfo(name).header_offset + 30 + len(name) + 20
             data[at : at + 4] = bytes(byte ^ 0xFF for byte in data[at : at + 4])
     found = found_in(tmp_path, bytes(data))
-    assert "damaged" in one(found, "kim").problem
-    assert "damaged" in said(one(found, "max"))
+    assert "damaged" in submission_of(found, "kim").problem
+    assert "damaged" in notes_of(submission_of(found, "max"))
     are_marked(found, "ann", "joe")
 
 
-def test_a_size_that_is_a_lie_costs_its_student_alone(tmp_path: Path) -> None:
+def test_a_false_size_affects_only_its_student(tmp_path: Path) -> None:
     data = zipped({**two(), "kim.zip": bytes(3_000_000)})
     lied = data.replace(struct.pack("<I", 3_000_000), struct.pack("<I", 1_000))
     found = found_in(tmp_path, lied)
-    assert one(found, "kim").problem
+    assert submission_of(found, "kim").problem
     are_marked(found, "ann", "joe")
 
 
-def test_more_than_one_student_can_have_is_not_unpacked(
+def test_files_beyond_a_students_limits_are_not_unpacked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     limits = ArchiveLimits(members=50, unpacked=100_000, packed=60_000)
@@ -217,44 +217,42 @@ def test_more_than_one_student_can_have_is_not_unpacked(
         found_in(tmp_path, zipped(files)),
         found_in(tmp_path, tar_with(*links, files=files), "class.tar"),
     ):
-        assert "not unpacked" in one(found, "kim").problem
-        assert len(list((one(found, "max").path / "x").iterdir())) == 50
-        assert len(list((one(found, "eve").path / "x").iterdir())) == 2
-        assert "its folder has more than" in said(one(found, "max"))
-        assert "its folder has more than" in said(one(found, "eve"))
+        assert "not unpacked" in submission_of(found, "kim").problem
+        assert len(list((submission_of(found, "max").path / "x").iterdir())) == 50
+        assert len(list((submission_of(found, "eve").path / "x").iterdir())) == 2
+        assert "its folder has more than" in notes_of(submission_of(found, "max"))
+        assert "its folder has more than" in notes_of(submission_of(found, "eve"))
         are_marked(found, "ann", "joe")
-    assert len(list((one(found, "kit").path / "x").iterdir())) == 2
+    assert len(list((submission_of(found, "kit").path / "x").iterdir())) == 2
 
 
-def test_names_in_each_others_way_are_left_out_and_told(tmp_path: Path) -> None:
+def test_members_with_conflicting_paths_are_left_out_and_reported(tmp_path: Path) -> None:
     files = [*two().items(), ("ann/ws", b""), ("joe/ws/setup.py/x", b""), ("n" * 300, b"")]
     found = found_in(tmp_path, zip_of([(zipfile.ZipInfo(name), data) for name, data in files]))
-    assert "in conflict" in said(one(found, "ann"))
-    assert "in conflict" in said(one(found, "joe"))
+    assert "in conflict" in notes_of(submission_of(found, "ann"))
+    assert "in conflict" in notes_of(submission_of(found, "joe"))
     are_marked(found, "ann", "joe")
 
 
-def test_the_same_name_twice_is_told(tmp_path: Path) -> None:
+def test_a_duplicate_name_is_reported(tmp_path: Path) -> None:
     good = [(zipfile.ZipInfo(name), data) for name, data in two().items()]
     with pytest.warns(UserWarning, match="Duplicate"):
         data = zip_of([*good, (zipfile.ZipInfo("ann/ws/setup.py"), b"last")])
     found = found_in(tmp_path, data)
-    assert (one(found, "ann").path / "ws/setup.py").read_bytes() == b"last"
-    assert "twice" in said(one(found, "ann"))
+    assert (submission_of(found, "ann").path / "ws/setup.py").read_bytes() == b"last"
+    assert "twice" in notes_of(submission_of(found, "ann"))
 
 
 def test_a_name_that_is_not_utf8_is_kept(tmp_path: Path) -> None:
     odd = odd_member("jos\udce9.zip", tarfile.REGTYPE)
     found = found_in(tmp_path, tar_with(odd, files=two()), "class.tar")
-    assert one(found, "jos\\udce9").path.name == "jos\udce9.zip"
+    assert submission_of(found, "jos\\udce9").path.name == "jos\udce9.zip"
 
 
 @pytest.mark.parametrize("cut", [10, 300, -30])
 @pytest.mark.parametrize("packing", ["zip", "tar.gz"])
-def test_a_class_archive_that_was_cut_short_is_refused_whole(
-    tmp_path: Path, packing: str, cut: int
-) -> None:
-    """Half a class must not pass for a class."""
+def test_a_truncated_class_archive_is_refused(tmp_path: Path, packing: str, cut: int) -> None:
+    """A part of a class must not be taken for the whole."""
     data = zipped(two()) if packing == "zip" else tarred(two(), "w:gz")
     with pytest.raises(UsageError, match="class archive cannot be unpacked") as error:
         found_in(tmp_path, data[:cut], f"class.{packing}")
@@ -272,33 +270,33 @@ def packed_by_zip(folder: Path, files: dict[str, bytes], *locked: str) -> bytes:
     return (folder / "c.zip").read_bytes()
 
 
-def test_a_class_archive_with_a_password_is_refused_whole(tmp_path: Path) -> None:
+def test_a_class_archive_with_a_password_is_refused(tmp_path: Path) -> None:
     data = packed_by_zip(tmp_path / "made", two(), *two())
     with pytest.raises(UsageError, match="password") as error:
         found_in(tmp_path, data)
     assert "give the folder" in error.value.remedy
 
 
-def test_one_file_with_a_password_costs_one_student(tmp_path: Path) -> None:
+def test_one_file_with_a_password_affects_one_student(tmp_path: Path) -> None:
     data = packed_by_zip(tmp_path / "made", two(), "ann/ws/setup.py")
     found = found_in(tmp_path, data)
-    assert "password" in said(one(found, "ann"))
+    assert "password" in notes_of(submission_of(found, "ann"))
     are_marked(found, "joe")
-    assert "password" not in said(one(found, "joe"))
+    assert "password" not in notes_of(submission_of(found, "joe"))
 
 
-def test_a_place_that_cannot_be_written_is_our_surroundings_fault(tmp_path: Path) -> None:
+def test_an_unwritable_work_folder_is_a_surroundings_error(tmp_path: Path) -> None:
     (tmp_path / "work").write_text("a file in the way")
     with pytest.raises(SurroundingsError, match="cannot be unpacked"):
         found_in(tmp_path, zipped(two()))
 
 
-def test_a_class_zip_of_one_package_is_no_class(tmp_path: Path) -> None:
+def test_a_zip_of_a_single_package_is_not_a_class(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="one package"):
         found_in(tmp_path, zipped(package(below=PACKAGE)))
 
 
-def test_several_runs_at_once_unpack_it_once(tmp_path: Path) -> None:
+def test_concurrent_runs_unpack_an_archive_once(tmp_path: Path) -> None:
     (tmp_path / "class.zip").write_bytes(zipped(two()))
     script = (
         "import sys; from pathlib import Path\n"

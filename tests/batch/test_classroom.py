@@ -1,4 +1,4 @@
-"""Clones of GitHub Classroom: whose they are, and what tells when they were handed in."""
+"""Clones of GitHub Classroom: their students and their submission times."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from grader.batch.policy import Attempt, standing
 from grader.course.policy import Late, Policy
 from tests.report.samples import report
 
-from .handed_out import package, repository, write
+from .archives import package, repository, write
 
 DUE = datetime(2026, 3, 4, 9, 20, 30, tzinfo=timezone.utc)
 POLICY = Policy(due=DUE, late=Late(per_day="10%"))
@@ -29,19 +29,19 @@ def found_in(path: Path, roster: Path | None = None) -> ClassFolder:
 
 
 def grades(path: Path, **times: str) -> Path:
-    """Write what Classroom's "Download grades" gives: a line for each user, with the time."""
+    """Write Classroom's "Download grades" file: a line with the time for each user."""
     lines = (f"hw,u,s,{user},,org/hw-{user},r,{time},0,100\n" for user, time in times.items())
     path.write_text(HEADER + "".join(lines), encoding="utf-8")
     return path
 
 
-def judged(given: HandedIn) -> GradebookEntry:
+def entry_of(given: HandedIn) -> GradebookEntry:
     """Return what a right package gets under the policy."""
     attempt = Attempt(1, given.submitted, given.late, report(), notes=given.notes)
     return standing(given.student, [attempt], [], POLICY, 100)
 
 
-def test_clones_are_known_by_what_follows_the_assignments_name(tmp_path: Path) -> None:
+def test_a_clone_is_identified_by_the_part_after_the_assignments_name(tmp_path: Path) -> None:
     root = tmp_path / "hw"
     for user in ("ann-lee", "joe"):
         repository(root / f"hello-time-{user}")
@@ -54,27 +54,27 @@ def test_clones_are_known_by_what_follows_the_assignments_name(tmp_path: Path) -
     assert max_.student.key == "mail-max"
 
 
-def test_one_clone_is_known_by_the_folder_that_gh_makes(tmp_path: Path) -> None:
+def test_a_single_clone_is_identified_by_the_folder_that_gh_makes(tmp_path: Path) -> None:
     repository(tmp_path / "hw1-submissions" / "hw1-ann")
     (ann,) = found_in(tmp_path / "hw1-submissions").handed_in
     assert ann.student.username == "ann"
 
 
 @pytest.mark.parametrize("days", [-3, 3])
-def test_the_time_of_a_commit_costs_nothing_and_spares_nothing(tmp_path: Path, days: int) -> None:
-    """The student's own computer sets it: `git commit --date` makes any commit early."""
+def test_the_commit_time_does_not_decide_lateness(tmp_path: Path, days: int) -> None:
+    """The student's computer sets it: `git commit --date` can backdate any commit."""
     at = (DUE + timedelta(days=days)).isoformat()
     for user in ("ann", "joe"):
         repository(tmp_path / "hw" / f"hw-{user}", at=at)
     found = found_in(tmp_path / "hw")
     assert [given.submitted for given in found.handed_in] == [None, None]
     assert "sets the time of a commit" in "\n".join(found.notes)
-    entry = judged(found.handed_in[0])
+    entry = entry_of(found.handed_in[0])
     assert (entry.penalty, entry.final) == (0, 100)
     assert "time of submission is not known" in entry.notes[-1]
 
 
-def test_the_grades_file_of_classroom_tells_who_was_late(tmp_path: Path) -> None:
+def test_lateness_comes_from_the_grades_file_of_classroom(tmp_path: Path) -> None:
     for user in ("ann", "joe", "max"):
         repository(tmp_path / "hw" / f"hw-{user}")
     file = grades(
@@ -87,12 +87,12 @@ def test_the_grades_file_of_classroom_tells_who_was_late(tmp_path: Path) -> None
     ann, joe, max_ = found.handed_in
     late = DUE + timedelta(days=1, seconds=1)
     assert [given.submitted for given in (ann, joe, max_)] == [DUE, late, None]
-    assert [judged(given).final for given in (ann, joe, max_)] == [100, 80, 100]
-    assert "not known" not in "\n".join(judged(ann).notes)
-    assert "not known" in judged(max_).notes[-1]
+    assert [entry_of(given).final for given in (ann, joe, max_)] == [100, 80, 100]
+    assert "not known" not in "\n".join(entry_of(ann).notes)
+    assert "not known" in entry_of(max_).notes[-1]
 
 
-def test_a_grades_file_with_what_is_no_time_tells_none(tmp_path: Path) -> None:
+def test_an_invalid_time_in_the_grades_file_is_ignored(tmp_path: Path) -> None:
     for user in ("ann", "joe"):
         repository(tmp_path / "hw" / f"hw-{user}")
     file = grades(tmp_path / "grades.csv", ann="MM-DD-YYYY", joe="2026-99-99T00:00:00Z")
@@ -100,8 +100,8 @@ def test_a_grades_file_with_what_is_no_time_tells_none(tmp_path: Path) -> None:
     assert [given.submitted for given in found.handed_in] == [None, None]
 
 
-def test_nothing_that_a_repository_names_is_run(tmp_path: Path) -> None:
-    """A fsmonitor, hooks, an alias and a pager that would leave a mark."""
+def test_no_program_that_a_repository_configures_is_run(tmp_path: Path) -> None:
+    """An fsmonitor, hooks, an alias and a pager that would leave a file."""
     trap = tmp_path / "trap.sh"
     trap.write_text(f"#!/bin/sh\ntouch {tmp_path}/sprung\n")
     trap.chmod(0o755)

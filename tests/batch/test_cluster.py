@@ -1,4 +1,4 @@
-"""A real Dask scheduler with real worker processes: one is killed, one is another grader."""
+"""A real Dask scheduler with real worker processes, some of which are killed or unusable."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING
 import pytest
 
 from grader.base.errors import SurroundingsError
+from grader.base.unheard import unheard
 from grader.batch.cluster import Cluster
 from grader.batch.ledger import Ledger
 from grader.batch.work import Done, Task
 from grader.ros.prefix import Ros
-from tests.batch.classes import grade_all, of_corpus, verdicts_beside
-from tests.batch.works import JOB, tasks
-from tests.stage import ROOT, grader
+from tests.batch.classes import corpus_class, count_verdicts, grade_all
+from tests.batch.pool_tasks import JOB, tasks
+from tests.processes import ROOT, grader
 
 if TYPE_CHECKING:
     from distributed import Future
@@ -34,7 +35,7 @@ pytestmark = [pytest.mark.prefix, pytest.mark.full]
 def process(
     *words: str, ready: str, env: dict[str, str] | None = None
 ) -> Iterator[tuple[int, str]]:
-    """Start a program of Dask's; yield its process id and the line that says that it is ready."""
+    """Start a Dask program; yield its process id and the line that announces it is ready."""
     with subprocess.Popen(
         [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]],
         cwd=ROOT,
@@ -88,7 +89,7 @@ def start_worker(scheduler: str, tmp_path: Path) -> Iterator[Callable[..., int]]
         yield start
 
 
-def _unheard(task: Task) -> None:
+def _ignore(task: Task) -> None:
     del task
 
 
@@ -100,7 +101,7 @@ def _scores(done: list[Done]) -> dict[str, float]:
     return found
 
 
-def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
+def test_a_lost_worker_costs_only_the_submission_it_was_marking(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:
     first = start_worker()
@@ -108,7 +109,7 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
     names = ["solution", "entry_missing"] * 4
     with Cluster(scheduler, JOB, notify=print) as cluster:
         found: list[Done] = []
-        for done in cluster.run(tasks(tmp_path, names), started=_unheard):
+        for done in cluster.run(tasks(tmp_path, names), started=_ignore):
             found.append(done)
             if len(found) == 1:
                 os.kill(first, signal.SIGKILL)
@@ -116,7 +117,7 @@ def test_a_worker_that_is_lost_costs_only_what_it_was_marking(
     assert _scores(found) == expected
 
 
-def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
+def test_a_scheduler_that_ends_during_the_wait_is_reported(
     ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with (
@@ -126,24 +127,24 @@ def test_a_scheduler_that_dies_while_verdicts_are_waited_for_is_told(
         wait = cluster._wait
 
         def waits(futures: list[Future[str]]) -> list[Future[str]]:
-            # (a verdict takes seconds: this is in the middle of the wait for it)
+            # a verdict takes seconds, so this is in the middle of the wait
             Timer(0.2, os.kill, (scheduler, signal.SIGKILL)).start()
             return wait(futures)
 
         monkeypatch.setattr(cluster, "_wait", waits)
         with pytest.raises(SurroundingsError, match="is gone"):
-            list(cluster.run(tasks(tmp_path, ["solution"]), started=_unheard))
+            list(cluster.run(tasks(tmp_path, ["solution"]), started=_ignore))
 
 
-def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
-    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"] * 3)
+def test_no_verdict_is_lost_if_the_scheduler_ends(ros_jazzy: Ros, tmp_path: Path) -> None:
+    folder = corpus_class(tmp_path / "class", ["solution", "entry_missing"] * 3)
     with scheduler_and_worker() as (scheduler, address):
         command = grader("grade-all", folder, "--out", tmp_path / "out", "--scheduler", address)
         with subprocess.Popen(
             [*command, "--quiet"], cwd=ROOT, stderr=subprocess.PIPE, text=True
         ) as begun:
             assert begun.stderr is not None
-            while not verdicts_beside(tmp_path / "out" / "ledger.sqlite"):
+            while not count_verdicts(tmp_path / "out" / "ledger.sqlite"):
                 assert begun.poll() is None
                 os.sched_yield()
             os.kill(scheduler, signal.SIGKILL)
@@ -157,15 +158,15 @@ def test_a_scheduler_that_dies_in_the_middle_loses_nothing(ros_jazzy: Ros, tmp_p
         assert ledger.count() == 6
 
 
-def test_a_class_is_marked_on_the_cluster_and_kept_here(
+def test_verdicts_from_the_cluster_are_kept_in_the_local_ledger(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:
     start_worker()
-    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing"])
+    folder = corpus_class(tmp_path / "class", ["solution", "entry_missing"])
     done = grade_all(folder, tmp_path / "out", "--scheduler", scheduler)
     assert done.returncode == 1, done.stderr
     assert "marks in bubblewrap" in done.stderr
-    # and what the cluster has marked is not marked again on this machine
+    # what the cluster has marked is not marked again on this machine
     again = grade_all(folder, tmp_path / "out")
     assert "0 to mark, 2 marked before" in again.stderr
     with Ledger(tmp_path / "out" / "ledger.sqlite") as ledger:
@@ -179,13 +180,13 @@ def test_a_worker_without_a_sandbox_is_not_used(
     start_worker(PATH="/nowhere")
     said: list[str] = []
     with Cluster(scheduler, JOB, notify=said.append) as cluster:
-        (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=_unheard)
+        (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=unheard)
     assert _scores([done]) == {"solution-0": 100}
     assert len([line for line in said if "marks in bubblewrap" in line]) == 1
     assert len([line for line in said if "is not used" in line]) == 1
 
 
-def test_workers_of_which_none_can_mark_are_refused(
+def test_a_cluster_without_a_usable_worker_is_refused(
     scheduler: str, start_worker: Callable[..., int]
 ) -> None:
     start_worker()
@@ -194,8 +195,8 @@ def test_workers_of_which_none_can_mark_are_refused(
         pass
 
 
-def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
-    folder = of_corpus(tmp_path / "class", ["solution"])
+def test_an_unreachable_scheduler_is_reported(tmp_path: Path) -> None:
+    folder = corpus_class(tmp_path / "class", ["solution"])
     done = grade_all(folder, tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
     assert done.returncode == 3
     assert "does not answer" in done.stderr

@@ -1,4 +1,4 @@
-"""Folders and archives that an instructor named: whose they are, and what is told about them."""
+"""Discovery of submissions in folders and archives: their students and the notes about them."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn
 from grader.batch.systems.notes import printable
 
-from .handed_out import NODE_PATH, PACKAGE, package, take, tarred, write, zipped
+from .archives import NODE_PATH, PACKAGE, package, take, tarred, write, zipped
 
 
 def found_in(path: Path, tmp_path: Path, system: str = "auto") -> ClassFolder:
     return discover(path, system=system, unpack=tmp_path / "work")
 
 
-def one(folder: ClassFolder, key: str) -> HandedIn:
+def submission_of(folder: ClassFolder, key: str) -> HandedIn:
     (found,) = [given for given in folder.handed_in if given.student.key == key]
     return found
 
@@ -34,7 +34,7 @@ def keys(folder: ClassFolder) -> list[str]:
     return [given.student.key for given in folder.handed_in]
 
 
-def said(folder: ClassFolder) -> str:
+def notes_of(folder: ClassFolder) -> str:
     return "\n".join(folder.notes)
 
 
@@ -48,35 +48,37 @@ def course(tmp_path: Path) -> Path:
     return root
 
 
-def test_each_folder_and_each_archive_is_a_students(course: Path, tmp_path: Path) -> None:
+def test_each_folder_and_each_archive_is_one_student(course: Path, tmp_path: Path) -> None:
     found = found_in(course, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
     assert [given.student.name for given in found.handed_in] == ["ann lee", "joe", "zoë"]
     assert (found.system, found.path, found.missing) == ("folders", course, ())
-    assert one(found, "zoë").path == course / "zoë.tar.gz"
+    assert submission_of(found, "zoë").path == course / "zoë.tar.gz"
     for work in found.handed_in:
         assert take(work.path).problem == ""
         assert (work.attempt, work.submitted, work.late) == (1, None, None)
-    assert "folders" in said(found)
+    assert "folders" in notes_of(found)
     assert not (tmp_path / "work").exists()
 
 
-def test_a_folder_of_archives_alone_is_called_so(tmp_path: Path) -> None:
+def test_a_folder_of_archives_is_recognised_as_one(tmp_path: Path) -> None:
     for name in ("jane.zip", "joe.tar.xz"):
         (tmp_path / name).write_bytes(zipped(package()))
     found = found_in(tmp_path, tmp_path)
     assert (found.system, keys(found)) == ("archives", ["jane", "joe"])
 
 
-def test_an_archive_without_an_ending_is_known_by_its_content(course: Path, tmp_path: Path) -> None:
+def test_an_archive_without_an_extension_is_detected_by_content(
+    course: Path, tmp_path: Path
+) -> None:
     (course / "kim").write_bytes(zipped(package()))
     (course / "notes").write_text("to do\n")
     found = found_in(course, tmp_path)
-    assert one(found, "kim").path == course / "kim"
-    assert "notes" in said(found)
+    assert submission_of(found, "kim").path == course / "kim"
+    assert "notes" in notes_of(found)
 
 
-def test_what_is_nobodys_is_told_and_left_out(course: Path, tmp_path: Path) -> None:
+def test_other_files_are_reported_and_left_out(course: Path, tmp_path: Path) -> None:
     for name in (".git", "__MACOSX", "reports"):
         write(course / name, package())
     for name in (".DS_Store", "README.md", "grades.csv", "index.html", "jane.py"):
@@ -85,17 +87,17 @@ def test_what_is_nobodys_is_told_and_left_out(course: Path, tmp_path: Path) -> N
     found = found_in(course, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
     for name in (".git", "__MACOSX", "reports", ".DS_Store", "README.md", "grades.csv", "jane.py"):
-        assert name in said(found)
-    assert "pipe" in said(found)
+        assert name in notes_of(found)
+    assert "pipe" in notes_of(found)
 
 
-def test_the_folder_that_things_are_unpacked_in_is_no_student(course: Path) -> None:
+def test_the_folder_of_unpacked_archives_is_not_a_student(course: Path) -> None:
     found = discover(course, unpack=course / "out" / "work")
     (course / "out" / "work").mkdir(parents=True)
     assert keys(discover(course, unpack=course / "out" / "work")) == keys(found)
 
 
-def test_an_archive_beside_the_folder_of_its_name_is_an_attempt_before(tmp_path: Path) -> None:
+def test_an_archive_beside_the_folder_of_its_name_is_an_earlier_attempt(tmp_path: Path) -> None:
     write(tmp_path / "c" / "jane", package())
     (tmp_path / "c" / "jane.zip").write_bytes(zipped(package()))
     (tmp_path / "c" / "jane.tgz").write_bytes(tarred(package(), "w:gz"))
@@ -114,24 +116,24 @@ def test_a_link_in_place_of_a_submission_is_not_followed(course: Path, tmp_path:
     (course / "eve").symlink_to("/etc")
     (course / "max.zip").symlink_to("gone.zip")
     found = found_in(course, tmp_path)
-    assert "link" in one(found, "eve").problem
-    assert "link" in one(found, "max").problem
-    assert one(found, "joe").problem == ""
+    assert "link" in submission_of(found, "eve").problem
+    assert "link" in submission_of(found, "max").problem
+    assert submission_of(found, "joe").problem == ""
 
 
-def test_a_folder_around_the_class_is_gone_into(course: Path, tmp_path: Path) -> None:
+def test_a_folder_around_the_class_is_entered(course: Path, tmp_path: Path) -> None:
     around = tmp_path / "downloads"
     (around / "hw1").mkdir(parents=True)
     shutil.move(course, around / "hw1" / "course")
     (around / ".DS_Store").write_text("")
     found = found_in(around, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
-    assert one(found, "joe").path == around / "hw1" / "course" / "joe"
-    assert "the class is in the folder hw1" in said(found)
+    assert submission_of(found, "joe").path == around / "hw1" / "course" / "joe"
+    assert "the class is in the folder hw1" in notes_of(found)
 
 
-def test_a_class_of_one_student_is_not_gone_into(tmp_path: Path) -> None:
-    """What is in it is the student's: two packages of their own names, or a workspace."""
+def test_the_folder_of_the_only_student_is_not_entered(tmp_path: Path) -> None:
+    """Its folders belong to the student: two differently named packages, or a workspace."""
     write(tmp_path / "a" / "jane", package(below=PACKAGE))
     other = package(below="other")
     other["other/package.xml"] = b"<package><name>other</name></package>"
@@ -143,7 +145,7 @@ def test_a_class_of_one_student_is_not_gone_into(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("below", ["", PACKAGE, f"src/{PACKAGE}"])
-def test_one_package_or_workspace_is_no_class(tmp_path: Path, below: str) -> None:
+def test_a_single_package_or_workspace_is_not_a_class(tmp_path: Path, below: str) -> None:
     write(tmp_path / "jane", package(below=below))
     (tmp_path / "jane.zip").write_bytes(zipped(package(below=below)))
     for name in ("jane", "jane.zip"):
@@ -152,7 +154,7 @@ def test_one_package_or_workspace_is_no_class(tmp_path: Path, below: str) -> Non
         assert "grader grade" in error.value.remedy
 
 
-def test_where_nothing_is_a_submission_it_is_said_what_was_seen(tmp_path: Path) -> None:
+def test_a_folder_without_submissions_lists_what_was_found(tmp_path: Path) -> None:
     (tmp_path / "c").mkdir()
     with pytest.raises(UsageError, match="nothing"):
         found_in(tmp_path / "c", tmp_path)
@@ -164,13 +166,13 @@ def test_where_nothing_is_a_submission_it_is_said_what_was_seen(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("name", ["gone", "a\0b", "file.txt"])
-def test_a_path_that_is_no_class_is_wrong_usage(tmp_path: Path, name: str) -> None:
+def test_a_path_that_is_not_a_class_is_a_usage_error(tmp_path: Path, name: str) -> None:
     (tmp_path / "file.txt").write_text("x")
     with pytest.raises(UsageError):
         found_in(tmp_path / name, tmp_path)
 
 
-def test_a_system_that_is_not_known_is_wrong_usage(course: Path, tmp_path: Path) -> None:
+def test_an_unknown_system_is_a_usage_error(course: Path, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="no course system 'modle'") as error:
         found_in(course, tmp_path, "modle")
     assert "did you mean 'moodle'?" in error.value.remedy
@@ -183,34 +185,34 @@ def test_a_system_can_be_forced(tmp_path: Path) -> None:
     assert found_in(tmp_path / "c", tmp_path).system == "moodle"
     found = found_in(tmp_path / "c", tmp_path, "folders")
     assert (found.system, keys(found)) == ("folders", ["Jane Roe_12_assignsubmission_file"])
-    assert "as requested" in said(found)
+    assert "as requested" in notes_of(found)
 
 
 # exec bits
 
 
-def test_exec_bits_that_nobody_has_are_unknown(tmp_path: Path) -> None:
-    """A class whose files came by a way that loses them; one student who has it proves otherwise."""
+def test_exec_bits_are_unknown_if_no_student_has_any(tmp_path: Path) -> None:
+    """They were lost in transfer, unless at least one student has an exec bit."""
     for name in ("ann", "joe"):
         write(tmp_path / "c" / name, package())
         (tmp_path / "c" / name / NODE_PATH).chmod(0o644)
     found = found_in(tmp_path / "c", tmp_path)
     assert [given.modes_kept for given in found.handed_in] == [False, False]
-    assert "executable" in said(found)
+    assert "executable" in notes_of(found)
     write(tmp_path / "c" / "kim", package())
     found = found_in(tmp_path / "c", tmp_path)
     assert [given.modes_kept for given in found.handed_in] == [True, True, True]
-    assert "executable" not in said(found)
+    assert "executable" not in notes_of(found)
 
 
-def test_one_student_without_exec_bits_has_forgotten_them(tmp_path: Path) -> None:
+def test_exec_bits_are_missing_if_other_students_have_them(tmp_path: Path) -> None:
     write(tmp_path / "c" / "ann", package())
     (tmp_path / "c" / "ann" / NODE_PATH).chmod(0o644)
     (given,) = found_in(tmp_path / "c", tmp_path).handed_in
     assert given.modes_kept
 
 
-# whatever the names are
+# arbitrary names
 
 NAME = st.one_of(
     st.text(min_size=1, max_size=40),
@@ -230,7 +232,7 @@ NAME = st.one_of(
     max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @hypothetical(folders=st.sets(NAME, max_size=6), files=st.sets(NAME, max_size=6))
-def test_no_submission_is_lost_whatever_it_is_called(
+def test_no_submission_is_lost_because_of_its_name(
     tmp_path: Path, folders: set[str], files: set[str]
 ) -> None:
     root = tmp_path / "class"
@@ -243,7 +245,7 @@ def test_no_submission_is_lost_whatever_it_is_called(
             (root / name / "setup.py").write_text("")
             made.add(name)
         except (OSError, UnicodeEncodeError):
-            continue  # no name of this file system
+            continue  # not a valid name on this file system
     for name in sorted(files):
         try:
             if not os.path.lexists(root / name):
@@ -265,12 +267,12 @@ def test_no_submission_is_lost_whatever_it_is_called(
             text.encode()
     for name in made:
         gathered = any(name.endswith(part) for part in taken if part)
-        assert gathered or shown(printable(name)) in said(found) + str(found.handed_in)
+        assert gathered or shown(printable(name)) in notes_of(found) + str(found.handed_in)
     attempts = [(given.student.key, given.attempt) for given in found.handed_in]
     assert len(attempts) == len(set(attempts))
 
 
-def test_two_hundred_submissions_are_found_in_a_moment(tmp_path: Path) -> None:
+def test_two_hundred_submissions_are_found_quickly(tmp_path: Path) -> None:
     for n in range(200):
         write(tmp_path / "c" / f"student{n:03}", package(below=PACKAGE))
         (tmp_path / "c" / f"student{n:03}" / PACKAGE / NODE_PATH).chmod(0o644)

@@ -1,4 +1,4 @@
-"""One submission never decides how a class run ends: what our side fails on is one student's line."""
+"""A grader failure on one submission is reported for that student and does not end the run."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from grader.ros.prefix import Ros
 from grader.run import probe_link
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.works import ASSIGNMENT, JOB, package
+from tests.batch.pool_tasks import ASSIGNMENT, JOB, package
 from tests.report.samples import report
 
 SETTING = MarkingSetting(
@@ -45,8 +45,8 @@ SETTING = MarkingSetting(
 REASON = "tar: \x1b[31mCannot write: No space left on device"
 
 
-class Marks:
-    """A pool without workers: it fails on those that are named, and says whether all else works."""
+class FailingPool:
+    """A pool without workers that fails on the named students; `works` is its proof's result."""
 
     def __init__(self, *failing: str, works: bool = True) -> None:
         self.failing = failing
@@ -76,7 +76,7 @@ def ledger(tmp_path: Path) -> Iterator[Ledger]:
 
 
 def a_class(folder: Path, count: int) -> ClassFolder:
-    """A class of so many students: s0, s1, …"""
+    """Write a class of `count` students: s0, s1, …"""
     names = [f"s{number}" for number in range(count)]
     handed_in = []
     for name in names:
@@ -86,16 +86,16 @@ def a_class(folder: Path, count: int) -> ClassFolder:
     return ClassFolder("folders", folder, tuple(handed_in))
 
 
-def run(ledger: Ledger, folder: ClassFolder, pool: Marks) -> ClassPlan:
+def run(ledger: Ledger, folder: ClassFolder, pool: FailingPool) -> ClassPlan:
     plan = make_plan(ledger, folder, SETTING, listener=Listener())
     carry_out(ledger, plan, SETTING, pool, listener=Listener())
     return plan
 
 
-def test_what_the_grader_fails_on_is_one_students_line_and_the_class_goes_on(
+def test_a_grader_failure_affects_one_student_and_the_class_goes_on(
     ledger: Ledger, tmp_path: Path
 ) -> None:
-    folder, pool = a_class(tmp_path / "in", 3), Marks("s0")
+    folder, pool = a_class(tmp_path / "in", 3), FailingPool("s0")
     plan = run(ledger, folder, pool)
     assert pool.proofs == 1, "the sandbox works without it"
     result = class_result(ledger, folder, plan.items, ASSIGNMENT, distro="jazzy")
@@ -106,48 +106,48 @@ def test_what_the_grader_fails_on_is_one_students_line_and_the_class_goes_on(
     assert REASON in failed.notes[0]
     assert "No space left on device" in gradebook_csv(result).decode("utf-8-sig")
     assert "No space left" not in html_page(failed, "x", show_hidden=True).decode()
-    again = run(ledger, folder, Marks())
+    again = run(ledger, folder, FailingPool())
     assert len(again.todo) == 1, "the next run tries it again, and nothing else"
     result = class_result(ledger, folder, again.items, ASSIGNMENT, distro="jazzy")
     assert {entry.status for entry in result.entries} == {"graded"}
 
 
-def test_surroundings_that_fail_without_a_submission_too_end_the_run(
+def test_the_run_ends_if_the_surroundings_fail_without_a_submission(
     ledger: Ledger, tmp_path: Path
 ) -> None:
     folder = a_class(tmp_path / "in", 2)
     with pytest.raises(SurroundingsError, match="does not open"):
-        run(ledger, folder, Marks("s1", works=False))
+        run(ledger, folder, FailingPool("s1", works=False))
     assert ledger.count() == 1, "what was reached is kept"
 
 
-def test_several_in_a_row_are_looked_into_before_the_next(ledger: Ledger, tmp_path: Path) -> None:
+def test_several_failures_in_a_row_are_examined_before_the_next_submission(
+    ledger: Ledger, tmp_path: Path
+) -> None:
     folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW + 1)
     failing = [f"s{number}" for number in range(FAULTS_IN_A_ROW)]
     with pytest.raises(SurroundingsError, match="does not open"):
-        run(ledger, folder, Marks(*failing, works=False))
+        run(ledger, folder, FailingPool(*failing, works=False))
     assert ledger.count() == 0, "the one behind them was not tried"
-    pool = Marks(*failing)
+    pool = FailingPool(*failing)
     run(ledger, folder, pool)
     assert pool.proofs == 2
     assert ledger.count() == 1
 
 
-def test_a_class_of_which_nothing_can_be_marked_is_a_fault_of_the_grader(
-    ledger: Ledger, tmp_path: Path
-) -> None:
+def test_a_class_without_a_single_verdict_is_a_grader_error(ledger: Ledger, tmp_path: Path) -> None:
     folder = a_class(tmp_path / "in", FAULTS_IN_A_ROW)
     with pytest.raises(SurroundingsError, match="on all 3 submissions"):
-        run(ledger, folder, Marks("s0", "s1", "s2"))
+        run(ledger, folder, FailingPool("s0", "s1", "s2"))
 
 
-def test_a_single_submission_that_is_failed_on_is_no_fault_of_the_surroundings(
+def test_a_failure_on_a_single_submission_is_not_a_surroundings_error(
     ledger: Ledger, tmp_path: Path
 ) -> None:
-    run(ledger, a_class(tmp_path / "in", 1), Marks("s0"))
+    run(ledger, a_class(tmp_path / "in", 1), FailingPool("s0"))
 
 
-def test_one_that_we_fail_to_take_in_stops_nobody_else(
+def test_a_submission_that_intake_fails_on_stops_nobody_else(
     ledger: Ledger, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = a_class(tmp_path / "in", 3)
@@ -166,7 +166,7 @@ def test_one_that_we_fail_to_take_in_stops_nobody_else(
 
 
 @pytest.mark.prefix
-def test_the_proof_passes_if_everything_but_a_submission_is_there(ros_jazzy: Ros) -> None:
+def test_the_proof_passes_if_the_surroundings_are_complete(ros_jazzy: Ros) -> None:
     prove(JOB)
 
 

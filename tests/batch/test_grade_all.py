@@ -1,4 +1,4 @@
-"""The command on a real class: out comes what goes back in, and nothing is marked twice."""
+"""`grader grade-all` on a real class: outputs are complete and nothing is marked twice."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ import pytest
 
 from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
-from tests.batch.classes import grade_all, of_corpus, verdicts_beside
+from tests.batch.classes import corpus_class, count_verdicts, grade_all
 from tests.batch.downloads import KOREAN, moodle_zip, people, worksheet
-from tests.batch.works import workers_of
-from tests.stage import ROOT, grader, run
+from tests.batch.pool_tasks import workers_of
+from tests.processes import ROOT, grader, run
 
 pytestmark = pytest.mark.prefix
 
@@ -36,7 +36,7 @@ absent,Émile Zola,emile@example.org
 
 @dataclass(frozen=True)
 class Class:
-    """A class that was marked: its folder, its roster, where everything was written."""
+    """A marked class: its folder, its roster and its output folder."""
 
     folder: Path
     roster: Path
@@ -60,9 +60,9 @@ class Class:
 
 @pytest.fixture(scope="module")
 def marked(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> Class:
-    """A class of five: three packages, a corrupt archive, and one who handed in nothing."""
+    """A class of five: three packages, a corrupt archive, and one missing submission."""
     place = tmp_path_factory.mktemp("class")
-    folder = of_corpus(place / "handed in", NAMES)
+    folder = corpus_class(place / "handed in", NAMES)
     (folder / "corrupt.zip").write_bytes(b"PK\x03\x04 this ends in the middle")
     roster = place / "roster.csv"
     roster.write_text(ROSTER, encoding="utf-8")
@@ -73,13 +73,13 @@ def marked(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> Class:
 
 @pytest.fixture
 def copy(marked: Class, tmp_path: Path) -> Class:
-    """The same class, to be changed."""
+    """A copy of the same class that a test may change."""
     shutil.copytree(marked.folder, tmp_path / "handed in", symlinks=True)
     shutil.copytree(marked.out, tmp_path / "out")
     return Class(tmp_path / "handed in", marked.roster, tmp_path / "out", marked.first)
 
 
-def test_everybody_is_in_the_gradebook_with_what_was_reached(marked: Class) -> None:
+def test_everybody_is_in_the_gradebook_with_their_points(marked: Class) -> None:
     assert marked.first.returncode == 1, marked.first.stderr
     rows = marked.rows()
     found = {key: (row["name"], row["status"], row["final"]) for key, row in rows.items()}
@@ -102,7 +102,7 @@ def test_everybody_has_a_page_and_feedback(marked: Class) -> None:
     assert "Hello Time" in (marked.out / "students" / "s2-text_other_capital.html").read_text()
 
 
-def test_reports_are_where_one_package_has_them(marked: Class) -> None:
+def test_reports_are_in_the_same_place_as_for_one_package(marked: Class) -> None:
     reports = {
         path.parts[-3]: json.loads(path.read_text(encoding="utf-8"))
         for path in marked.out.glob("*/jazzy/report.json")
@@ -128,8 +128,8 @@ def test_the_summary_names_the_first_reasons(marked: Class) -> None:
     assert "\x1b" not in marked.first.stdout + marked.first.stderr, "plain where it is piped"
 
 
-def test_what_has_not_changed_is_neither_marked_nor_written_again(copy: Class) -> None:
-    assert copy.again().returncode == 1  # (the outputs are in another place now)
+def test_an_unchanged_class_is_neither_marked_nor_written_again(copy: Class) -> None:
+    assert copy.again().returncode == 1  # the outputs are in another folder now
     before = {path: path.stat().st_mtime_ns for path in copy.out.rglob("*.html")}
     again = copy.again()
     assert again.returncode == 1
@@ -138,13 +138,13 @@ def test_what_has_not_changed_is_neither_marked_nor_written_again(copy: Class) -
     assert {path: path.stat().st_mtime_ns for path in copy.out.rglob("*.html")} == before
 
 
-def test_a_file_that_was_deleted_comes_back(copy: Class) -> None:
+def test_a_deleted_output_is_written_again(copy: Class) -> None:
     (copy.out / "gradebook.csv").unlink()
     copy.again()
     assert copy.rows()["s0-solution"]["final"] == "100"
 
 
-def test_only_what_has_changed_is_marked_and_the_attempt_before_is_kept(copy: Class) -> None:
+def test_only_changed_submissions_are_marked_and_earlier_attempts_kept(copy: Class) -> None:
     node = "my_robot_controller/my_robot_controller/my_first_node.py"
     path = copy.folder / "s2-text_other_capital" / node
     path.write_text(path.read_text(encoding="utf-8").replace("Hello Time", "Hello time"))
@@ -153,7 +153,7 @@ def test_only_what_has_changed_is_marked_and_the_attempt_before_is_kept(copy: Cl
     row = copy.rows()["s2-text_other_capital"]
     assert (row["final"], row["attempt"]) == ("100", "2")
     assert copy.verdicts() == 5
-    # and handed in worse again: the best attempt still counts
+    # a later, worse attempt: the best one still counts
     path.write_text(path.read_text(encoding="utf-8").replace("Hello time", "Hallo"))
     copy.again()
     assert copy.rows()["s2-text_other_capital"]["final"] == "100"
@@ -183,12 +183,12 @@ def test_a_correction_survives_a_regrade_and_is_in_every_output(copy: Class) -> 
     assert copy.rows()["s1-entry_missing"]["final"] == "50"
 
 
-def test_a_group_is_marked_once_for_real_and_each_member_has_the_report(
+def test_a_group_is_marked_once_and_each_member_has_the_report(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     class_ = [replace(p, group="Team_1") for p in people(3, korean=True)]
     (tmp_path / "worksheet.csv").write_bytes(worksheet(class_, KOREAN, encoding="cp949"))
-    root = of_corpus(tmp_path / "corpus", ["entry_missing"]) / "s0-entry_missing"
+    root = corpus_class(tmp_path / "corpus", ["entry_missing"]) / "s0-entry_missing"
     files = {
         path.relative_to(root).as_posix(): path.read_bytes()
         for path in root.rglob("*")
@@ -221,16 +221,14 @@ def test_a_group_is_marked_once_for_real_and_each_member_has_the_report(
         (("Bela Nagy", "--remove"), "was not corrected"),
     ],
 )
-def test_a_correction_that_cannot_be_meant_is_refused(
-    marked: Class, words: tuple[str, ...], said: str
-) -> None:
+def test_an_invalid_correction_is_refused(marked: Class, words: tuple[str, ...], said: str) -> None:
     done = marked.override(*words)
     assert done.returncode == 2
     assert said in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_regrade_of_one_student_leaves_the_others(copy: Class) -> None:
+def test_a_regrade_of_one_student_leaves_the_others_unchanged(copy: Class) -> None:
     again = copy.again("--regrade-student", "ann@example.org")
     assert "1 to mark (1 again), 3 marked before" in again.stderr
     assert copy.verdicts() == 5
@@ -244,7 +242,7 @@ def test_a_dry_run_marks_nothing(marked: Class, tmp_path: Path) -> None:
     assert not (tmp_path / "out" / "gradebook.csv").exists()
 
 
-def test_two_graders_on_one_class_do_not_mix(copy: Class) -> None:
+def test_a_second_grader_on_the_same_class_is_refused(copy: Class) -> None:
     with Ledger(copy.out / "ledger.sqlite"):
         done = copy.again()
     assert done.returncode == 2
@@ -260,7 +258,7 @@ def test_two_graders_on_one_class_do_not_mix(copy: Class) -> None:
         (("--sandbox", "bubblewarp"), "did you mean 'bubblewrap'"),
     ],
 )
-def test_wrong_usage_is_told_before_anything_is_marked(
+def test_usage_errors_are_reported_before_anything_is_marked(
     copy: Class, words: tuple[str, ...], said: str
 ) -> None:
     done = copy.again(*words)
@@ -271,9 +269,9 @@ def test_wrong_usage_is_told_before_anything_is_marked(
 
 
 @pytest.fixture
-def begun(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str], Path, Path]]:
-    """A class whose marking has begun: its process, its folder, where it writes."""
-    folder = of_corpus(tmp_path / "class", ["solution"] * 6)
+def running(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str], Path, Path]]:
+    """A class that is being marked: its process, its folder and its output folder."""
+    folder = corpus_class(tmp_path / "class", ["solution"] * 6)
     out = tmp_path / "out"
     command = grader("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", "--workers", "2")
     with subprocess.Popen(
@@ -287,12 +285,12 @@ def begun(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[str
         process.kill()
 
 
-def test_it_can_be_interrupted_and_goes_on_from_there(
-    begun: tuple[subprocess.Popen[str], Path, Path],
+def test_an_interrupted_run_resumes(
+    running: tuple[subprocess.Popen[str], Path, Path],
 ) -> None:
-    process, folder, out = begun
+    process, folder, out = running
     ledger = out / "ledger.sqlite"
-    while verdicts_beside(ledger) < 1:
+    while count_verdicts(ledger) < 1:
         os.sched_yield()
     workers = workers_of(process.pid)
     process.send_signal(signal.SIGINT)

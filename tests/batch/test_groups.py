@@ -1,4 +1,4 @@
-"""Submissions of groups: who is in them, and that nobody gets another group's verdict."""
+"""Group submissions: their members, and that nobody gets another group's verdict."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pytest
 
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder
+from tests.batch.archives import package, write
 from tests.batch.downloads import (
     ENGLISH,
     FINNISH,
@@ -21,11 +22,10 @@ from tests.batch.downloads import (
     scored,
     worksheet,
 )
-from tests.batch.handed_out import package, write
 
 
 def grouped(*sizes: tuple[str, int]) -> list[Person]:
-    """Return participants, so many in each group."""
+    """Return participants, with the given number in each group."""
     names = [name for name, size in sizes for _ in range(size)]
     return [replace(one, group=name) for one, name in zip(people(len(names)), names, strict=True)]
 
@@ -36,14 +36,14 @@ def found_for(
     *folders: tuple[str, int | None],
     words: Words = ENGLISH,
 ) -> ClassFolder:
-    """Discover a download of these folders, with the worksheet as the roster."""
+    """Discover a download with these folders, with the worksheet as the roster."""
     (tmp_path / "roster.csv").write_bytes(worksheet(class_, words))
     path = moodle_zip(tmp_path / "class.zip", [(name, n, scored(90)) for name, n in folders])
     return discover(path, roster=tmp_path / "roster.csv", unpack=tmp_path / "work")
 
 
 def members(found: ClassFolder) -> dict[str, list[str]]:
-    """Return the folders whose submissions each student has."""
+    """Return the folders of each student's submissions."""
     whose: dict[str, list[str]] = {}
     for given in found.handed_in:
         place = given.path.parent.name if given.path.is_file() else given.path.name
@@ -63,9 +63,7 @@ def members(found: ClassFolder) -> dict[str, list[str]]:
         (" Blue ", " Blue _7"),
     ],
 )
-def test_every_member_has_the_groups_submission_however_it_is_called(
-    tmp_path: Path, name: str, folder: str
-) -> None:
+def test_every_member_has_the_groups_submission(tmp_path: Path, name: str, folder: str) -> None:
     class_ = grouped((name, 3), ("Other", 2))
     found = found_for(tmp_path, class_, (name, 7), ("Other", 8))
     expected = {p.name: [folder if p.group == name else "Other_8"] for p in class_}
@@ -77,52 +75,52 @@ def test_every_member_has_the_groups_submission_however_it_is_called(
     assert (found.on_roster.submissions, found.on_roster.strangers) == (2, ())
 
 
-def test_who_is_in_no_group_has_the_default_groups_submission(tmp_path: Path) -> None:
+def test_a_student_without_a_group_has_the_default_groups_submission(tmp_path: Path) -> None:
     class_ = grouped(("Blue", 2), (KOREAN.default_group, 3))
     found = found_for(tmp_path, class_, ("Blue", 7), (KOREAN.default_group, None), words=KOREAN)
     assert [place for (place,) in members(found).values()] == ["Blue_7"] * 2 + ["기본 모둠"] * 3
 
 
-def test_a_group_that_did_not_hand_in_is_missing(tmp_path: Path) -> None:
+def test_a_group_without_a_submission_is_missing(tmp_path: Path) -> None:
     class_ = [replace(p, submitted=p.group == "Blue") for p in grouped(("Blue", 2), ("Red", 2))]
     found = found_for(tmp_path, class_, ("Blue", 7))
     assert [student.name for student in found.missing] == [p.name for p in class_[2:]]
     assert not found.elsewhere
 
 
-def test_a_groups_number_is_no_participants(tmp_path: Path) -> None:
-    """Group 1003 is not participant 1003, who is in another group."""
+def test_a_group_number_is_not_a_participant_number(tmp_path: Path) -> None:
+    """Group 1003 is not participant 1003, who belongs to another group."""
     class_ = grouped(("Blue", 2), ("Red", 3))
     found = found_for(tmp_path, class_, ("Blue", class_[3].number), ("Red", class_[0].number))
     assert [place for (place,) in members(found).values()] == ["Blue_1003"] * 2 + ["Red_1000"] * 3
-    # nor if the roster does not know the group
+    # the same if the roster does not have the group
     (tmp_path / "other").mkdir()
     unknown = found_for(tmp_path / "other", class_, ("Green", class_[3].number), ("Red", 5))
     assert members(unknown)["Green"] == ["Green_1003"]
     assert [student.name for student in unknown.missing] == [p.name for p in class_[:2]]
 
 
-def test_a_number_alone_is_nobodys_if_the_names_do_not_agree(tmp_path: Path) -> None:
-    """A list without the column of groups: every group's number may be somebody's."""
+def test_a_number_without_the_matching_name_identifies_nobody(tmp_path: Path) -> None:
+    """A roster without a group column: any group number may also be a participant's."""
     class_ = people(6)
     found = found_for(tmp_path, class_, ("Blue", 1003), ("Red", 1000), ("Green", 8))
     assert members(found).keys() == {"Blue", "Red", "Green"}
     assert len(found.missing) == 6
-    # one student who is called otherwise now is still known by the number
+    # a student whose name has changed is still identified by the number
     (tmp_path / "married").mkdir()
     folders = [(p.name, p.number) for p in class_[:3]]
     one = found_for(tmp_path / "married", class_, ("Bo Fox", 1003), *folders)
     assert [student.name for student in one.missing] == [p.name for p in class_[4:]]
 
 
-def test_a_group_called_after_the_participant_of_its_number_is_a_group(tmp_path: Path) -> None:
+def test_a_group_named_like_the_participant_with_its_number_is_a_group(tmp_path: Path) -> None:
     class_ = grouped(("Red", 2), ("Team Lee", 2))
     assert class_[0].name == "Ann Lee"
     found = found_for(tmp_path, class_, ("Team Lee", class_[0].number), ("Red", 7))
     assert [place for (place,) in members(found).values()] == ["Red_7"] * 2 + ["Team Lee_1000"] * 2
 
 
-def test_a_member_who_handed_in_alone_too_has_two_attempts(tmp_path: Path) -> None:
+def test_a_member_with_an_individual_submission_has_two_attempts(tmp_path: Path) -> None:
     class_ = grouped(("Blue", 2))
     found = found_for(tmp_path, class_, ("Blue", 7), (class_[1].name, class_[1].number))
     alone = f"{class_[1].name}_{class_[1].number}"
@@ -132,14 +130,14 @@ def test_a_member_who_handed_in_alone_too_has_two_attempts(tmp_path: Path) -> No
     assert any("also handed in alone" in note for note in second[0].notes)
 
 
-def test_names_that_differ_in_capitals_alone_are_told_apart(tmp_path: Path) -> None:
+def test_group_names_that_differ_only_in_case_are_distinguished(tmp_path: Path) -> None:
     class_ = grouped(("Blue", 2), ("blue", 2))
     found = found_for(tmp_path, class_, ("blue", 7), ("Blue", 8))
     assert [place for (place,) in members(found).values()] == ["Blue_8"] * 2 + ["blue_7"] * 2
 
 
-def test_groups_that_cannot_be_told_apart_get_nobodys_verdict(tmp_path: Path) -> None:
-    """Moodle calls the folders of `Team_1` and `Team 1` alike."""
+def test_ambiguous_groups_get_no_verdict(tmp_path: Path) -> None:
+    """Moodle gives the folders of `Team_1` and `Team 1` the same name."""
     class_ = grouped(("Team_1", 2), ("Team 1", 2), ("Red", 3))
     found = found_for(tmp_path, class_, ("Team_1", 7), ("Team 1", 8), ("Red", 9))
     own = {p.name for p in class_[4:]}
@@ -151,14 +149,14 @@ def test_groups_that_cannot_be_told_apart_get_nobodys_verdict(tmp_path: Path) ->
     assert len(found.on_roster.strangers) == 2
 
 
-def test_the_column_of_groups_is_found_in_a_language_that_is_not_known(tmp_path: Path) -> None:
+def test_the_group_column_is_found_in_an_unknown_language(tmp_path: Path) -> None:
     class_ = grouped(("Sininen", 3), ("Punainen", 2))
     found = found_for(tmp_path, class_, ("Sininen", 7), ("Punainen", 8), words=FINNISH)
     assert [place for (place,) in members(found).values()] == ["Sininen_7"] * 3 + ["Punainen_8"] * 2
     assert any("'Ryhmittely' was used as the group" in note for note in found.notes)
 
 
-def test_folders_called_after_groups_are_their_members_too(tmp_path: Path) -> None:
+def test_a_folder_named_after_a_group_belongs_to_its_members(tmp_path: Path) -> None:
     for name in ("Blue", "Red", "Zoë Roe"):
         write(tmp_path / "class" / name, package())
     roster = tmp_path / "roster.csv"
@@ -175,8 +173,8 @@ def test_folders_called_after_groups_are_their_members_too(tmp_path: Path) -> No
     assert "more than one group" in found.elsewhere["di@x.y"].reason
 
 
-def test_a_student_who_is_called_like_a_group_is_none(tmp_path: Path) -> None:
-    """The others of that group have not handed in what he did."""
+def test_a_student_with_the_name_of_a_group_is_not_the_group(tmp_path: Path) -> None:
+    """The other members of that group do not get that student's submission."""
     class_ = people(4)
     lines = [f"{p.name},{p.email},Lab A" for p in class_]
     roster = tmp_path / "roster.csv"
@@ -188,7 +186,7 @@ def test_a_student_who_is_called_like_a_group_is_none(tmp_path: Path) -> None:
     assert [student.name for student in found.missing] == [p.name for p in class_[2:]]
 
 
-def test_without_a_roster_a_group_is_shown_as_it_is_called(tmp_path: Path) -> None:
+def test_without_a_roster_a_group_has_its_folder_name(tmp_path: Path) -> None:
     path = moodle_zip(tmp_path / "class.zip", [("Blue", 7, scored(90)), ("Red", 8, scored(90))])
     found = discover(path, unpack=tmp_path / "work")
     assert members(found) == {"Blue": ["Blue_7"], "Red": ["Red_8"]}

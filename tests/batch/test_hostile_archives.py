@@ -1,4 +1,4 @@
-"""Archives made to do harm: each is a clear line on its student, and nothing else happens."""
+"""Hostile archives: each gives a clear message for its student and has no other effect."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from grader.package.intake.archive_limits import ArchiveLimits
 
-from .handed_out import (
+from .archives import (
     NODE_PATH,
     add_file,
     everything_below,
@@ -33,11 +33,11 @@ from .handed_out import (
 )
 
 OUT = ["../evil", "a/../../evil", "/tmp/evil", "//evil", "C:/evil", "c:\\evil", "..\\evil", ".."]
-SECONDS = 20  # in which a bomb must be told, on a machine that is busy with other things
+SECONDS = 20  # in which a bomb must be reported, on a busy machine
 
 
 @pytest.mark.parametrize("name", OUT)
-def test_a_zip_with_a_name_that_leads_out_is_refused_whole(tmp_path: Path, name: str) -> None:
+def test_a_zip_with_a_path_outside_itself_is_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / "in").mkdir()
     found = hand_in(tmp_path / "in", zipped({**package(), name: b"x"}))
     assert found.problem_mistake == "package.archive_unsafe"
@@ -46,14 +46,14 @@ def test_a_zip_with_a_name_that_leads_out_is_refused_whole(tmp_path: Path, name:
 
 
 @pytest.mark.parametrize("name", [n for n in OUT if "\\" not in n])
-def test_a_tar_with_a_name_that_leads_out_is_refused_whole(tmp_path: Path, name: str) -> None:
+def test_a_tar_with_a_path_outside_itself_is_refused(tmp_path: Path, name: str) -> None:
     found = hand_in(tmp_path, tar_with(odd_member(name, tarfile.REGTYPE)), "jane.tar")
     assert found.problem_mistake == "package.archive_unsafe"
     assert everything_below(tmp_path) == {"jane.tar"}
 
 
 @pytest.mark.parametrize("target", ["/etc/passwd", "../../etc/passwd", "a/../../..", "\udcff"])
-def test_a_link_that_leads_out_is_left_out_and_noted(tmp_path: Path, target: str) -> None:
+def test_a_link_to_the_outside_is_left_out_and_noted(tmp_path: Path, target: str) -> None:
     found = hand_in(tmp_path, tar_with(odd_member("secret.py", tarfile.SYMTYPE, target)))
     assert found.root == "."
     assert found.links_out == ("secret.py",)
@@ -68,7 +68,7 @@ def test_a_link_that_leads_out_is_left_out_and_noted(tmp_path: Path, target: str
 
 
 @pytest.mark.parametrize("target", ["/etc/passwd", "../../etc/passwd", "gone", "later.py"])
-def test_a_hard_link_to_what_is_not_in_the_archive_is_left_out(tmp_path: Path, target: str) -> None:
+def test_a_hard_link_to_a_file_outside_the_archive_is_left_out(tmp_path: Path, target: str) -> None:
     odd = odd_member("secret.py", tarfile.LNKTYPE, target)
     found = hand_in(tmp_path, tar_with(odd, odd_member("later.py", tarfile.REGTYPE)))
     assert found.root == "."
@@ -85,21 +85,21 @@ def test_devices_and_pipes_are_left_out_and_noted(tmp_path: Path, kind: bytes) -
 
 
 def test_a_file_below_a_link_or_a_file_is_left_out(tmp_path: Path) -> None:
-    """The old trick: a link to /etc, then a file that is to be written through it."""
+    """The attack: a link to /etc, then a file written through it."""
     link = odd_member("way", tarfile.SYMTYPE, "/etc")
     found = hand_in(tmp_path, tar_with(link, odd_member("way/cron.d", tarfile.REGTYPE)))
     assert found.file("way/cron.d") is None
     assert "below a name that is not a folder: way/cron.d" in notes(found)
 
 
-def test_a_file_in_place_of_a_folder_with_files_is_left_out(tmp_path: Path) -> None:
+def test_a_file_in_the_place_of_a_folder_is_left_out(tmp_path: Path) -> None:
     found = hand_in(tmp_path, tar_with(odd_member("resource", tarfile.REGTYPE)))
     assert found.root == "."
     assert found.file("resource/my_robot_controller") is not None
     assert "has other files below that name: resource" in notes(found)
 
 
-def test_exec_and_special_bits_give_no_more_than_permissions(tmp_path: Path) -> None:
+def test_a_members_mode_is_reduced_to_permission_bits(tmp_path: Path) -> None:
     found = hand_in(tmp_path, tar_with(odd_member("su", tarfile.REGTYPE, mode=0o104755)))
     su = found.file("su")
     assert su is not None
@@ -110,7 +110,7 @@ def test_names_that_would_break_a_terminal_are_left_out(tmp_path: Path) -> None:
     names = {"\x1b[2J.py": b"", "a\nb.py": b"", "x\u202egp.py": b"", "n" * 3000: b""}
     for data in (zipped({**package(), **names}), tarred({**package(), **names})):
         found = hand_in(tmp_path, data)
-        assert len(found.files) == len(package()) + 2  # and its two folders
+        assert len(found.files) == len(package()) + 2  # the file and its two folders
         assert all(line.isprintable() for line in found.notes)
         assert len(found.notes) >= 2
 
@@ -128,7 +128,7 @@ def bomb(tmp_path: Path, data: bytes, name: str) -> str:
 
 
 def test_ten_gigabytes_of_zeros_in_a_small_tar_xz_are_not_unpacked(tmp_path: Path) -> None:
-    """Made of many xz streams one after the other, so that it is small and soon made."""
+    """Made of many concatenated xz streams, so that it is small and quick to make."""
     header = tarfile.TarInfo("zeros")
     header.size = 10_000_000_000
     zeros = lzma.compress(bytes(10_000_000))
@@ -137,8 +137,8 @@ def test_ten_gigabytes_of_zeros_in_a_small_tar_xz_are_not_unpacked(tmp_path: Pat
     assert bomb(tmp_path, data, "jane.tar.xz") == "package.archive_bomb"
 
 
-def test_a_bomb_takes_bounded_memory(tmp_path: Path) -> None:
-    """In a process of its own, as its peak cannot be told from ours."""
+def test_a_bomb_needs_bounded_memory(tmp_path: Path) -> None:
+    """In a separate process, because the peak memory is that of the whole process."""
     header = tarfile.TarInfo("zeros")
     header.size = 10_000_000_000
     data = lzma.compress(header.tobuf()) + lzma.compress(bytes(50_000_000), preset=9) * 200
@@ -162,21 +162,21 @@ def test_a_file_of_zeros_in_a_tar_is_a_bomb(tmp_path: Path, mode: str) -> None:
     assert bomb(tmp_path, data, "jane.tar") == "package.archive_bomb"
 
 
-def test_a_zip_that_says_of_itself_how_much_comes_out_is_believed(tmp_path: Path) -> None:
+def test_a_zip_that_declares_too_large_a_size_is_refused(tmp_path: Path) -> None:
     data = zipped({**package(), **{f"zeros{n}": bytes(8_000_000) for n in range(4)}})
     assert bomb(tmp_path, data, "jane.zip") == "package.archive_bomb"
 
 
-def test_a_zip_that_lies_about_what_comes_out_is_damaged(tmp_path: Path) -> None:
+def test_a_zip_with_a_false_size_is_damaged(tmp_path: Path) -> None:
     data = bytearray(zipped({**package(), "zeros": bytes(30_000_000)}))
     size = struct.pack("<I", 30_000_000)
-    assert data.count(size) == 2  # in the file's own header, and in the directory
+    assert data.count(size) == 2  # in the local header and in the central directory
     lied = bytes(data).replace(size, struct.pack("<I", 1_000))
     assert bomb(tmp_path, lied, "jane.zip") == "package.archive_corrupt"
 
 
-def test_many_names_for_the_same_packed_bytes_are_a_bomb(tmp_path: Path) -> None:
-    """Overlapping members, as in David Fifield's zip bombs: small files, very many of them."""
+def test_overlapping_zip_members_are_a_bomb(tmp_path: Path) -> None:
+    """Overlapping members, as in David Fifield's zip bombs: very many small files."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("0", bytes(4_900_000))
@@ -189,7 +189,7 @@ def test_many_names_for_the_same_packed_bytes_are_a_bomb(tmp_path: Path) -> None
     assert bomb(tmp_path, stream.getvalue(), "jane.zip") == "package.archive_bomb"
 
 
-def test_a_nested_bomb_is_found_in_the_depth(tmp_path: Path) -> None:
+def test_a_nested_bomb_is_detected(tmp_path: Path) -> None:
     """Like 42.zip: sixteen archives in each of sixteen archives, zeros at the bottom."""
     data = zipped({f"{n}": bytes(4_000_000) for n in range(4)})
     for _ in range(2):
@@ -199,7 +199,7 @@ def test_a_nested_bomb_is_found_in_the_depth(tmp_path: Path) -> None:
     assert mistake in ("package.archive_bomb", "package.archive_too_large")
 
 
-def test_more_files_than_anybody_writes_are_not_read(tmp_path: Path) -> None:
+def test_an_archive_with_too_many_files_is_not_read(tmp_path: Path) -> None:
     limits = ArchiveLimits()
     stream = io.BytesIO()
     with tarfile.open(fileobj=stream, mode="w:gz") as archive:
@@ -210,8 +210,8 @@ def test_more_files_than_anybody_writes_are_not_read(tmp_path: Path) -> None:
     assert bomb(tmp_path, zipped(names), "jane.zip") == "package.archive_too_large"
 
 
-def test_a_table_of_contents_of_very_many_names_is_not_read(tmp_path: Path) -> None:
-    """A million members would be a gigabyte of memory before the first of them is seen."""
+def test_a_central_directory_with_too_many_names_is_not_read(tmp_path: Path) -> None:
+    """A million members would take a gigabyte of memory before the first one is read."""
     entry = struct.pack("<4s24sH16s", b"PK\x01\x02", b"", 1, b"") + b"x"
     count = 1_000_000
     end = struct.pack("<4s4H2LH", b"PK\x05\x06", 0, 0, 65535, 65535, len(entry) * count, 4, 0)
@@ -219,8 +219,8 @@ def test_a_table_of_contents_of_very_many_names_is_not_read(tmp_path: Path) -> N
     assert bomb(tmp_path, data, "jane.zip") == "package.archive_too_large"
 
 
-def test_a_package_of_many_megabytes_is_too_large_and_one_large_file_is_not(tmp_path: Path) -> None:
-    noise = bytes(range(256)) * 20_000  # 5.12 MB, of which one file may have 5
+def test_a_package_may_be_too_large_though_each_file_is_not(tmp_path: Path) -> None:
+    noise = bytes(range(256)) * 20_000  # 5.12 MB; a file may have 5
     found = hand_in(tmp_path, tarred({**package(), "bag.db3": noise}), "jane.tar")
     bag = found.file("bag.db3")
     assert bag is not None
@@ -244,7 +244,7 @@ def test_a_header_that_asks_for_gigabytes_is_not_read(tmp_path: Path) -> None:
         assert bomb(tmp_path, data, "jane.tar") == "package.archive_corrupt"
 
 
-def test_headers_that_send_a_reader_in_circles_come_to_an_end(tmp_path: Path) -> None:
+def test_headers_that_loop_are_bounded(tmp_path: Path) -> None:
     """A negative size sends Python's tarfile back to the same header (CVE-2025-8194)."""
     header = bytearray(tarfile.TarInfo("a").tobuf())
     negative = (-(1 << 20)).to_bytes(12, "big", signed=True)
@@ -261,14 +261,14 @@ def test_headers_that_send_a_reader_in_circles_come_to_an_end(tmp_path: Path) ->
     assert bomb(tmp_path, stream.getvalue(), "jane.tar") == "package.archive_corrupt"
 
 
-def test_headers_before_headers_without_end_come_to_an_end(tmp_path: Path) -> None:
+def test_endless_extended_headers_are_bounded(tmp_path: Path) -> None:
     pax = tarfile.TarInfo("pax")
     pax.type, pax.size = tarfile.XHDTYPE, 512
     block = pax.tobuf() + b"11 a=bbbbb\n".ljust(512, b"\0")
     assert bomb(tmp_path, block * 20_000, "jane.tar") == "package.archive_corrupt"
 
 
-def test_digits_that_make_a_regular_expression_slow_are_bounded(tmp_path: Path) -> None:
+def test_pax_headers_with_many_digits_take_bounded_time(tmp_path: Path) -> None:
     """Python's tarfile searches pax headers in quadratic time (CVE-2024-6232)."""
     pax = tarfile.TarInfo("pax")
     pax.type, pax.size = tarfile.XHDTYPE, 1_000_000
@@ -276,7 +276,7 @@ def test_digits_that_make_a_regular_expression_slow_are_bounded(tmp_path: Path) 
     assert bomb(tmp_path, data + tarred(package()), "jane.tar") == "package.archive_corrupt"
 
 
-# whatever else there is
+# arbitrary archives
 
 
 @settings(
@@ -300,7 +300,7 @@ def test_digits_that_make_a_regular_expression_slow_are_bounded(tmp_path: Path) 
     noise=st.binary(max_size=30),
     at=st.integers(0, 4000),
 )
-def test_no_archive_does_more_than_be_refused(
+def test_any_archive_is_read_or_refused(
     tmp_path: Path,
     names: list[str],
     kinds: list[bytes],
@@ -317,7 +317,7 @@ def test_no_archive_does_more_than_be_refused(
         for given_bytes in (data, data[:at] + noise + data[at + len(noise) :]):
             before = everything_below(tmp_path)
             if not given_bytes.startswith((b"PK", b"package.xml")):
-                continue  # no archive any more
+                continue  # not an archive any more
             found = hand_in(tmp_path, given_bytes, name)
             assert everything_below(tmp_path) - before <= {name}
             assert (found.root is None) == bool(found.problem)

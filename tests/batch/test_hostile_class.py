@@ -1,4 +1,4 @@
-"""A class with students in it who mean harm: everybody has a line, and nobody steers the terminal."""
+"""A class with hostile students: everybody has a line, and none controls the terminal."""
 
 from __future__ import annotations
 
@@ -11,46 +11,46 @@ import pytest
 
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
-from tests.batch.classes import grade_all, of_corpus
+from tests.batch.classes import corpus_class, grade_all
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
-from tests.report.test_hostile import unfit
+from tests.report.test_hostile import forbidden_in
 
 pytestmark = pytest.mark.prefix
 
-MEAN = ("deaf_and_prints_dots", "setup_paints_and_ends_with_250")
-BIG = "\x1b]0;owned\x07bob\u202e"  # a folder's name; what is in it does not fit into the workspace
+HOSTILE_NAME = ("deaf_and_prints_dots", "setup_paints_and_ends_with_250")
+BIG = "\x1b]0;owned\x07bob\u202e"  # a folder name; its content does not fit into the workspace
 
 
 @pytest.fixture
-def mean_class(tmp_path: Path) -> Path:
-    """A right package, a broken one, two that mean harm, and one on which the grader fails."""
-    folder = of_corpus(tmp_path / "class", ["solution", "entry_missing", "solution"])
+def hostile_class(tmp_path: Path) -> Path:
+    """A right package, a broken one, two hostile ones, and one on which the grader fails."""
+    folder = corpus_class(tmp_path / "class", ["solution", "entry_missing", "solution"])
     (folder / "s2-solution").rename(folder / BIG)
     (folder / BIG / "my_robot_controller" / "big.bin").write_bytes(b"x" * 4_000_000)
     for package in HOSTILE:
-        if package.name in MEAN:
+        if package.name in HOSTILE_NAME:
             place = folder / package.name
             place.mkdir()
             write(package, place).rename(place / "my_robot_controller")
     return folder
 
 
-def test_a_class_with_mean_students_ends_with_a_verdict_on_each(
-    ros_jazzy: Ros, mean_class: Path, tmp_path: Path
+def test_a_class_with_hostile_students_ends_with_a_verdict_on_each(
+    ros_jazzy: Ros, hostile_class: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
     begin = time.monotonic()
-    done = grade_all(mean_class, out, "--limit", "workspace=3000000")
+    done = grade_all(hostile_class, out, "--limit", "workspace=3000000")
     seconds = time.monotonic() - begin
     assert done.returncode == 1, done.stderr
     said = done.stdout + done.stderr
     assert "\x1b" not in said
-    assert unfit(said) == set()
+    assert forbidden_in(said) == set()
     text = (out / "gradebook.csv").read_text(encoding="utf-8-sig")
     rows = {row["key"]: row for row in csv.DictReader(text.splitlines())}
     found = {key: (row["status"], row["final"]) for key, row in rows.items()}
-    (big,) = found.keys() - {"s0-solution", "s1-entry_missing", *MEAN}
+    (big,) = found.keys() - {"s0-solution", "s1-entry_missing", *HOSTILE_NAME}
     assert found == {
         "s0-solution": ("graded", "100"),
         "s1-entry_missing": ("graded", "50"),

@@ -1,4 +1,4 @@
-"""Kill -9 of the coordinating process: the ledger of who goes on is that of who was not disturbed."""
+"""Kill -9 of the coordinating process: the resumed ledger equals that of an undisturbed run."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
-from tests.batch.classes import grade_all, of_corpus
-from tests.batch.works import workers_of
-from tests.stage import ROOT, alive, grader
+from tests.batch.classes import corpus_class, grade_all
+from tests.batch.pool_tasks import workers_of
+from tests.processes import ROOT, alive, grader
 
 pytestmark = pytest.mark.prefix
 
 MIXED = ["solution", "entry_missing", "empty_folder", "text_capital", "str_missing"]
-LONGEST = 4.0  # seconds until a kill: a start and about two verdicts
+LONGEST = 4.0  # seconds until a kill: start-up and about two verdicts
 
 
 def _verdicts(path: Path) -> dict[tuple[str, str], object]:
-    """Return what equal verdicts are equal in: statuses, scores and mistake ids."""
+    """Return what must be equal in two verdicts: statuses, scores and mistake ids."""
     found: dict[tuple[str, str], object] = {}
     with Ledger(path) as ledger:
         rows = ledger.verdicts()
@@ -38,7 +38,7 @@ def _verdicts(path: Path) -> dict[tuple[str, str], object]:
 
 
 def _killed_after(folder: Path, out: Path, seconds: float) -> None:
-    """Start it, and kill it after a while; its workers end with it."""
+    """Start the command and kill it after `seconds`; its workers end with it."""
     command = grader("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", "-q")
     with subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
@@ -63,7 +63,7 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
     print(f"seed {seed}")
     chance = random.Random(seed)
     names = [MIXED[number % len(MIXED)] for number in range(students)]
-    folder = of_corpus(tmp_path / "class", names)
+    folder = corpus_class(tmp_path / "class", names)
     undisturbed = grade_all(folder, tmp_path / "calm", "-q")
     assert undisturbed.returncode == 1, undisturbed.stderr
     for _ in range(kills):
@@ -73,15 +73,15 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
     found = _verdicts(tmp_path / "shaken" / "ledger.sqlite")
     assert found == _verdicts(tmp_path / "calm" / "ledger.sqlite")
     assert len(found) == students
-    with Bubblewrap(ros, Limits()):  # who comes next clears away what was left
+    with Bubblewrap(ros, Limits()):  # the next run removes what was left
         pass
     assert not alive(str(tmp_path)), "something of it still runs"
 
 
-def test_a_coordinator_that_is_killed_loses_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_killing_the_coordinator_loses_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=3, kills=3, seed=random.randrange(10**6))
 
 
 @pytest.mark.full
-def test_twenty_kills_at_random_moments_change_nothing(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_twenty_kills_at_random_moments_change_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=30, kills=20, seed=random.randrange(10**6))

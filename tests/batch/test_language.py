@@ -1,4 +1,4 @@
-"""A class is marked in the language that was asked for, and each language keeps its verdicts."""
+"""A class is marked in the chosen language, and each language has its own verdicts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from grader.batch.work import Job
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
 from tests.batch.classes import grade_all
-from tests.batch.works import JOB, package
+from tests.batch.pool_tasks import JOB, package
 
 ROSTER = "id,name\nan,김하나\nabsent,이두리\n"
 
@@ -26,7 +26,7 @@ def report_of(out: Path) -> dict[str, object]:
 
 
 @pytest.mark.prefix
-def test_a_class_asked_for_in_korean_after_english_comes_out_in_korean(
+def test_a_class_marked_in_english_and_then_in_korean_is_korean(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     folder, out = tmp_path / "class", tmp_path / "out"
@@ -43,7 +43,7 @@ def test_a_class_asked_for_in_korean_after_english_comes_out_in_korean(
     assert (english["lang"], korean["lang"]) == ("en", "ko")
     assert (korean["score"], korean["status"]) == (english["score"], english["status"])
     feedback = sorted((out / "feedback").iterdir())
-    assert len(feedback) == 4  # also who handed in nothing reads Korean
+    assert len(feedback) == 4  # a missing student's text is Korean as well
     for path in feedback:
         text = path.read_text(encoding="utf-8")
         assert re.search("만점에|아직 점수가 없습니다", text), path.name
@@ -60,7 +60,7 @@ def test_a_class_asked_for_in_korean_after_english_comes_out_in_korean(
     assert report_of(out) == english
 
 
-def test_workers_are_told_the_language() -> None:
+def test_workers_get_the_language() -> None:
     job = Job(JOB.assignment, JOB.distro, JOB.sandbox, JOB.limits, "ko")
     assert Job.from_text(job.to_text()) == job
 

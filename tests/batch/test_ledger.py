@@ -1,4 +1,4 @@
-"""The ledger: what is recorded stays, is never changed, and nobody else's file is touched."""
+"""The ledger: records are durable and never changed, and other programs' files are untouched."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from grader.base.errors import GraderError, SurroundingsError, UsageError
 from grader.batch.ledger import AlreadyMarkedError, HandedInRow, Ledger
 from grader.batch.model import Override, Student
 from grader.report.model import Report
+from tests.processes import ROOT
 from tests.report.samples import check, report
-from tests.stage import ROOT
 
 AT = datetime(2026, 11, 20, 23, 59, tzinfo=timezone.utc)
 HELLO = "hello_time"
@@ -39,25 +39,25 @@ def worse() -> Report:
     return report(check("run.output", "failed"))
 
 
-def test_a_verdict_comes_back_as_it_was_recorded(ledger: Ledger) -> None:
+def test_a_verdict_is_read_back_as_recorded(ledger: Ledger) -> None:
     recorded = worse()
     row = ledger.record("kim", "k1", recorded)
     assert ledger.report(row) == recorded
     assert ledger.verdicts()["kim", "k1"].score == recorded.score
 
 
-def test_a_verdict_of_several_students_is_recorded_for_all_or_for_none(ledger: Ledger) -> None:
+def test_a_verdict_of_several_students_is_recorded_for_all_or_none(ledger: Ledger) -> None:
     ledger.record("kim", "k1", report())
     ledger.record_for_all("k1", {"ann": worse(), "kim": worse(), "bob": worse()})
     found = {student: row.score for (student, _), row in ledger.verdicts().items()}
     assert found == {"kim": 100, "ann": 90, "bob": 90}, "who has one keeps it"
-    with pytest.raises(UnicodeEncodeError):  # no database keeps this key
+    with pytest.raises(UnicodeEncodeError):  # SQLite cannot store this key
         ledger.record_for_all("k2", {"ann": worse(), "b\ud800b": worse()})
     assert {key for _, key in ledger.verdicts()} == {"k1"}
 
 
-def test_it_is_on_the_disk_when_it_is_recorded(path: Path) -> None:
-    """Another process is killed, without closing anything, right after it has said "done"."""
+def test_a_recorded_verdict_is_on_disk(path: Path) -> None:
+    """Another process is killed right after it has printed "done", without closing anything."""
     code = (
         "import os, sys; from pathlib import Path; from grader.batch.ledger import Ledger;"
         "from tests.report.samples import report;"
@@ -77,17 +77,17 @@ def test_it_is_on_the_disk_when_it_is_recorded(path: Path) -> None:
         assert ("kim", "k1") in ledger.verdicts()
 
 
-def test_nobody_is_marked_twice_for_the_same(ledger: Ledger) -> None:
+def test_the_same_submission_is_not_marked_twice(ledger: Ledger) -> None:
     ledger.record("kim", "k1", report())
     with pytest.raises(AlreadyMarkedError):
         ledger.record("kim", "k1", worse())
     assert ledger.verdicts()["kim", "k1"].score == report().score
-    ledger.record("lee", "k1", worse())  # the same content of somebody else
+    ledger.record("lee", "k1", worse())  # the same content from another student
     ledger.record("kim", "k2", worse())  # other content
     assert ledger.count() == 3
 
 
-def test_a_regrade_is_asked_for_once_and_done_once(ledger: Ledger) -> None:
+def test_a_regrade_is_done_once(ledger: Ledger) -> None:
     first = ledger.record("kim", "k1", report())
     ledger.request_regrades(ledger.verdicts().values())
     ledger.request_regrades(ledger.verdicts().values())
@@ -100,7 +100,7 @@ def test_a_regrade_is_asked_for_once_and_done_once(ledger: Ledger) -> None:
         ledger.record("kim", "k1", report())
 
 
-def test_a_fault_of_ours_leaves_the_verdict_before_and_the_wish_for_another(
+def test_a_grader_fault_keeps_the_earlier_verdict_and_the_pending_regrade(
     ledger: Ledger,
 ) -> None:
     first = ledger.record("kim", "k1", report())
@@ -113,7 +113,7 @@ def test_a_fault_of_ours_leaves_the_verdict_before_and_the_wish_for_another(
     assert ledger.fault("kim", "k1") == "", "what went well at last is no fault any more"
 
 
-def test_what_was_handed_in_keeps_when_it_was_first_seen(ledger: Ledger) -> None:
+def test_a_submission_keeps_the_time_at_which_it_was_first_seen(ledger: Ledger) -> None:
     later = AT.replace(year=2027)
     ledger.record_handed_in(HELLO, [HandedInRow("kim", "s1", AT, None, "/a", AT)])
     ledger.record_handed_in(HELLO, [HandedInRow("kim", "s1", later, True, "/b", later)])
@@ -121,7 +121,7 @@ def test_what_was_handed_in_keeps_when_it_was_first_seen(ledger: Ledger) -> None
     assert ledger.handed_in("another") == []
 
 
-def test_the_newest_correction_of_a_check_holds_until_it_is_taken_back(ledger: Ledger) -> None:
+def test_the_newest_correction_of_a_check_applies_until_it_is_withdrawn(ledger: Ledger) -> None:
     first = Override("kim", "run.output", 4, "half of it", "curie", AT)
     total = Override("kim", "", 90, "agreed", "curie", AT)
     better = Override("kim", "run.output", 8, "most of it", "curie", AT)
@@ -133,26 +133,26 @@ def test_the_newest_correction_of_a_check_holds_until_it_is_taken_back(ledger: L
     assert ledger.overrides("another") == []
 
 
-def test_who_is_in_the_class_is_remembered(ledger: Ledger) -> None:
+def test_the_members_of_the_class_are_recorded(ledger: Ledger) -> None:
     kim = Student("17", "Kim, Minji", "kim@example.org", "kim", "2026001", "A")
     ledger.enrol(HELLO, [kim])
     ledger.enrol(HELLO, [kim])
     assert ledger.students(HELLO) == [kim]
 
 
-def test_only_its_owner_can_read_it(path: Path, ledger: Ledger) -> None:
+def test_the_ledger_is_readable_by_its_owner_only(path: Path, ledger: Ledger) -> None:
     ledger.record("kim", "k1", report())
     found = {file.name: file.stat().st_mode & 0o777 for file in path.parent.iterdir()}
     assert set(found.values()) == {0o600}, found
 
 
-def test_the_second_grader_on_a_ledger_is_told_so(path: Path, ledger: Ledger) -> None:
+def test_a_second_grader_on_the_ledger_is_refused(path: Path, ledger: Ledger) -> None:
     with pytest.raises(UsageError, match="another grader"):
         Ledger(path)
-    ledger.record("kim", "k1", report())  # and the first one goes on
+    ledger.record("kim", "k1", report())  # the first one goes on
 
 
-def test_a_ledger_that_is_not_there_is_made_only_where_that_is_wanted(path: Path) -> None:
+def test_a_missing_ledger_is_created_only_on_request(path: Path) -> None:
     with pytest.raises(UsageError, match="no ledger"):
         Ledger(path, makes=False)
     assert not list(path.parent.iterdir())
@@ -173,7 +173,7 @@ def _database(path: Path, *statements: str) -> None:
         (b"SQLite format 3\0" + os.urandom(8_000), SurroundingsError),
     ],
 )
-def test_what_is_no_ledger_is_refused_and_kept(
+def test_a_file_that_is_not_a_ledger_is_refused_and_kept(
     path: Path, content: bytes, error: type[GraderError]
 ) -> None:
     path.write_bytes(content)
@@ -201,14 +201,14 @@ def test_the_ledger_of_a_newer_grader_is_refused_and_kept(path: Path) -> None:
         assert ledger.report(row) == report()
 
 
-def test_a_folder_that_is_closed_to_us_is_said_with_what_to_do(tmp_path: Path) -> None:
+def test_an_unreadable_folder_is_reported_with_a_fix(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(SurroundingsError, match="cannot be opened") as caught:
         Ledger(tmp_path / "file" / "ledger.sqlite")
     assert "--ledger" in caught.value.remedy
 
 
-def test_a_report_that_was_damaged_is_told_by_its_number(path: Path) -> None:
+def test_a_damaged_report_is_reported_by_its_number(path: Path) -> None:
     with Ledger(path) as ledger:
         row = ledger.record("kim", "k1", report())
     _database(path, "UPDATE verdict SET report = x'00'")

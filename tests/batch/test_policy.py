@@ -42,9 +42,7 @@ def after(seconds: float) -> datetime:
         (7201, "2 h", 7201),
     ],
 )
-def test_up_to_the_end_of_the_grace_time_nothing_is_late(
-    seconds: float, grace: str, late: float
-) -> None:
+def test_nothing_is_late_within_the_grace_time(seconds: float, grace: str, late: float) -> None:
     assert lateness(after(seconds), policy(grace=grace)) == late
 
 
@@ -71,7 +69,7 @@ def test_without_a_due_date_nothing_is_late() -> None:
         (10 * DAY, {}, 0),
     ],
 )
-def test_each_begun_day_or_hour_counts_whole(
+def test_each_started_day_or_hour_counts_in_full(
     seconds: float, late: dict[str, Any], taken: float
 ) -> None:
     assert penalty(80, 100, after(seconds), policy(**late)) == taken
@@ -92,14 +90,14 @@ def test_a_penalty_is_never_more_than_the_score() -> None:
         ("2026-11-20T23:59:00+09:00", "", "2026-11-20T14:59:00+00:00", 0),
     ],
 )
-def test_instants_are_compared_whatever_the_clocks_on_the_wall_say(
+def test_times_are_compared_across_changes_of_the_clocks(
     due: str, zone: str, submitted: str, late: float
 ) -> None:
     found = Policy(due=datetime.fromisoformat(due), time_zone=zone)
     assert lateness(datetime.fromisoformat(submitted), found) == late
 
 
-def test_two_times_of_one_zone_are_compared_as_instants_too() -> None:
+def test_two_times_in_one_zone_are_compared_as_instants() -> None:
     berlin = ZoneInfo("Europe/Berlin")
     found = Policy(due=datetime(2026, 10, 24, 23), time_zone="Europe/Berlin")
     assert lateness(datetime(2026, 10, 25, 23, tzinfo=berlin), found) == 25 * HOUR
@@ -129,17 +127,17 @@ def test_the_best_attempt_is_the_one_with_the_most_points_after_its_penalty() ->
     assert entry.late_seconds == 1
 
 
-def test_of_two_equal_attempts_the_earlier_one_counts() -> None:
+def test_the_earlier_of_two_equal_attempts_counts() -> None:
     assert stand(attempt(1, -HOUR), attempt(2, -60), attempts="best").attempt == 1
 
 
-def test_the_last_attempt_counts_though_it_is_worse() -> None:
+def test_the_last_attempt_counts_even_if_it_is_worse() -> None:
     entry = stand(attempt(1, -HOUR), attempt(2, -60, ["run.output"]), attempts="last")
     assert (entry.attempt, entry.final) == (2, 90)
     assert stand(attempt(1, 0, ["run.output"]), attempt(2, 0), attempts="first").final == 90
 
 
-def test_what_cannot_be_marked_is_never_better_than_a_verdict() -> None:
+def test_an_ungradable_attempt_is_never_better_than_a_verdict() -> None:
     broken = attempt(2, -60, report=None, problem="the archive ends in the middle")
     lost = attempt(1, -HOUR, ["run.output"])
     assert stand(lost, broken, attempts="best").final == 90
@@ -149,7 +147,7 @@ def test_what_cannot_be_marked_is_never_better_than_a_verdict() -> None:
     assert stand(broken, attempts="best").status == "ungradable"
 
 
-def test_a_report_of_the_graders_own_failure_is_no_verdict() -> None:
+def test_a_report_of_a_grader_failure_is_not_a_verdict() -> None:
     failed = report().model_copy(update={"status": "error", "message": "the disk was full"})
     entry = stand(attempt(1, -HOUR, report=failed), attempts="best")
     assert (entry.status, entry.final, entry.problem) == ("error", None, "the disk was full")
@@ -157,18 +155,18 @@ def test_a_report_of_the_graders_own_failure_is_no_verdict() -> None:
     assert stand(lost, attempt(2, -60, report=failed), attempts="best").final == 90
 
 
-def test_what_is_not_marked_yet_waits() -> None:
+def test_an_unmarked_attempt_is_pending() -> None:
     entry = stand(attempt(1, -60, report=None))
     assert (entry.status, entry.score, entry.final) == ("pending", None, None)
 
 
 @pytest.mark.parametrize(("missing", "final"), [("zero", 0), ("none", None)])
-def test_who_handed_in_nothing_gets_what_the_policy_says(missing: str, final: float | None) -> None:
+def test_a_missing_student_gets_what_the_policy_says(missing: str, final: float | None) -> None:
     entry = stand(missing=missing)
     assert (entry.status, entry.final) == ("missing", final)
 
 
-def test_a_corrected_check_counts_before_lateness_takes_its_share() -> None:
+def test_a_corrected_check_counts_before_the_penalty() -> None:
     override = Override("kim", "run.output", 8, "the text was given wrongly in class")
     entry = stand(attempt(1, 1, ["run.output"]), overrides=[override], per_day="50%")
     assert (entry.score, entry.penalty, entry.final) == (98, 50, 48)
@@ -177,7 +175,7 @@ def test_a_corrected_check_counts_before_lateness_takes_its_share() -> None:
     assert entry.overrides == (override,)
 
 
-def test_a_corrected_total_is_the_last_word() -> None:
+def test_a_corrected_total_is_final() -> None:
     override = Override("kim", "", 77, "agreed in the office hour")
     for found in (
         stand(attempt(1, 5 * DAY, ["run.output"]), overrides=[override], per_day="10%"),
@@ -187,7 +185,7 @@ def test_a_corrected_total_is_the_last_word() -> None:
         assert (found.score, found.penalty, found.final) == (77, 0, 77)
 
 
-def test_an_unknown_time_costs_nothing_and_is_told() -> None:
+def test_an_unknown_time_costs_nothing_and_is_noted() -> None:
     entry = stand(attempt(1, None, late=True), per_day="10%")
     assert (entry.penalty, entry.final) == (0, 100)
     assert "not known" in entry.notes[-1]

@@ -1,4 +1,4 @@
-"""An assignment's `policy:` as it is written: what is read from it, and what is refused where."""
+"""The `policy:` section of an assignment: what is read, and what is refused with which line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
 from grader.course.load import load_assignment
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 DUE = datetime(2026, 11, 20, 14, 59, tzinfo=timezone.utc)
 COURSE = ROOT / "lab/course/hello_time/assignment.yaml"
@@ -40,11 +40,11 @@ def test_a_policy_is_read_from_the_assignment(tmp_path: Path) -> None:
     assert found.end == datetime(2026, 12, 1, tzinfo=timezone.utc)
 
 
-def test_a_policy_changes_no_verdict_and_so_not_the_assignments_hash(tmp_path: Path) -> None:
+def test_a_policy_does_not_change_the_assignments_hash(tmp_path: Path) -> None:
     assert load(tmp_path, FULL).sha256 == load(tmp_path, "").sha256
 
 
-def test_a_policy_survives_the_way_to_a_worker(tmp_path: Path) -> None:
+def test_a_policy_is_sent_to_a_worker_unchanged(tmp_path: Path) -> None:
     found = load(tmp_path, FULL)
     text = found.model_dump_json(by_alias=True)
     assert Assignment.model_validate_json(text).policy == found.policy
@@ -77,7 +77,7 @@ def test_a_policy_survives_the_way_to_a_worker(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_policy_that_cannot_be_is_told_with_its_line(
+def test_an_invalid_policy_is_reported_with_its_line(
     tmp_path: Path, text: str, line: int, words: str
 ) -> None:
     before = len(COURSE.read_text(encoding="utf-8").splitlines())

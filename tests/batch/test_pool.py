@@ -17,13 +17,13 @@ from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.batch.works import ASSIGNMENT, JOB, own_workers, tasks
-from tests.stage import descendants
+from tests.batch.pool_tasks import ASSIGNMENT, JOB, own_workers, tasks
+from tests.processes import descendants
 
 pytestmark = pytest.mark.prefix
 
 
-def _unheard(task: Task) -> None:
+def _ignore(task: Task) -> None:
     del task
 
 
@@ -33,9 +33,9 @@ def _score(done: Done) -> float:
     return report.score
 
 
-def test_each_gets_the_verdict_of_its_own_package(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
     names = ["solution", "entry_missing", "text_capital", "solution"]
-    found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_unheard))
+    found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))
     scores = {done.task.student: _score(done) for done in found}
     assert set(scores) == {"solution-0", "entry_missing-1", "text_capital-2", "solution-3"}
     assert scores["solution-0"] == scores["solution-3"] == 100
@@ -45,34 +45,34 @@ def test_each_gets_the_verdict_of_its_own_package(ros_jazzy: Ros, tmp_path: Path
     assert own_workers() == []
 
 
-def test_a_worker_that_is_killed_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
-    """Both workers are killed in the middle of a verdict; others take their places."""
+def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
+    """Both workers are killed in the middle of a verdict and replaced."""
     killed: list[int] = []
     waiting = tasks(tmp_path, ["solution"] * 4)
 
-    def handed_out() -> Iterator[Task]:
+    def submitted() -> Iterator[Task]:
         yield next(waiting)
         yield next(waiting)
-        # both are at work now: whoever comes for more does so since one of them has died
+        # both workers are busy now: a third task is only requested after one of them has ended
         for worker in own_workers():
             os.kill(worker, signal.SIGKILL)
             killed.append(worker)
         yield from waiting
 
-    found = list(LocalPool(JOB, 3).run(handed_out(), started=_unheard))
+    found = list(LocalPool(JOB, 3).run(submitted(), started=_ignore))
     assert [_score(done) for done in found] == [100] * 4
     assert len(killed) == 2
     assert sorted(done.tries for done in found) == [1, 1, 2, 2]
-    assert _left() == {}
+    assert _sandbox_processes() == {}
 
 
-def test_a_worker_that_hangs_is_ended_and_the_submission_tried_again(
+def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     stopped: list[int] = []
     waiting = tasks(tmp_path, ["solution"] * 2)
 
-    def handed_out() -> Iterator[Task]:
+    def submitted() -> Iterator[Task]:
         yield next(waiting)
         (worker,) = own_workers()
         os.kill(worker, signal.SIGSTOP)
@@ -80,69 +80,67 @@ def test_a_worker_that_hangs_is_ended_and_the_submission_tried_again(
         yield from waiting
 
     pool = LocalPool(JOB, 2, seconds=15)
-    found = list(pool.run(handed_out(), started=_unheard))
+    found = list(pool.run(submitted(), started=_ignore))
     assert [_score(done) for done in found] == [100, 100]
     tries = {done.task.student: done.tries for done in found}
     assert tries == {"solution-0": 2, "solution-1": 1}
     with pytest.raises(ProcessLookupError):
         os.kill(stopped[0], 0)
-    assert _left() == {}
+    assert _sandbox_processes() == {}
 
 
-def test_a_worker_that_always_dies_is_a_fault_of_ours_and_stops_nobody_else(
+def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
     tmp_path: Path,
 ) -> None:
-    """(A program that is no worker at all: what it says last is what the instructor reads.)"""
+    """The command is not a worker at all; its last output is shown to the instructor."""
     command = (sys.executable, "-c", "import sys; sys.exit('no memory is left')")
     pool = LocalPool(JOB, 2, command=command)
-    found = list(pool.run(tasks(tmp_path, ["solution"] * 3), started=_unheard))
+    found = list(pool.run(tasks(tmp_path, ["solution"] * 3), started=_ignore))
     assert len(found) == 3
     assert {done.tries for done in found} == {3}
     assert all(done.answer.report is None for done in found)
     assert all("no memory is left" in done.answer.fault for done in found)
 
 
-def test_what_is_no_answer_is_no_verdict(tmp_path: Path) -> None:
+def test_an_invalid_answer_is_not_a_verdict(tmp_path: Path) -> None:
     command = (sys.executable, "-c", 'print(\'{"report": {"score": 100}}\', flush=True); input()')
     pool = LocalPool(JOB, 1, command=command)
-    (done,) = pool.run(tasks(tmp_path, ["solution"]), started=_unheard)
+    (done,) = pool.run(tasks(tmp_path, ["solution"]), started=_ignore)
     assert done.answer.report is None
     assert "sent an invalid answer" in done.answer.fault
 
 
-def test_leaving_in_the_middle_ends_every_worker_and_its_sandbox(
-    ros_jazzy: Ros, tmp_path: Path
-) -> None:
+def test_stopping_early_ends_every_worker_and_its_sandbox(ros_jazzy: Ros, tmp_path: Path) -> None:
     with contextlib.closing(
         LocalPool(JOB, 2).run(
-            tasks(tmp_path, ["entry_missing", *["solution"] * 9]), started=_unheard
+            tasks(tmp_path, ["entry_missing", *["solution"] * 9]), started=_ignore
         )
     ) as running:
         next(running)
         assert own_workers()
     assert own_workers() == []
-    assert _left() == {}
+    assert _sandbox_processes() == {}
 
 
-def test_a_submission_travels_whatever_is_in_it(tmp_path: Path) -> None:
+def test_a_submission_survives_serialisation(tmp_path: Path) -> None:
     (task,) = tasks(tmp_path, ["solution"])
     folder = tmp_path / "solution-0" / "my_robot_controller"
     (folder / "bytes.bin").write_bytes(bytes(range(256)) * 9)
     (folder / "link").symlink_to("setup.py")
     (folder / "empty").mkdir()
-    (strange,) = _again(tmp_path)
+    (strange,) = _as_task(tmp_path)
     assert {file.path for file in strange.submission.files} > {"bytes.bin", "link", "empty"}
     for sent in (task, strange):
         assert submission_from_json(submission_json(sent.submission)) == sent.submission
         assert Task.from_text(sent.to_text()) == sent
 
 
-def _again(folder: Path) -> list[Task]:
+def _as_task(folder: Path) -> list[Task]:
     place = next(folder.iterdir())
     found = take_in(place, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
     return [Task("a", "b", "c", "d", found)]
 
 
-def _left() -> dict[int, str]:
-    """Return what runs below this process and is a sandbox or in one."""
+def _sandbox_processes() -> dict[int, str]:
+    """Return the descendants of this process that are a sandbox or run in one."""
     return {pid: line for pid, line in descendants().items() if "bwrap" in line or "ros" in line}

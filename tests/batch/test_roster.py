@@ -1,4 +1,4 @@
-"""The list of a class' students, and how submissions are found on it."""
+"""The roster of a class, and how submissions are matched with it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn, Student
 from grader.batch.roster import Roster, read_roster
 
-from .handed_out import package, repository, write
+from .archives import package, repository, write
 
 MOODLE = """\
 Identifier,Full name,ID number,Email address,Status,Group,Grade,Maximum Grade,Last modified (grade)
@@ -48,7 +48,7 @@ def roster(tmp_path: Path, content: str | bytes, name: str = "roster.csv") -> Ro
     return read_roster(tmp_path / name)
 
 
-def test_moodles_worksheet_is_read_with_its_participants(tmp_path: Path) -> None:
+def test_moodles_worksheet_is_read_with_participant_numbers(tmp_path: Path) -> None:
     found = roster(tmp_path, MOODLE)
     assert found.kind == "moodle"
     assert found.students == (
@@ -69,7 +69,7 @@ def test_moodles_worksheet_in_another_language_is_read_too(tmp_path: Path) -> No
     assert found.students == (Student("3", "Анна Ли", "anna@school.edu"),)
 
 
-def test_canvas_gradebook_is_read_without_its_points_and_test_student(tmp_path: Path) -> None:
+def test_canvas_gradebook_is_read_without_points_row_and_test_student(tmp_path: Path) -> None:
     found = roster(tmp_path, CANVAS)
     assert found.kind == "canvas"
     assert found.students == (
@@ -106,7 +106,7 @@ def test_gradescopes_and_classrooms_rosters_are_read(tmp_path: Path) -> None:
         (" Full Name , Section ", " Ann  Lee , B ", Student("Ann  Lee", "Ann  Lee", section="B")),
     ],
 )
-def test_columns_are_known_by_common_names(
+def test_columns_are_recognised_by_common_names(
     tmp_path: Path, header: str, row: str, student: Student
 ) -> None:
     assert roster(tmp_path, f"{header}\n{row}\n").students == (student,)
@@ -132,7 +132,7 @@ def test_every_common_encoding_is_read(
     assert bool(found.notes) == noted
 
 
-def test_excels_own_first_line_is_passed_over(tmp_path: Path) -> None:
+def test_excels_sep_line_is_skipped(tmp_path: Path) -> None:
     found = roster(tmp_path, "sep=;\nname;email\nAnn Lee;a@b.c\n")
     assert found.students == (Student("a@b.c", "Ann Lee", "a@b.c"),)
     with pytest.raises(
@@ -161,15 +161,13 @@ def test_excels_own_first_line_is_passed_over(tmp_path: Path) -> None:
         (b"PK\x03\x04xl/worksheets", "spreadsheet, not a CSV"),
     ],
 )
-def test_a_roster_that_cannot_be_used_is_said_to_be_so(
-    tmp_path: Path, content: str | bytes, message: str
-) -> None:
+def test_an_unusable_roster_is_reported(tmp_path: Path, content: str | bytes, message: str) -> None:
     with pytest.raises(UsageError, match=message) as error:
         roster(tmp_path, content)
     assert str(error.value).isprintable() or "\n" in str(error.value)
 
 
-def test_a_roster_that_is_not_there_is_wrong_usage(tmp_path: Path) -> None:
+def test_a_missing_roster_is_a_usage_error(tmp_path: Path) -> None:
     for name in ("gone.csv", "a\0b"):
         with pytest.raises(UsageError, match="no roster"):
             read_roster(tmp_path / name)
@@ -184,7 +182,7 @@ CELL = st.text(st.characters(codec="utf-8"), max_size=12)
     max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(rows=st.lists(st.lists(CELL, min_size=1, max_size=4), max_size=5), raw=st.binary())
-def test_whatever_a_roster_holds_it_is_read_or_refused(
+def test_any_roster_is_read_or_refused(
     tmp_path: Path, rows: Sequence[Sequence[str]], raw: bytes
 ) -> None:
     out = io.StringIO()
@@ -201,10 +199,10 @@ def test_whatever_a_roster_holds_it_is_read_or_refused(
             assert len({other.key for other in found.students if other == student}) == 1
 
 
-# joined
+# matching
 
 
-def handed(tmp_path: Path, names: Sequence[str], content: str) -> ClassFolder:
+def discovered(tmp_path: Path, names: Sequence[str], content: str) -> ClassFolder:
     for name in names:
         write(tmp_path / "class" / name, package())
     (tmp_path / "roster.csv").write_text(content)
@@ -215,26 +213,26 @@ def names_of(found: ClassFolder) -> list[tuple[str, str]]:
     return [(given.student.key, given.student.name) for given in found.handed_in]
 
 
-def said(given: HandedIn) -> str:
+def notes_of(given: HandedIn) -> str:
     return "\n".join(given.notes)
 
 
-def test_without_a_roster_the_order_is_that_of_the_names(tmp_path: Path) -> None:
+def test_without_a_roster_students_are_sorted_by_name(tmp_path: Path) -> None:
     for name in ("zoe", "Émile", "Ann", "ben"):
         write(tmp_path / "class" / name, package())
     found = discover(tmp_path / "class", unpack=tmp_path / "work")
     assert [given.student.key for given in found.handed_in] == ["Ann", "ben", "Émile", "zoe"]
 
 
-def test_the_order_is_the_rosters_and_who_is_missing_is_told(tmp_path: Path) -> None:
-    found = handed(
+def test_the_order_is_the_rosters_and_missing_students_are_reported(tmp_path: Path) -> None:
+    found = discovered(
         tmp_path,
         ["al", "stranger", "4712"],
         "name,username,id number\nZoë Roe,zr,4712\nMax Ray,mr,4713\nAnn Lee,al,4711\n",
     )
     assert names_of(found) == [("4712", "Zoë Roe"), ("al", "Ann Lee"), ("stranger", "stranger")]
     assert found.missing == (Student("4713", "Max Ray", "", "mr", "4713"),)
-    assert "not on the roster" in said(found.handed_in[2])
+    assert "not on the roster" in notes_of(found.handed_in[2])
     assert not found.handed_in[0].notes
     assert found.handed_in[1].student == Student("al", "Ann Lee", "", "al", "4711")
 
@@ -242,77 +240,79 @@ def test_the_order_is_the_rosters_and_who_is_missing_is_told(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     "name", ["4711", "ALEE", "ann@School.edu", "ann", "Lee Ann", "ann_lée", "lee-ann", "AnnLee"]
 )
-def test_a_folders_name_may_be_whatever_names_one_student(tmp_path: Path, name: str) -> None:
-    found = handed(
+def test_a_folder_name_may_be_any_unique_name_of_a_student(tmp_path: Path, name: str) -> None:
+    found = discovered(
         tmp_path,
         [name, "other"],
         "id number,name,email,username\n4711,Ann Lée,ann@school.edu,alee\n4712,Joe Poe,j@p.q,jp\n",
     )
     assert names_of(found)[0] == (name, "Ann Lée")
     by_name = name.lower() not in ("4711", "alee", "ann@school.edu", "ann")
-    assert ("by name only" in said(found.handed_in[0])) == by_name
+    assert ("by name only" in notes_of(found.handed_in[0])) == by_name
 
 
-def test_a_name_that_two_students_have_joins_neither(tmp_path: Path) -> None:
-    found = handed(tmp_path, ["Ann Lee", "Joe"], "name,id number\nAnn Lee,1\nLee Ann,2\nJoe,3\n")
+def test_a_name_shared_by_two_students_matches_neither(tmp_path: Path) -> None:
+    found = discovered(
+        tmp_path, ["Ann Lee", "Joe"], "name,id number\nAnn Lee,1\nLee Ann,2\nJoe,3\n"
+    )
     assert names_of(found) == [("Joe", "Joe"), ("Ann Lee", "Ann Lee")]
-    assert "more than one" in said(found.handed_in[1])
+    assert "more than one" in notes_of(found.handed_in[1])
     assert [student.id_number for student in found.missing] == ["1", "2"]
 
 
-def test_two_submissions_that_fit_one_line_are_both_kept_apart(tmp_path: Path) -> None:
-    found = handed(tmp_path, ["ann lee", "lee ann"], "name,id number\nAnn Lee,1\n")
+def test_two_submissions_for_one_line_are_both_kept(tmp_path: Path) -> None:
+    found = discovered(tmp_path, ["ann lee", "lee ann"], "name,id number\nAnn Lee,1\n")
     assert sorted(names_of(found)) == [("ann lee", "ann lee"), ("lee ann", "lee ann")]
-    assert all("more than one" in said(given) for given in found.handed_in)
+    assert all("more than one" in notes_of(given) for given in found.handed_in)
 
 
-def test_the_surer_mark_wins_over_the_name(tmp_path: Path) -> None:
-    """A student whose user name is another one's name is still himself."""
-    found = handed(tmp_path, ["joe", "x"], "name,username\njoe,ann\nAnn Lee,joe\n")
+def test_a_user_name_outranks_a_full_name(tmp_path: Path) -> None:
+    """A student whose user name is another student's full name is still identified correctly."""
+    found = discovered(tmp_path, ["joe", "x"], "name,username\njoe,ann\nAnn Lee,joe\n")
     assert names_of(found)[0] == ("joe", "Ann Lee")
 
 
-def test_moodles_number_joins_its_own_worksheet_and_no_other_number_does(tmp_path: Path) -> None:
+def test_only_moodles_own_number_matches_its_worksheet(tmp_path: Path) -> None:
     folders = ["Lee Ann_11_assignsubmission_file", "Max Ray_4712_assignsubmission_file"]
-    found = handed(tmp_path, folders, MOODLE)
+    found = discovered(tmp_path, folders, MOODLE)
     assert names_of(found) == [("11", "Ann Lee"), ("4712", "Max Ray")]
     assert [student.key for student in found.missing] == ["12"]
     assert found.handed_in[0].student.email == "ann@school.edu"
-    assert "by name only" not in said(found.handed_in[0])
-    plain = handed(tmp_path, [], "id,name\n11,Zoë Roe\n4712,Ann Lee\n")
+    assert "by name only" not in notes_of(found.handed_in[0])
+    plain = discovered(tmp_path, [], "id,name\n11,Zoë Roe\n4712,Ann Lee\n")
     assert ("11", "Ann Lee") in names_of(plain)
     assert [student.name for student in plain.missing] == ["Zoë Roe"]
 
 
-def test_canvas_submissions_join_by_number_else_by_the_squeezed_name(tmp_path: Path) -> None:
+def test_canvas_submissions_match_by_number_or_by_compressed_name(tmp_path: Path) -> None:
     (tmp_path / "class").mkdir()
     for name in ("someoneelse_102_9001_a.zip", "leeann_555_9002_a.zip"):
         (tmp_path / "class" / name).write_bytes(b"PK\x03\x04")
-    found = handed(tmp_path, [], CANVAS)
+    found = discovered(tmp_path, [], CANVAS)
     assert names_of(found) == [("555", "Ann Lee"), ("102", "Zoë Roe")]
-    assert "by name only" in said(found.handed_in[0])
+    assert "by name only" in notes_of(found.handed_in[0])
 
 
-def test_classroom_repositories_join_by_the_github_name(tmp_path: Path) -> None:
+def test_classroom_repositories_match_by_github_name(tmp_path: Path) -> None:
     for user in ("hw-1-ann-lee", "hw-1-zoe"):
         repository(tmp_path / "class" / user)
-    found = handed(tmp_path, [], CLASSROOM)
+    found = discovered(tmp_path, [], CLASSROOM)
     assert names_of(found) == [("hw-1-ann-lee", "ann@school.edu"), ("hw-1-zoe", "Zoë Roe")]
     assert [given.student.username for given in found.handed_in] == ["ann-lee", "zoe"]
 
 
-def test_a_name_that_all_users_begin_with_is_no_part_of_the_assignment(tmp_path: Path) -> None:
-    """`hw-ann-lee` and `hw-ann-ray` begin alike: the roster knows where the name begins."""
+def test_a_common_prefix_of_user_names_is_not_part_of_the_assignment(tmp_path: Path) -> None:
+    """`hw-ann-lee` and `hw-ann-ray` share a prefix: the roster decides where the name begins."""
     for user in ("hw-ann-lee", "hw-ann-ray"):
         repository(tmp_path / "class" / user)
     content = "identifier,github_username,name\n1,ann-ray,Ray\n2,ann-lee,Lee\n"
-    found = handed(tmp_path, [], content)
+    found = discovered(tmp_path, [], content)
     assert names_of(found) == [("hw-ann-ray", "Ray"), ("hw-ann-lee", "Lee")]
     assert [given.student.username for given in found.handed_in] == ["ann-ray", "ann-lee"]
 
 
-def test_a_missing_students_key_is_nobody_elses(tmp_path: Path) -> None:
-    found = handed(tmp_path, ["Joe Poe_7_assignsubmission_file"], "id,name\n7,Ann Lee\n")
+def test_the_key_of_a_missing_student_is_unique(tmp_path: Path) -> None:
+    found = discovered(tmp_path, ["Joe Poe_7_assignsubmission_file"], "id,name\n7,Ann Lee\n")
     assert names_of(found) == [("7", "Joe Poe")]
     (ann,) = found.missing
     assert (ann.name, ann.key != "7") == ("Ann Lee", True)

@@ -1,4 +1,4 @@
-"""Rosters in Korean, in the encodings of spreadsheets, and in languages whose words are unknown."""
+"""Rosters in Korean, in the encodings of spreadsheets, and in unknown languages."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def roster(tmp_path: Path, content: str, encoding: str = "utf-8") -> Roster:
     ],
 )
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp949", "utf-16"])
-def test_a_korean_roster_is_understood(tmp_path: Path, header: str, encoding: str) -> None:
+def test_a_korean_roster_is_read(tmp_path: Path, header: str, encoding: str) -> None:
     cells = ["김민지", "2024001", "kim@school.kr"]
     cells = ["x", *cells[1:], cells[0]] if header.count(",") == 3 else cells
     found = roster(tmp_path, f"{header}\n{','.join(cells)}\n", encoding)
@@ -41,7 +41,7 @@ def test_a_korean_roster_is_understood(tmp_path: Path, header: str, encoding: st
     assert [("CP949" in note) for note in found.notes] == ([True] if encoding == "cp949" else [])
 
 
-def test_family_and_given_name_in_columns_of_their_own(tmp_path: Path) -> None:
+def test_family_and_given_name_may_be_separate_columns(tmp_path: Path) -> None:
     found = roster(tmp_path, "성,이름,분반,모둠\n김,민지,01,팀 1\n")
     assert [(one.name, one.section) for one in found.students] == [("민지 김", "01")]
     assert found.lines[0].group == "팀 1"
@@ -49,7 +49,7 @@ def test_family_and_given_name_in_columns_of_their_own(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("words", [ENGLISH, KOREAN, replace(KOREAN, participant="참가자")])
 @pytest.mark.parametrize(("encoding", "bom"), [("utf-8", False), ("utf-8", True), ("cp949", False)])
-def test_moodles_worksheet_is_understood(
+def test_moodles_worksheet_in_korean_is_read(
     tmp_path: Path, words: Words, encoding: str, bom: bool
 ) -> None:
     class_ = [replace(p, submitted=n > 1) for n, p in enumerate(people(6, korean=True))]
@@ -71,7 +71,7 @@ def test_a_worksheet_in_cp949_is_filled_in_as_utf8(tmp_path: Path) -> None:
     assert "CP949" in sheet.notes[0]
 
 
-def test_columns_with_unknown_names_are_told_by_their_content(tmp_path: Path) -> None:
+def test_columns_with_unknown_names_are_recognised_by_content(tmp_path: Path) -> None:
     class_ = [replace(p, submitted=n != 2) for n, p in enumerate(people(5))]
     (tmp_path / "roster.csv").write_bytes(worksheet(class_, FINNISH))
     found = read_roster(tmp_path / "roster.csv")
@@ -82,11 +82,11 @@ def test_columns_with_unknown_names_are_told_by_their_content(tmp_path: Path) ->
     (note,) = found.notes
     for taken in ("'Tunniste' as key", "'Koko nimi' as name", "'Osoite' as email"):
         assert taken in note
-    # who has no time of a submission has none
+    # without a submission time there is no submission
     assert [bool(line.evidence) for line in found.lines] == [True, True, False, True, True]
 
 
-def test_numbers_that_count_the_lines_are_nobodys(tmp_path: Path) -> None:
+def test_line_numbers_are_not_student_ids(tmp_path: Path) -> None:
     found = roster(tmp_path, "Lp,Nazwisko i imię\n1,Ann Lee\n2,Ben Ray\n")
     assert [(one.key, one.name) for one in found.students] == [
         ("Ann Lee", "Ann Lee"),
@@ -102,7 +102,7 @@ def test_numbers_that_count_the_lines_are_nobodys(tmp_path: Path) -> None:
         ("Kim Minji,kim@school.kr\nLee Seoyeon,lee@school.kr\n", "first line must name"),
     ],
 )
-def test_a_roster_that_is_not_understood_is_an_error(
+def test_a_roster_without_known_columns_is_an_error(
     tmp_path: Path, content: str, said: str
 ) -> None:
     with pytest.raises(UsageError, match=rf"roster.csv:1: .*{said}"):
@@ -123,7 +123,7 @@ def test_a_roster_that_is_not_understood_is_an_error(
         ("", "", False),
     ],
 )
-def test_the_status_says_whether_there_is_a_submission(
+def test_the_status_column_says_whether_there_is_a_submission(
     status: str, on: str, submitted: bool
 ) -> None:
     assert says_submitted(status, on) == submitted

@@ -1,4 +1,4 @@
-"""What Moodle, Canvas and Gradescope give to download, as folders and as zips."""
+"""Downloads of Moodle, Canvas and Gradescope, as folders and as zips."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ import yaml
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn
 
-from .handed_out import NODE_PATH, class_zip, everything_below, package, take, write, zipped
+from .archives import NODE_PATH, class_zip, everything_below, package, take, write, zipped
 
 WAYS = ["folder", "zip"]
 
 
 def downloaded(tmp_path: Path, files: Mapping[str, bytes], way: str) -> ClassFolder:
-    """Discover what a system gives: its zip, or the folder that it was unpacked to."""
+    """Discover a system's download: its zip, or the folder with its unpacked files."""
     if way == "zip":
         path = class_zip(tmp_path / "course-hw1-42.zip", files)
     else:
@@ -38,7 +38,7 @@ def by_key(found: ClassFolder) -> dict[str, list[HandedIn]]:
     return keys
 
 
-def said(thing: ClassFolder | HandedIn) -> str:
+def notes_of(thing: ClassFolder | HandedIn) -> str:
     return "\n".join(thing.notes)
 
 
@@ -52,7 +52,7 @@ FILE = "assignsubmission_file"
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_moodles_folders_are_known_by_the_participants_number(tmp_path: Path, way: str) -> None:
+def test_moodles_folders_are_identified_by_participant_number(tmp_path: Path, way: str) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -73,14 +73,14 @@ def test_moodles_folders_are_known_by_the_participants_number(tmp_path: Path, wa
     assert is_marked(ann)
     assert is_marked(zoe)
     assert not zoe.modes_kept
-    assert "onlinetext" in said(ann)
+    assert "onlinetext" in notes_of(ann)
     assert "only text" in max_.problem
     assert [given.submitted for given in found.handed_in] == [None] * 3
-    assert "does not contain the times" in said(found)
+    assert "does not contain the times" in notes_of(found)
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_moodles_files_without_folders_are_put_together(tmp_path: Path, way: str) -> None:
+def test_moodles_files_without_folders_are_grouped_by_participant(tmp_path: Path, way: str) -> None:
     loose = {f"Joe Poe_5_{FILE}_{name}": b"x" for name in ("setup.py", "package.xml")}
     found = downloaded(
         tmp_path,
@@ -96,13 +96,13 @@ def test_moodles_files_without_folders_are_put_together(tmp_path: Path, way: str
     assert again is None or by_key(again)["5"][0].path == joe.path
 
 
-def test_a_students_own_file_name_makes_nobody_else_of_him(tmp_path: Path) -> None:
+def test_a_file_name_cannot_impersonate_another_student(tmp_path: Path) -> None:
     name = f"Eve_7_{FILE}_x_123_{FILE}_pkg.zip"
     found = downloaded(tmp_path, {name: zipped(package())}, "folder")
     assert [(given.student.key, given.student.name) for given in found.handed_in] == [("7", "Eve")]
 
 
-def test_blind_students_and_teams_of_moodle_are_told_apart(tmp_path: Path) -> None:
+def test_anonymous_students_and_teams_of_moodle_are_distinguished(tmp_path: Path) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -119,10 +119,10 @@ def test_blind_students_and_teams_of_moodle_are_told_apart(tmp_path: Path) -> No
         "3": "The A Team",
         "Default group": "Default group",
     }
-    assert "number is not in the name" in said(by_key(found)["Default group"][0])
+    assert "number is not in the name" in notes_of(by_key(found)["Default group"][0])
 
 
-def test_blind_students_in_another_language_are_told_apart_too(tmp_path: Path) -> None:
+def test_anonymous_students_in_another_language_are_distinguished(tmp_path: Path) -> None:
     files = {f"Teilnehmer in_{n}_{FILE}_pkg.zip": zipped(package()) for n in (4, 5)}
     found = by_key(downloaded(tmp_path, files, "folder"))
     assert [given[0].student.name for given in found.values()] == [
@@ -131,7 +131,7 @@ def test_blind_students_in_another_language_are_told_apart_too(tmp_path: Path) -
     ]
 
 
-def test_two_students_of_one_name_are_two_and_two_names_of_one_number_too(tmp_path: Path) -> None:
+def test_equal_names_and_equal_numbers_stay_separate_students(tmp_path: Path) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -146,9 +146,7 @@ def test_two_students_of_one_name_are_two_and_two_names_of_one_number_too(tmp_pa
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_what_the_instructor_put_beside_moodles_folders_is_marked_too(
-    tmp_path: Path, way: str
-) -> None:
+def test_a_folder_added_by_the_instructor_is_marked(tmp_path: Path, way: str) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -163,7 +161,7 @@ def test_what_the_instructor_put_beside_moodles_folders_is_marked_too(
     assert [given.path.name for given in by_key(found)["2 (by hand)"]] == ["2.zip"]
     (mail,) = by_key(found)["by mail"]
     assert is_marked(mail)
-    assert "not named as in Moodle" in said(mail)
+    assert "not named as in Moodle" in notes_of(mail)
     assert found.system == "moodle"
 
 
@@ -171,7 +169,7 @@ def test_what_the_instructor_put_beside_moodles_folders_is_marked_too(
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_canvas_files_are_known_by_the_users_number(tmp_path: Path, way: str) -> None:
+def test_canvas_files_are_identified_by_user_number(tmp_path: Path, way: str) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -206,10 +204,10 @@ def test_several_attachments_of_canvas_are_one_submission(tmp_path: Path) -> Non
     assert everything_below(jane.path) >= {"package.xml", "setup.py", "setup.cfg"}
     assert take(jane.path).root == "."
     assert not jane.modes_kept
-    assert "doejane_101_text.html" in said(jane)
+    assert "doejane_101_text.html" in notes_of(jane)
 
 
-def test_what_was_handed_in_again_on_canvas_is_a_later_attempt(tmp_path: Path) -> None:
+def test_a_resubmission_on_canvas_is_a_later_attempt(tmp_path: Path) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -224,17 +222,17 @@ def test_what_was_handed_in_again_on_canvas_is_a_later_attempt(tmp_path: Path) -
         (2, b"third"),
         (3, b"last of all"),
     ]
-    assert "again" in said(found.handed_in[0])
+    assert "again" in notes_of(found.handed_in[0])
 
 
-def test_a_file_that_canvas_numbered_has_its_own_name_again(tmp_path: Path) -> None:
+def test_a_file_that_canvas_numbered_gets_its_original_name(tmp_path: Path) -> None:
     files = {"doejane_101_9001_setup-1.py": b"a", "doejane_101_9002_package-3.xml": b"b"}
     (jane,) = downloaded(tmp_path, files, "folder").handed_in
     assert everything_below(jane.path) == {"setup.py", "package.xml"}
-    assert "setup-1.py" in said(jane)
+    assert "setup-1.py" in notes_of(jane)
 
 
-def test_anonymous_students_of_canvas_are_told_apart(tmp_path: Path) -> None:
+def test_anonymous_students_of_canvas_are_distinguished(tmp_path: Path) -> None:
     found = downloaded(
         tmp_path,
         {
@@ -247,11 +245,11 @@ def test_anonymous_students_of_canvas_are_told_apart(tmp_path: Path) -> None:
     assert late == {"anon_8Qz1T": False, "anon_aB3x9": True}
 
 
-def test_a_name_on_canvas_that_can_be_read_in_two_ways_is_told(tmp_path: Path) -> None:
+def test_an_ambiguous_file_name_of_canvas_is_reported(tmp_path: Path) -> None:
     files = {"doe_999_101_9001_pkg.zip": zipped(package()), "roe_102_9002_pkg.zip": b"PK"}
     found = by_key(downloaded(tmp_path, files, "folder"))
-    assert "not certain" in said(found["999"][0])
-    assert "not certain" not in said(found["102"][0])
+    assert "not certain" in notes_of(found["999"][0])
+    assert "not certain" not in notes_of(found["102"][0])
 
 
 # Gradescope
@@ -296,7 +294,7 @@ submission_74:
 
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("top", ["", "assignment_5_export/"])
-def test_gradescopes_export_tells_who_and_when(tmp_path: Path, way: str, top: str) -> None:
+def test_gradescopes_export_has_names_and_times(tmp_path: Path, way: str, top: str) -> None:
     files = {f"{top}submission_metadata.yml": METADATA.encode()}
     for number in (71, 72, 73, 75):
         files |= below(f"{top}submission_{number}", package())
@@ -308,12 +306,12 @@ def test_gradescopes_export_tells_who_and_when(tmp_path: Path, way: str, top: st
     assert (zoe.student.name, zoe.student.email) == ("Zoë Roe", "zoe@school.edu")
     assert zoe.student.id_number == "0123"
     assert zoe.submitted == datetime(2026, 3, 4, 18, 20, 30, 158417, timezone.utc)
-    assert "the last of 2 attempts" in said(zoe)
+    assert "the last of 2 attempts" in notes_of(zoe)
     assert ann.path == joe.path
-    assert "Ann Lee, Joe Poe" in said(joe)
+    assert "Ann Lee, Joe Poe" in notes_of(joe)
     assert ann.submitted == joe.submitted == datetime(2026, 3, 4, 9, 0, tzinfo=timezone.utc)
     assert keys["submission_73"][0].submitted is None
-    assert "not in submission_metadata.yml" in said(keys["submission_75"][0])
+    assert "not in submission_metadata.yml" in notes_of(keys["submission_75"][0])
     assert "folder is not in the export" in keys["9"][0].problem
     assert all(is_marked(given) for given in (zoe, ann, joe, keys["submission_75"][0]))
 
@@ -330,7 +328,7 @@ def test_gradescopes_export_tells_who_and_when(tmp_path: Path, way: str, top: st
         b"",
     ],
 )
-def test_damaged_metadata_of_gradescope_costs_the_names_and_nothing_else(
+def test_damaged_metadata_of_gradescope_loses_only_the_names(
     tmp_path: Path, metadata: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -341,7 +339,7 @@ def test_damaged_metadata_of_gradescope_costs_the_names_and_nothing_else(
     assert all(is_marked(given) for given in found.handed_in)
 
 
-def test_two_submissions_of_one_student_are_attempts_in_order_of_time(tmp_path: Path) -> None:
+def test_two_submissions_of_a_student_are_attempts_ordered_by_time(tmp_path: Path) -> None:
     metadata = "".join(
         f"submission_{n}:\n  :submitters:\n  - :name: Ann\n    :sid: '5'\n"
         f"  :created_at: 2026-03-0{day} 18:20:30 Z\n"
@@ -358,7 +356,7 @@ def test_two_submissions_of_one_student_are_attempts_in_order_of_time(tmp_path: 
     ]
 
 
-def test_megabytes_of_results_take_a_moment_and_are_taken_for_nothing_else(
+def test_large_results_in_gradescope_metadata_are_skipped_quickly(
     tmp_path: Path,
 ) -> None:
     text = "\n  :submitters:\n  - :name: Evil\n    :sid: 666\nsubmission_2:\n" * 20
@@ -387,7 +385,7 @@ def test_megabytes_of_results_take_a_moment_and_are_taken_for_nothing_else(
     for key, (work,) in by_key(found).items():
         assert work.submitted is not None
         assert (work.student.name, work.submitted.second) == (f"Student {key}", int(key))
-        assert "the last of 3 attempts" in said(work)
+        assert "the last of 3 attempts" in notes_of(work)
     by_aliases = yaml.dump(metadata, sort_keys=False).encode()
     assert b"*id" in by_aliases
     (tmp_path / "course-hw1-42" / "submission_metadata.yml").write_bytes(by_aliases)
@@ -395,7 +393,7 @@ def test_megabytes_of_results_take_a_moment_and_are_taken_for_nothing_else(
     assert again.handed_in == found.handed_in
 
 
-def test_a_number_that_two_students_of_gradescope_have_keeps_them_apart(tmp_path: Path) -> None:
+def test_gradescope_students_with_the_same_number_stay_separate(tmp_path: Path) -> None:
     metadata = "".join(
         f"submission_{n}:\n  :submitters:\n  - {{':name': {name}, ':sid': 5, ':email': {name}@x}}\n"
         for n, name in ((1, "Ann"), (2, "Joe"), (3, "Joe"))
@@ -410,7 +408,7 @@ def test_a_number_that_two_students_of_gradescope_have_keeps_them_apart(tmp_path
     }
 
 
-def test_a_class_zip_of_folders_keeps_the_exec_bits_that_it_records(tmp_path: Path) -> None:
+def test_a_class_zip_of_folders_keeps_its_exec_bits(tmp_path: Path) -> None:
     files = {**below("hw/ann", package()), **below("hw/joe", package())}
     for given in downloaded(tmp_path, files, "zip").handed_in:
         node = take(given.path, modes_kept=given.modes_kept).file(NODE_PATH)

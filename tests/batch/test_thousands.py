@@ -1,4 +1,4 @@
-"""A class of two thousand: what it costs the process that coordinates it. The sandbox is a stub."""
+"""The coordinating process' memory for a class of two thousand, with stub workers."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ MOST = 200  # MB
 
 @pytest.mark.full
 @pytest.mark.prefix
-def test_memory_stays_flat_and_everybody_is_marked(tmp_path: Path) -> None:
+def test_memory_stays_constant_and_everybody_is_marked(tmp_path: Path) -> None:
     evidence = {"build_log": "b" * 40_000, "transcript": "t" * 40_000}
     report = samples.report(evidence=evidence)
     (tmp_path / "report.json").write_text(report_json(report), encoding="utf-8")
-    folder = classes.of_many(tmp_path / "class", 2_000)
+    folder = classes.large_class(tmp_path / "class", 2_000)
     out = tmp_path / "out"
     status, peak = classes.measured(folder, out, report=tmp_path / "report.json")
     assert status == 0

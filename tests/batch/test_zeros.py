@@ -1,4 +1,4 @@
-"""Nobody who handed in gets a zero, and no grade goes down unasked: the command on whole classes."""
+"""No submission gets an unjustified zero and no grade is lowered without consent."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.batch.cheap import Run, grade_all
 from tests.batch.downloads import (
     KOREAN,
     Person,
@@ -23,7 +22,8 @@ from tests.batch.downloads import (
     scored,
     worksheet,
 )
-from tests.stage import ROOT
+from tests.batch.stub_run import Run, grade_all
+from tests.processes import ROOT
 
 pytestmark = pytest.mark.prefix
 
@@ -34,7 +34,7 @@ IMPORT = "moodle-gradebook.csv"
 
 @pytest.fixture(scope="session")
 def zero(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The assignment with a policy that gives zero for what is missing."""
+    """The assignment with a policy that gives zero for a missing submission."""
     place = tmp_path_factory.mktemp("course") / "hello_time"
     shutil.copytree(HELLO, place)
     with (place / "assignment.yaml").open("a", encoding="utf-8") as file:
@@ -66,9 +66,7 @@ def in_groups() -> list[Person]:
     return [replace(one, group=name) for one, name in zip(people(7), names, strict=True)]
 
 
-def test_every_member_of_a_group_gets_its_verdict_in_every_output(
-    tmp_path: Path, zero: Path
-) -> None:
+def test_every_output_has_the_groups_verdict_for_each_member(tmp_path: Path, zero: Path) -> None:
     class_ = in_groups()
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_, bom=True))
     submissions = [("Team_1", 1003, 90), ("Übung & Co", 1000, 70), ("Default group", None, 50)]
@@ -101,18 +99,18 @@ def test_every_member_of_a_group_gets_its_verdict_in_every_output(
     assert "Marked again: 4, 4 of them with the same result." in regraded.said
 
 
-# a part of the class, or of the list
+# a part of the class, or of the roster
 
 
 @pytest.fixture(scope="session")
 def course() -> list[Person]:
-    """85 participants, of whom all handed in; 53 are in the section that is marked now."""
+    """85 participants with a submission each; 53 are in the section that is marked."""
     class_ = people(85)
     return [*class_[:53], *marked(class_[53:], "77.50")]
 
 
 @pytest.mark.parametrize("policy", ["none", "zero"])
-def test_a_section_against_the_whole_worksheet_lowers_nobody(
+def test_marking_one_section_lowers_no_grade_in_the_whole_worksheet(
     tmp_path: Path, zero: Path, course: list[Person], policy: str
 ) -> None:
     sheet = written(tmp_path / "worksheet.csv", worksheet(course))
@@ -128,7 +126,7 @@ def test_a_section_against_the_whole_worksheet_lowers_nobody(
     assert {run.finals()[p.name] for p in course[53:]} == {""}
     told = {path.stem for path in (run.out / "feedback").glob("*.md")}
     assert told == {str(p.number) for p in course[:53]}
-    # the other section comes into the same folder: nothing of the first one is lost
+    # the other section goes into the same folder: nothing of the first one is lost
     rest = moodle_zip(tmp_path / "rest.zip", of_people(course[53:], 95))
     both = grade_all(rest, run.out, *words)
     assert both.status == 1, both.said
@@ -136,8 +134,8 @@ def test_a_section_against_the_whole_worksheet_lowers_nobody(
     assert both.finals() == grades(both)
 
 
-def test_zeros_for_many_need_the_instructors_word(tmp_path: Path, zero: Path) -> None:
-    """A list that does not say who handed in: a section looks like a class that handed in little."""
+def test_zeros_for_many_students_need_the_instructors_consent(tmp_path: Path, zero: Path) -> None:
+    """Without submission statuses, a section looks like a class with many missing submissions."""
     class_ = people(10)
     lines = [f"{p.name},{p.id_number},{p.email}" for p in class_]
     roster = tmp_path / "roster.csv"
@@ -153,7 +151,7 @@ def test_zeros_for_many_need_the_instructors_word(tmp_path: Path, zero: Path) ->
     went_on = grade_all(path, tmp_path / "out", *words, "--assignment", zero, "--accept", "join")
     zeros = {p.name: "90" if n < 7 else "0" for n, p in enumerate(class_)}
     assert went_on.finals() == zeros
-    # without that policy it is no matter: nobody gets a zero
+    # without that policy nobody gets a zero
     plain = grade_all(path, tmp_path / "plain", *words)
     assert plain.status == 1
     assert plain.finals() == {p.name: "90" if n < 7 else "" for n, p in enumerate(class_)}
@@ -163,7 +161,9 @@ def test_zeros_for_many_need_the_instructors_word(tmp_path: Path, zero: Path) ->
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "cp949"])
-def test_a_korean_class_is_joined(tmp_path: Path, zero: Path, encoding: str) -> None:
+def test_a_korean_class_is_matched_with_its_roster(
+    tmp_path: Path, zero: Path, encoding: str
+) -> None:
     class_ = people(47, korean=True)
     class_ = [replace(one, submitted=n >= 3) for n, one in enumerate(class_)]
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_, KOREAN, encoding=encoding))
@@ -186,7 +186,7 @@ def test_a_korean_class_is_joined(tmp_path: Path, zero: Path, encoding: str) -> 
         ("이름,학번,이메일\n홍길동,1,hong@x.kr\n", "only 0 of 4 submissions are on the roster"),
     ],
 )
-def test_a_list_that_fits_nobody_stops_before_anything_is_marked(
+def test_a_roster_that_matches_nobody_stops_before_anything_is_marked(
     tmp_path: Path, zero: Path, roster: str, said: str
 ) -> None:
     path = moodle_zip(tmp_path / "c.zip", of_people(people(4)))
@@ -198,7 +198,7 @@ def test_a_list_that_fits_nobody_stops_before_anything_is_marked(
     assert nothing_written(run)
 
 
-def test_a_worksheet_of_another_class_stops_too_and_can_be_accepted(tmp_path: Path) -> None:
+def test_a_worksheet_of_another_class_stops_the_run_unless_accepted(tmp_path: Path) -> None:
     class_ = people(5)
     other = [replace(p, number=p.number + 500) for p in people(40)[30:]]
     sheet = written(tmp_path / "worksheet.csv", worksheet([*other, class_[0]]))
@@ -214,7 +214,7 @@ def test_a_worksheet_of_another_class_stops_too_and_can_be_accepted(tmp_path: Pa
 # lower grades
 
 
-def test_a_lower_grade_needs_the_instructors_word(tmp_path: Path) -> None:
+def test_a_lower_grade_needs_the_instructors_consent(tmp_path: Path) -> None:
     class_ = marked(people(4), "95.00")
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_))
     path = moodle_zip(tmp_path / "c.zip", of_people(class_, 90))
@@ -223,7 +223,7 @@ def test_a_lower_grade_needs_the_instructors_word(tmp_path: Path) -> None:
     assert "4 students would get a lower grade" in run.said
     assert f"{class_[0].name}: 95.00 in the Moodle worksheet, 90 now" in run.said
     assert nothing_written(run)
-    # as far as it is known, it is told before anything more is marked
+    # what is already known is reported before anything more is marked
     more = moodle_zip(tmp_path / "more.zip", of_people([*class_[:3], *people(5)[4:]], 90))
     sheet.write_bytes(worksheet([*class_, *people(5)[4:]]))
     early = grade_all(more, tmp_path / "out", "--worksheet", sheet)
@@ -235,7 +235,7 @@ def test_a_lower_grade_needs_the_instructors_word(tmp_path: Path) -> None:
     assert {grades(accepted)[person.name] for person in class_} == {"90"}
 
 
-def test_what_was_handed_in_before_stays_in_the_gradebook(tmp_path: Path, zero: Path) -> None:
+def test_earlier_submissions_stay_in_the_gradebook(tmp_path: Path, zero: Path) -> None:
     class_ = people(6)
     lines = [f"{p.name},{p.id_number}" for p in class_]
     roster = tmp_path / "roster.csv"
@@ -244,19 +244,19 @@ def test_what_was_handed_in_before_stays_in_the_gradebook(tmp_path: Path, zero: 
     whole = moodle_zip(tmp_path / "whole.zip", of_people(class_))
     first = grade_all(whole, tmp_path / "out", *words)
     assert set(first.finals().values()) == {"90"}
-    # two are not in the next download: the ledger has their verdicts
+    # two students are missing in the next download: the ledger has their verdicts
     part = moodle_zip(tmp_path / "part.zip", of_people(class_[:4], 95))
     again = grade_all(part, tmp_path / "out", *words, "--accept", "join")
     expected = {p.name: "95" if n < 4 else "90" for n, p in enumerate(class_)}
     assert again.finals() == expected
     assert set(again.column("gradebook.csv", "status", "name").values()) == {"graded"}
-    # and if the ledger is lost, the gradebook itself has the grades
+    # if the ledger is lost, the gradebook has their grades
     (tmp_path / "out" / "ledger.sqlite").unlink()
     again = grade_all(part, tmp_path / "out", *words)
     assert again.status == 1, again.said
     assert again.finals() == expected
     assert again.column("gradebook.csv", "status", "name")[class_[5].name] == "elsewhere"
-    # and without the list nobody says that they ever were in this class: their rows would go
+    # without the roster nothing shows that they belong to this class: their rows would be removed
     gone = grade_all(part, tmp_path / "out", "--assignment", zero)
     assert gone.status == 2
     assert "2 students would get a lower grade" in gone.said
@@ -270,7 +270,7 @@ def canvas(tmp_path: Path, class_: Sequence[Person], score: float = 90) -> Path:
     return canvas_zip(tmp_path / "submissions.zip", class_, score)
 
 
-def test_canvas_is_looked_at_before_anything_is_marked(tmp_path: Path) -> None:
+def test_the_canvas_gradebook_is_checked_before_anything_is_marked(tmp_path: Path) -> None:
     class_ = people(3)
     path = canvas(tmp_path, class_)
     columns = ["Hello world (76)", "Hello time again (77)"]
@@ -286,9 +286,7 @@ def test_canvas_is_looked_at_before_anything_is_marked(tmp_path: Path) -> None:
     assert [row[columns[1]] for row in filled] == ["100.00", "90", "90", "90"]
 
 
-def test_canvas_cells_with_a_grade_are_not_lowered_by_what_is_missing(
-    tmp_path: Path, zero: Path
-) -> None:
+def test_a_missing_submission_does_not_lower_a_canvas_grade(tmp_path: Path, zero: Path) -> None:
     class_ = people(6)
     column = "Your first ROS 2 node: Hello time (77)"
     held = [*class_[:5], replace(class_[5], grade="70")]
@@ -301,8 +299,8 @@ def test_canvas_cells_with_a_grade_are_not_lowered_by_what_is_missing(
     assert [row[column] for row in filled] == ["90"] * 5 + ["70"]
 
 
-def test_one_output_that_fails_costs_no_other(tmp_path: Path) -> None:
-    """A correction beyond the worksheet's maximum is known only after the marking."""
+def test_a_failed_output_does_not_prevent_the_others(tmp_path: Path) -> None:
+    """A correction beyond the worksheet's maximum is detected only after marking."""
     class_ = people(3)
     sheet = written(tmp_path / "worksheet.csv", worksheet(class_))
     gradebook = written(tmp_path / "g.csv", canvas_gradebook(class_))
@@ -321,7 +319,7 @@ def test_one_output_that_fails_costs_no_other(tmp_path: Path) -> None:
     assert [row[column] for row in again.rows("canvas-gradebook.csv")][1:] == ["120", "90", "90"]
     assert "120" in (again.out / "index.html").read_text(encoding="utf-8")
     assert (again.out / FILLED).read_bytes() == before
-    # taking it back lowers a grade, and that is the instructor's word already
+    # withdrawing it lowers a grade, to which the instructor has consented by doing so
     correct(first.out, class_[0], None)
     last = grade_all(path, first.out, *words)
     assert last.status == 1, last.said
@@ -329,7 +327,7 @@ def test_one_output_that_fails_costs_no_other(tmp_path: Path) -> None:
 
 
 def correct(out: Path, person: Person, points: float | None) -> None:
-    """Correct a student's total, or take the correction back, as `grader override` does."""
+    """Correct a student's total or withdraw the correction with `grader override`."""
     from grader.cli.main import main
 
     words = ["override", person.name, "--out", str(out)]

@@ -1,1 +1,1 @@
-"""The corpus: packages as students hand them in, and what each of them deserves."""
+"""The corpus: packages like those of students, with the verdict expected for each."""

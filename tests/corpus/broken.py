@@ -1,4 +1,4 @@
-"""Packages with the mistakes that beginners make, by the stage at which they show."""
+"""Packages with mistakes that beginners make, by the stage at which they show."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""setup.py: colcon runs it, and what it does then."""
+"""Packages whose setup.py fails when colcon runs it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ CALL = "\nsetup(\n"
 
 
 def _stops(name: str, *edits: Edit, mistake: str, mapping: bool = True, note: str = "") -> Package:
-    """Return a package whose setup.py stops; `mapping`: its entry can still be read."""
+    """Return a package whose setup.py fails; `mapping`: its entry point can still be read."""
     blocked = INSTALLED if mapping else INSTALLED | {"entry_point.mapping"}
     return broken(
         name,

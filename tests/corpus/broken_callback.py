@@ -1,4 +1,4 @@
-"""The callback: it dies at its first call, is never called, or not for long."""
+"""Nodes whose callback fails at its first call, is never called, or stops being called."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _dies(name: str, mistake: str, *edits: Edit, note: str = "") -> Package:
 
 
 def _silent(name: str, mistake: str, *edits: Edit, note: str = "") -> Package:
-    """Return a package whose node says nothing, until Ctrl+C."""
+    """Return a package whose node logs nothing until Ctrl+C."""
     return broken(name, *edits, failed={"run.output": mistake}, skipped=TICKS, score=83, note=note)
 
 

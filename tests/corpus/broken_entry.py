@@ -1,4 +1,4 @@
-"""The entry point: which part of package, file and function is wrong."""
+"""Packages with a wrong entry point: package, file or function."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def _lost(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
 
 
 def _unbuilt(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
-    """Return a package whose entry keeps it from building."""
+    """Return a package whose entry point makes the build fail."""
     return broken(
         name, *edits, failed={"entry_point.mapping": mistake}, skipped=BUILT, score=40, note=note
     )
 
 
 def _dead(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
-    """Return a package whose executable is there and dies of its entry."""
+    """Return a package whose executable exists but fails because of its entry point."""
     return broken(
         name, *edits, failed={"entry_point.mapping": mistake}, skipped=RUN, score=55, note=note
     )

@@ -1,4 +1,4 @@
-"""The node runs and counts, but not what, when, how or as whom it should."""
+"""Nodes that run and count, but with a wrong text, period, logger or node name."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ FAKED = (
     "print(f'[INFO] [{time.time():.9f}] [my_first_node]: Hello time: {self.counter_}', "
     "file=sys.stderr, flush=True)"
 )
-FOR_EVER = """\
+ENDLESS_LOOP = """\
     import signal
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     rclpy.spin(node)
@@ -95,6 +95,6 @@ OUTPUT = (
            mistake="node.called_by_hand"),
     broken("error_at_stop", _node("        node.destroy_node()\n", "        node.destroy()\n"),
            failed={"run.interrupt": "node.method_misspelt"}, score=97),
-    broken("ignores_interrupt", _node(CATCH, FOR_EVER),
+    broken("ignores_interrupt", _node(CATCH, ENDLESS_LOOP),
            failed={"run.interrupt": "run.ignores_interrupt"}, score=97),
 )  # fmt: skip

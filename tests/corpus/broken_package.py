@@ -1,4 +1,4 @@
-"""Nothing to mark, the wrong package, or a package whose parts do not fit together."""
+"""No package, the wrong package, or a package whose parts do not match."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ PACKAGES = (
     broken("only_the_node", *(e for e in ALL if e.path != INNER), Delete(f"{INNER}/__init__.py"),
            Move(NODE, "my_first_node.py"),
            failed={"package.found": "package.only_node"}, skipped=FOUND, score=0,
-           note="the node's file alone"),
+           note="only the node's file"),
     broken("manifest_and_setup_missing", Delete(MANIFEST), Delete(SETUP),
            failed={"package.found": "package.no_manifest"}, skipped=FOUND, score=0),
     broken("no_manifest", Delete(MANIFEST), failed={"package.manifest": "package.no_manifest"},
@@ -61,7 +61,7 @@ PACKAGES = (
                    "source.node_file": "source.misplaced_node_file",
                    "entry_point.mapping": "setup.other_package"},
            skipped=BUILT | {"source.exec_bit", "source.shebang"}, score=5,
-           note="a sound package, but not the one that was asked for"),
+           note="a valid package, but not the requested one"),
     broken("cmake_package", *(Delete(p) for p in (SETUP, CFG, "resource", INNER)),
            Write("CMakeLists.txt", CMAKE), Replace(MANIFEST, "ament_python", "ament_cmake"),
            failed={"package.manifest": "package.build_type",
@@ -81,7 +81,7 @@ PACKAGES = (
            failed={"package.manifest": "package.broken_xml"}, skipped=BUILT, score=50),
     broken("manifest_other_name", Replace(MANIFEST, NAME_LINE, "<name>my_robot_controler</name>"),
            failed={"package.manifest": "package.name_mismatch"}, score=95,
-           note="runs all the same: marker, setup.cfg and setup.py have the right name"),
+           note="runs anyway: marker, setup.cfg and setup.py have the right name"),
     broken("setup_other_name",
            Replace(SETUP, "name=package_name", "name='my_robot'"),
            failed={"package.manifest": "package.name_mismatch"}, score=95),
@@ -119,7 +119,7 @@ PACKAGES = (
     broken("setup_cfg_without_develop",
            Write(CFG, f"[install]\ninstall_scripts=$base/lib/{PACKAGE}\n"),
            failed={"package.setup_cfg": "package.setup_cfg_wrong"}, score=95,
-           note="colcon 0.21 does without"),
+           note="colcon 0.21 does not need it"),
     broken("setup_cfg_without_install",
            Write(CFG, f"[develop]\nscript_dir=$base/lib/{PACKAGE}\n"),
            failed={"package.setup_cfg": "package.setup_cfg_wrong"}, score=95,

@@ -1,4 +1,4 @@
-"""The node's file: where it is, whether Python can read it, its mode and first line."""
+"""Packages with a wrong node file: its folder, syntax, encoding, mode or first line."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ SOURCE = (
            failed={"source.node_file": "source.no_node_file",
                    "entry_point.mapping": "setup.no_entry"},
            skipped=RUN | {"source.exec_bit", "source.shebang", "entry_point.executable"}, score=30,
-           note="ros2 pkg create and a build, and nothing more"),
+           note="only ros2 pkg create and a build"),
     broken("node_not_written", Delete(NODE), failed={"source.node_file": "source.no_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50,
-           note="the entry point is there, its file is not"),
+           note="the entry point exists, its file does not"),
     broken("node_in_package_root", Move(NODE, "my_first_node.py"),
            failed={"source.node_file": "source.misplaced_node_file"},
            skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
@@ -61,7 +61,7 @@ SOURCE = (
                    "source.shebang": "source.no_shebang"}, skipped=RUN, score=60),
     broken("exec_bit_missing", Chmod(NODE, 0o644),
            failed={"source.exec_bit": "source.not_executable"}, score=90,
-           note="37 of 147 public packages; ros2 run works all the same"),
+           note="37 of 147 public packages; ros2 run works anyway"),
     broken("shebang_missing", Replace(NODE, SHEBANG, ""),
            failed={"source.shebang": "source.no_shebang"}, score=95),
     broken("shebang_second_line", Replace(NODE, SHEBANG, "# my first node\n" + SHEBANG),
@@ -75,5 +75,5 @@ SOURCE = (
     broken("shebang_bash", Replace(NODE, SHEBANG, "#!/bin/bash\n"),
            failed={"source.shebang": "source.wrong_shebang"}, score=95),
     broken("init_missing", Delete(INIT), failed={"run.starts": None}, skipped=AFTER_START, score=70,
-           note="find_packages finds nothing; builds, and dies with ModuleNotFoundError"),
+           note="find_packages finds nothing; builds, then fails with ModuleNotFoundError"),
 )  # fmt: skip

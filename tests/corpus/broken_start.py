@@ -1,4 +1,4 @@
-"""The node does not come to life, or not for long."""
+"""Nodes that do not start, or end soon after."""
 
 from __future__ import annotations
 
@@ -88,8 +88,8 @@ START = (
           _node("        rclpy.spin(node)\n", "        pass\n")),
     _dies("spin_not_called", "node.spin_not_called", _node("rclpy.spin(node)", "rclpy.spin")),
     _dies("spin_once", "node.spin_once", _node("rclpy.spin(node)", "rclpy.spin_once(node)"),
-          note="one line by the wall clock; under use_sim_time none, for the first message on "
-          "/clock is the one callback that it does"),
+          note="one line on the wall clock; none under use_sim_time, because the first message on "
+          "/clock is the only callback that it runs"),
     _dies("main_empty", "node.main_empty", _node(INIT + MADE + CATCH, "    pass\n")),
     _dies("loop_without_node", "node.no_ros", Write(NODE, HELLO),
           note="ten lines at once, without ROS"),

@@ -15,7 +15,7 @@ SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
 def write(package: Package, folder: Path) -> Path:
     """Write the package to `folder/<its name in the corpus>` and return that path.
 
-    Raises EditError where an edit does not apply, FileExistsError where the path is taken.
+    Raise EditError if an edit does not apply, FileExistsError if the path exists.
     """
     try:
         tree = apply_all(package.edits, read_tree(SOLUTION))

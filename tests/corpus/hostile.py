@@ -1,4 +1,4 @@
-"""Packages that need a sandbox: what they may do is survive, what they may not is win."""
+"""Hostile packages: they need a sandbox, and must harm nothing and gain nothing."""
 
 from __future__ import annotations
 

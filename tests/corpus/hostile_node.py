@@ -1,6 +1,7 @@
-"""Nodes that eat, hide, outlive, deceive or kill. Each is bounded by itself, in case that we fail.
+"""Nodes that exhaust resources, hide, outlive the run, forge output or kill processes.
 
-A bound is at most 3,000 processes, 3 GB of memory or disk, 300 MB of output, and one minute.
+Each bounds itself in case the sandbox fails: at most 3,000 processes, 3 GB of memory or disk,
+300 MB of output, and one minute.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ def _imports(*names: str) -> Edit:
 
 
 def _first(code: str) -> Edit:
-    """Run the code before ROS is there."""
+    """Run the code before rclpy.init."""
     return Replace(NODE, "    rclpy.init(args=args)\n", code + "    rclpy.init(args=args)\n")
 
 
@@ -184,7 +185,7 @@ NODES = (
     hostile("one_endless_line", _imports("sys"), _first(LONG),
             failed={"run.starts": "run.too_much_output"}, skipped=AFTER_START, score=70),
     hostile("fork_bomb", _imports("os", "time"), _first(FORKS), undecided=RUN,
-            note="goes on where it is stopped; 3,000 sleepers at most"),
+            note="continues when fork fails; 3,000 sleepers at most"),
     hostile("eats_memory", _imports("os"), _first(MEMORY), undecided=RUN, note="3 GB at most"),
     hostile("eats_disk", _first(DISK), undecided=RUN, note="3 GB at most, in the workspace"),
     hostile("many_files", _first(FILES), undecided=RUN),
@@ -192,10 +193,10 @@ NODES = (
             failed={"run.interrupt": "run.ignores_interrupt"}, score=97),
     hostile("deaf_and_prints_dots", _imports("os", "signal", "threading", "time"),
             _made(DEAF + DOTS), failed={"run.interrupt": "run.ignores_interrupt"}, score=97,
-            note="what has no line end must not extend any wait"),
+            note="output without a line end must not extend any wait"),
     hostile("raw_terminal", _imports("tty"), _made("    tty.setraw(0)\n"),
             failed={"run.interrupt": "run.ignores_interrupt"}, score=97,
-            note="Ctrl+C is only a character then: nothing ends at a terminal either"),
+            note="Ctrl+C is then an ordinary character: it ends nothing on a real terminal either"),
     hostile("outlives_us", _imports("os", "signal", "time"), _first(DAEMON), score=100,
             note="a right node, and a child of it that holds the terminal for a minute"),
     hostile("respawns", _imports("os", "time"), Replace(NODE, CATCH, RESPAWN), score=100,
@@ -206,7 +207,7 @@ NODES = (
             undecided=TICKS),
     hostile("kills_parent", _imports("os", "signal"),
             _third("os.kill(os.getppid(), signal.SIGKILL)"),
-            undecided=TICKS | INTERRUPT | {"run.output"}, note="ros2 run dies, the node goes on"),
+            undecided=TICKS | INTERRUPT | {"run.output"}, note="ros2 run ends, the node goes on"),
     hostile("kills_its_group", _imports("os", "signal"),
             _first("    os.killpg(0, signal.SIGKILL)\n"), failed={"run.starts": None},
             skipped=AFTER_START, score=70),
@@ -216,7 +217,7 @@ NODES = (
             note="looks for HOME=/home/student first, the one of the sandbox"),
     hostile("closes_its_output", _imports("os"), _made("    os.close(1)\n    os.close(2)\n"),
             failed={"run.output": "run.no_lines"}, skipped=TICKS, score=83,
-            note="on /rosout the lines come all the same; at a terminal none"),
+            note="the lines still come on /rosout, but not on the terminal"),
     hostile("publishes_clock", _imports("time", "rclpy.clock"),
             Replace(NODE, "from rclpy.node import Node\n", "from rclpy.node import Node\n"
                     "from rclpy.time import Time\nfrom rosgraph_msgs.msg import Clock\n"),
@@ -227,22 +228,22 @@ NODES = (
     hostile("forged_rclpy", Write("rclpy/__init__.py", FAKE_RCLPY),
             Write("rclpy/node.py", FAKE_NODE),
             failed={"run.starts": "run.no_node"}, skipped=AFTER_START, score=70,
-            note="an rclpy in the overlay hides the real one: from the node, not from the probe"),
+            note="an rclpy in the overlay hides the real one from the node, not from the probe"),
     hostile("escape_sequences", _third(ESCAPES), score=100,
             note="terminal codes, markup, a formula and control characters beside a right count"),
     hostile("not_text", _imports("os"), _third(BYTES), score=100),
-    hostile("forged_events", _third(EVENTS), score=100, note="lines in the form of our own"),
+    hostile("forged_events", _third(EVENTS), score=100, note="lines in our own format"),
     hostile("node_is_a_link_out", Delete(NODE), Link(NODE, "/etc/passwd"),
             failed={"source.node_file": None},
             undecided=RUN | {"source.exec_bit", "source.shebang", "build.colcon",
                              "entry_point.executable", "entry_point.mapping"}),
     hostile("links_out", Link("notes.txt", "/etc/passwd"), Link("data", "../../.."),
-            Link(f"{INNER}/loop", "."), score=100, note="5 of 147 public packages hold such links"),
+            Link(f"{INNER}/loop", "."), score=100, note="5 of 147 public packages have such links"),
     hostile("deep_folders", Write("a/" * 120 + "deep.txt", "deep\n"), score=100),
     hostile("odd_names", Write("a b;$(touch owned)'\"`.txt", "x\n"), Write("-rf", "x\n"),
             Write("new\nline.txt", "x\n"), Write("=cmd|calc.csv", "x\n"), score=100),
     hostile("shadows_modules", Write("json.py", "raise SystemExit('shadowed')\n"),
             Replace(SETUP, "    zip_safe=True,", "    py_modules=['json'],\n    zip_safe=True,"),
             undecided=RUN | {"build.colcon", "entry_point.executable"},
-            note="a json.py in the overlay: ros2 run itself falls over it"),
+            note="a json.py in the overlay breaks ros2 run itself"),
 )  # fmt: skip

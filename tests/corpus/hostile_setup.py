@@ -1,4 +1,4 @@
-"""Packages whose setup.py, which colcon runs, means harm. Bounded as those of hostile_node are."""
+"""Packages whose setup.py, which colcon runs, is hostile. They are bounded as in hostile_node."""
 
 from __future__ import annotations
 
@@ -101,12 +101,12 @@ def _setup(code: str) -> Replace:
 
 SETUPS: tuple[Package, ...] = (
     hostile("setup_writes_outside", _setup(OUTSIDE), score=100,
-            note=f"leaves {ESCAPED} wherever it may"),
+            note=f"writes {ESCAPED} wherever it can"),
     hostile("setup_reads_secrets", _setup(SECRETS), score=100),
     hostile("setup_outlives_us", _setup(DAEMON), score=100, note="a daemon that sleeps"),
     hostile("setup_holds_the_build", _setup(HOLDER), failed={"build.colcon": "build.timeout"},
             skipped=INSTALLED, score=55,
-            note="a child that holds setup.py's output open, for whose end colcon waits"),
+            note="a child keeps setup.py's output open, and colcon waits for its end"),
     hostile("setup_forges_a_report", _setup(FORGED), failed={"build.colcon": "build.exited"},
             skipped=INSTALLED, score=55),
     hostile("setup_prints_megabytes", _setup(FLOOD), undecided=BUILT),
@@ -115,7 +115,7 @@ SETUPS: tuple[Package, ...] = (
     hostile("setup_deaf", _setup(DEAF), failed={"build.colcon": "build.timeout"},
             skipped=INSTALLED, score=55),
     hostile("setup_kills_its_group", _setup(KILL), failed={"build.colcon": None},
-            skipped=INSTALLED, score=55, note="takes colcon along"),
+            skipped=INSTALLED, score=55, note="kills colcon as well"),
     hostile("setup_paints_and_ends_with_250", _setup(PAINTS.format(status=250)),
             failed={"build.colcon": "build.failed"}, skipped=INSTALLED, score=55,
             note="a forged score, escape sequences, and a status that was the grader's own"),

@@ -1,4 +1,4 @@
-"""What a package of the corpus is: edits of the solution, and the verdict that they deserve."""
+"""The model of a corpus package: edits of the solution and the expected verdict."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ class Package:
     """One package of the corpus.
 
     `expect_failed` names the checks that fail, each with the mistake that the verdict must name
-    (None: any). `undecided` are checks whose outcome the machine's limits decide; where there are
-    any, `expect_score` is None. Every other check passes. `wall_clock` says that the node does
+    (None: any). `undecided` are checks whose outcome depends on the machine's limits; if there are
+    any, `expect_score` is None. Every other check passes. `wall_clock` means that the node does
     not follow `/clock`; `hostile`, that it needs a sandbox.
     """
 
@@ -70,7 +70,7 @@ def broken(
     score: float,
     note: str = "",
 ) -> Package:
-    """Return a package with a mistake: what fails, what cannot be asked then, what is left."""
+    """Return a package with a mistake: the failed checks, the skipped ones and the score."""
     return Package(
         name=name,
         edits=edits,
@@ -90,7 +90,7 @@ def hostile(
     score: float | None = None,
     note: str = "",
 ) -> Package:
-    """Return a package that tries to harm the grader, or to talk it into points."""
+    """Return a package that tries to harm the grader or to gain points."""
     return Package(
         name=name,
         edits=edits,

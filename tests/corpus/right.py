@@ -1,4 +1,4 @@
-"""Packages that deserve full marks, however they are written."""
+"""Packages that deserve full marks, written in different ways."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The node written otherwise: its text, its class, its ending."""
+"""The node with its text, its class or its ending written differently."""
 
 from __future__ import annotations
 
@@ -166,7 +166,7 @@ COUNTING = (
           Replace(NODE, STEP, f"{STEP}\n        self.get_logger().debug('counted')")),
     right("says_bye", Replace(NODE, "        pass\n", "        print('Bye')\n")),
     right("no_try", Replace(NODE, CATCH, "    rclpy.spin(node)\n    node.destroy_node()\n"
-          "    rclpy.shutdown()\n"), note="the KeyboardInterrupt traceback is how it ends"),
+          "    rclpy.shutdown()\n"), note="it ends with the KeyboardInterrupt traceback"),
     right("only_spin", Replace(NODE, CATCH, "    rclpy.spin(node)\n")),
     right("shutdown_not_called", Replace(NODE, "rclpy.try_shutdown()", "rclpy.shutdown"),
           note="brackets forgotten; 3 of 147, harmless"),

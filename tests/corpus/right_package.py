@@ -1,4 +1,4 @@
-"""The same node in other wrappings: manifests, entry points, layouts, what lies about."""
+"""The same node in other packages: manifests, entry points, layouts, extra files."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ PACKAGING = (
                   .replace("my_first_node", "second"))),
     right("other_entry_misses_its_module",
           Replace(SETUP, ENTRY, ENTRY + "            'other = my_robot_controller.gone:main',\n"),
-          note="8 of 147 public packages; not what was asked about"),
+          note="8 of 147 public packages; not part of the assignment"),
     right("entry_without_blanks", Replace(SETUP, "test_node = my", "test_node=my")),
     right("entry_double_quotes", Replace(SETUP, ENTRY, ENTRY.replace("'", '"'))),
     right("entry_without_last_comma", Replace(SETUP, ENTRY, ENTRY.replace(",", ""))),
@@ -69,7 +69,7 @@ PACKAGING = (
           Write(CFG, "[develop]\nscript_dir=$base/lib/my_robot_controller\n[install]\n"
                 "install_scripts=$base/lib/my_robot_controller\n" + OPTIONS)),
     right("entry_points_computed", Replace(SETUP, "setup(\n", SCRIPTS),
-          Replace(SETUP, f"[\n{ENTRY}        ]", "scripts"), note="only running setup.py tells"),
+          Replace(SETUP, f"[\n{ENTRY}        ]", "scripts"), note="known only by running setup.py"),
     right("packages_listed", Replace(SETUP, "find_packages(exclude=['test'])", "[package_name]")),
     right("names_spelled_out", Replace(SETUP, "name=package_name", f"name='{PACKAGE}'"),
           Replace(SETUP, "'resource/' + package_name", f"'resource/{PACKAGE}'"),
@@ -92,21 +92,21 @@ PACKAGING = (
           note="what `ros2 pkg create` makes without --dependencies; it runs"),
     right("manifest_format_2", Write(MANIFEST, FORMAT_2)),
     right("manifest_crlf", Crlf(MANIFEST)),
-    right("setup_crlf", Crlf(SETUP), Crlf(CFG), note="Windows editor; Python does not mind"),
+    right("setup_crlf", Crlf(SETUP), Crlf(CFG), note="Windows editor; Python accepts it"),
     right("shebang_usr_bin_python3",
           Replace(NODE, "#!/usr/bin/env python3", "#!/usr/bin/python3")),
     right("shebang_env_with_flag",
           Replace(NODE, "#!/usr/bin/env python3", "#!/usr/bin/env -S python3 -u")),
     right("mode_0775", Chmod(NODE, 0o775)),
     right("mode_0700", Chmod(NODE, 0o700)),
-    right("workspace", Nest(f"src/{PACKAGE}"), note="the whole workspace handed in"),
+    right("workspace", Nest(f"src/{PACKAGE}"), note="the whole workspace is submitted"),
     right("workspace_with_neighbour", Nest(f"src/{PACKAGE}"),
           Copy(f"src/{PACKAGE}", "src/my_other_package"),
           Replace(f"src/my_other_package/{MANIFEST}", f"<name>{PACKAGE}<",
                   "<name>my_other_package<"),
           Replace(f"src/my_other_package/{SETUP}", f"package_name = '{PACKAGE}'",
                   "package_name = 'my_other_package'"),
-          note="another, unfinished package beside it (its build is nobody's business)"),
+          note="another, unfinished package beside it (whether it builds does not matter)"),
     right("repository", Nest(f"ros2/week_1/{PACKAGE}"), Write("README.md", README),
           Write("docs/notes.md", README), note="the package deep in a repository"),
     right("folder_only", Nest(PACKAGE), note="a folder with the package in it, as archives have"),

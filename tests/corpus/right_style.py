@@ -1,4 +1,4 @@
-"""The same node in other people's style: context managers, imports, modules, ways to end."""
+"""The same node in other styles: context managers, imports, modules, ways to end."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The node that keeps time otherwise: timers, executors, threads, clocks."""
+"""The node with other timers, executors, threads or clocks."""
 
 from __future__ import annotations
 
@@ -111,19 +111,19 @@ TIMING = (
     right("rate_in_main", _imports("import threading", ""), _timer("pass"),
           _imports("from rclpy.exceptions import ROSInterruptException"),
           Replace(NODE, CATCH, RATE),
-          note="follows /clock, but the lines come from a thread of which the executor knows "
-          "nothing: an answered parameter request does not prove that a line was due"),
+          note="follows /clock, but the lines come from a thread unknown to the executor: "
+          "an answered parameter request does not prove that a due line has come"),
     right("tenths", _timer("self.tenths = 0\n        self.create_timer(0.1, self.timer_callback)"),
           Replace(NODE, f"        {LINE}\n        {STEP}", TENTHS),
-          note="ten short periods to a line: a clock that jumps by a second loses nine of them"),
+          note="ten short periods a line: a clock that jumps by a second skips nine of them"),
     right("escapes_sim_time", Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args=[])"),
-          wall_clock=True, note="use_sim_time never reaches it; right all the same"),
+          wall_clock=True, note="use_sim_time never reaches it, but it is right"),
     right("steady_timer", _imports("from rclpy.clock import Clock", "from rclpy.clock import "
           "ClockType"), _timer("self.create_timer(1.0, self.timer_callback, "
                                "clock=Clock(clock_type=ClockType.STEADY_TIME))"),
-          wall_clock=True, note="subscribes to /clock all the same"),
+          wall_clock=True, note="subscribes to /clock anyway"),
     right("sleep_loop", _imports("import time", ""), _timer("pass"), Replace(NODE, CATCH, LOOP),
-          wall_clock=True, note="not what the lesson teaches, but right lines at right instants"),
+          wall_clock=True, note="not taught in the lesson, but lines and times are right"),
     right("procedural_sleep", Write(NODE, """\
 #!/usr/bin/env python3
 import time

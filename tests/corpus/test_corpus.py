@@ -1,4 +1,4 @@
-"""The corpus itself: its edits apply, its numbers add up. What it deserves is tested elsewhere."""
+"""The corpus itself: its edits apply and its points add up. Verdicts are tested elsewhere."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_its_edits_apply(package: Package, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("package", RIGHT, ids=named)
-def test_what_is_right_parses_and_is_executable(package: Package, tmp_path: Path) -> None:
+def test_right_packages_parse_and_are_executable(package: Package, tmp_path: Path) -> None:
     root = write(package, tmp_path)
     root = next((root / edit.folder for edit in package.edits if isinstance(edit, Nest)), root)
     for path in (root / SETUP, root / NODE):
@@ -58,7 +58,7 @@ def test_its_expectations_add_up(package: Package, points: dict[str, float]) -> 
         assert package.expect_score == sum(points.values()) - lost
 
 
-def test_names_are_unique_and_fit_for_a_folder() -> None:
+def test_names_are_unique_and_valid_folder_names() -> None:
     names = [package.name for package in CORPUS]
     assert len(names) == len(set(names))
     assert all(name.isidentifier() and name.islower() for name in names)
@@ -84,7 +84,7 @@ def test_an_edit_that_does_not_fit_is_an_error(tmp_path: Path) -> None:
             write(package, tmp_path)
 
 
-def test_modes_line_ends_and_links_arrive(tmp_path: Path) -> None:
+def test_modes_line_ends_and_links_are_written(tmp_path: Path) -> None:
     edits = (Chmod(NODE, 0o640), Crlf(SETUP), Link("out", "/nowhere"))
     root = write(Package(name="edited", edits=edits), tmp_path)
     assert (root / NODE).stat().st_mode & 0o777 == 0o640
@@ -92,7 +92,7 @@ def test_modes_line_ends_and_links_arrive(tmp_path: Path) -> None:
     assert (root / "out").is_symlink()
 
 
-def test_the_solution_is_written_as_it_is(tmp_path: Path) -> None:
+def test_the_solution_is_written_unchanged(tmp_path: Path) -> None:
     root = write(Package(name="solution", edits=()), tmp_path)
     for path in root.rglob("*"):
         if path.is_file():

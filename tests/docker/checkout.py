@@ -1,4 +1,4 @@
-"""A copy of what Docker's own commands build from, with this machine's extra certificate."""
+"""A copy of the build context of Docker's own commands, with this machine's extra certificate."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 import grader
-from tests import engine, stage
+from tests import engine, processes
 
 FOLDERS = ("docker", "grader", "lab", ".devcontainer")
 ARGUMENTS = {"BASE": engine.STANDIN, "ROS": "image", "VERSION": grader.__version__}
@@ -14,14 +14,14 @@ ARGUMENTS = {"BASE": engine.STANDIN, "ROS": "image", "VERSION": grader.__version
 
 
 def copy_to(folder: Path) -> Path:
-    """Make the copy in `folder` and return it; the real checkout gets no certificate."""
+    """Make the copy in `folder` and return its path; the real checkout gets no certificate."""
     for name in FOLDERS:
         shutil.copytree(
-            stage.ROOT / name,
+            processes.ROOT / name,
             folder / name,
             ignore=shutil.ignore_patterns("__pycache__", "keys", "*.crt"),
         )
-    shutil.copy(stage.ROOT / ".dockerignore", folder)
+    shutil.copy(processes.ROOT / ".dockerignore", folder)
     certificate = engine.network().extra_ca
     if certificate is not None:
         shutil.copy(certificate, folder / "docker" / "ca" / "extra.crt")

@@ -17,7 +17,7 @@ from tests import engine
 
 @pytest.fixture(autouse=True)
 def own_images(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The images of the tests, and nobody else's."""
+    """Use the tests' own images only."""
     monkeypatch.setenv(images.REPOSITORY_VARIABLE, engine.REPOSITORY)
 
 
@@ -31,7 +31,7 @@ def client() -> Iterator[DockerClient]:
 
 @pytest.fixture
 def make_sandbox() -> Callable[[Limits], Sandbox]:
-    """What makes a `docker` sandbox on jazzy with these limits."""
+    """A function that makes a `docker` sandbox on jazzy with given limits."""
     jazzy = find_distro("jazzy")
 
     def make(limits: Limits) -> Sandbox:

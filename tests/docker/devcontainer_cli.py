@@ -1,4 +1,4 @@
-"""The dev containers' own command."""
+"""The `devcontainer` command."""
 
 from __future__ import annotations
 
@@ -11,5 +11,5 @@ PROGRAM = "@devcontainers/cli/devcontainer.js"
 
 
 def command() -> list[str]:
-    """Return the words that start it."""
+    """Return the command line that starts it."""
     return ["node", str(npm_packages(HERE) / PROGRAM)]

@@ -1,4 +1,4 @@
-"""What is in the layers of an image: every file of each, those that a later one hides included."""
+"""The files in the layers of an image, including those that a later layer hides."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Layers:
 
 
 def certificates_in(data: bytes) -> frozenset[bytes]:
-    """Return the bodies of the PEM certificates, however their lines are broken."""
+    """Return the bodies of the PEM certificates, joined across their line breaks."""
     return frozenset(b"".join(body.split()) for body in CERTIFICATE.findall(data))
 
 
@@ -56,4 +56,4 @@ def _read(layer: IO[bytes], names: set[str], certificates: set[bytes]) -> None:
                 if opened is not None:
                     certificates |= certificates_in(opened.read())
     except tarfile.ReadError:
-        return  # a blob that is no layer but the image's configuration
+        return  # this blob is the image's configuration, not a layer

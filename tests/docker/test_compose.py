@@ -1,4 +1,4 @@
-"""The compose and the bake file say what distros.toml says, and compose opens the lab."""
+"""The compose and bake files agree with distros.toml, and compose opens the lab."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from docker import DockerClient
 from grader.ros import image_files
 from grader.ros.distro import Distro, distros
 from grader.ros.images import image_table
-from tests import engine, stage
+from tests import engine, processes
 from tests.docker import checkout
 
 pytestmark = pytest.mark.docker
@@ -30,11 +30,11 @@ ARGUMENT = re.compile(r"^ARG (\w+)", re.MULTILINE)
 
 
 def compose(
-    *words: str, folder: Path = stage.ROOT, env: dict[str, str] | None = None
+    *words: str, folder: Path = processes.ROOT, env: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
     """Run the real docker-compose on a checkout's file."""
     command = ["docker-compose", "-p", PROJECT, "-f", str(folder / COMPOSE), *words]
-    return stage.run(command, cwd=folder, env=env, timeout=600)
+    return processes.run(command, cwd=folder, env=env, timeout=600)
 
 
 def service(env: dict[str, str]) -> dict[str, Any]:
@@ -47,7 +47,7 @@ def service(env: dict[str, str]) -> dict[str, Any]:
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Path:
-    """A workspace of the student's."""
+    """A student's workspace."""
     folder = tmp_path / "a workspace"
     folder.mkdir()
     os.chown(folder, 1000, 1000)
@@ -60,7 +60,7 @@ def test_compose_builds_and_runs_the_lab_of_each_distro(name: str) -> None:
     assert lab["image"] == f"some:lab-{name}"
     assert lab["build"]["args"]["DISTRO"] == name
     assert lab["build"]["target"] == "lab"
-    course = f"{stage.ROOT}/lab/course:/opt/ros2_teaching_lab/course:ro"
+    course = f"{processes.ROOT}/lab/course:/opt/ros2_teaching_lab/course:ro"
     assert lab["volumes"] == ["/tmp/ws:/home/student/ros2_ws:rw", course]
 
 
@@ -71,19 +71,19 @@ def test_compose_opens_the_lab_for_another_courses_lesson() -> None:
     assert lab["environment"]["GRADER_ASSIGNMENT"] == "ticking"
 
 
-def test_compose_keeps_the_workspace_in_the_home_folder_unless_told() -> None:
+def test_compose_keeps_the_workspace_in_the_home_folder_by_default() -> None:
     lab = service({"HOME": "/home/ann", "WORKSPACE": ""})
     assert lab["volumes"][0] == "/home/ann/ros2_ws:/home/student/ros2_ws:rw"
 
 
-def test_compose_gives_the_lab_no_rights() -> None:
+def test_compose_gives_the_lab_no_privileges() -> None:
     lab = service({})
     assert lab["cap_drop"] == ["ALL"]
     assert lab["security_opt"] == ["no-new-privileges"]
     assert "privileged" not in lab
 
 
-def test_a_file_made_in_composes_lab_is_the_students_and_nothing_else_is_left(
+def test_a_file_made_in_composes_lab_belongs_to_the_student_and_nothing_else_remains(
     client: DockerClient, workspace: Path
 ) -> None:
     networks = {network.id for network in client.networks.list()}
@@ -101,7 +101,7 @@ def test_a_file_made_in_composes_lab_is_the_students_and_nothing_else_is_left(
     assert client.volumes.list(filters=mine) == []
 
 
-def test_a_user_with_another_id_has_composes_lab_too(tmp_path: Path) -> None:
+def test_a_user_with_another_id_can_use_composes_lab(tmp_path: Path) -> None:
     os.chown(tmp_path, 1234, 1234)
     script = ". /opt/ros/jazzy/setup.bash && ros2 pkg create hello && touch ~/mine && echo $HOME"
     env = {"WORKSPACE": str(tmp_path), "LAB_UID": "1234", "LAB_GID": "1234"}
@@ -113,7 +113,7 @@ def test_a_user_with_another_id_has_composes_lab_too(tmp_path: Path) -> None:
 
 @pytest.fixture
 def built(client: DockerClient) -> Iterator[str]:
-    """The repository for what a test builds, cleared away after it."""
+    """The repository for images that a test builds, removed after it."""
     repository = f"{engine.REPOSITORY}-{PROJECT}"
     yield repository
     for image in client.images.list(repository):
@@ -134,11 +134,11 @@ def test_compose_builds_the_lab(client: DockerClient, built: str, tmp_path: Path
     assert image.labels["ros2-teaching-lab.distro"] == "jazzy"
 
 
-def test_the_bake_file_is_what_distros_toml_says() -> None:
+def test_the_bake_file_agrees_with_distros_toml() -> None:
     assert image_files.BAKE.read_text(encoding="utf-8") == image_files.bake_file()
 
 
-def test_a_row_of_distros_toml_is_all_that_a_new_distro_needs(
+def test_a_new_distro_needs_only_a_row_in_distros_toml(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     words = ("28.04", "future", "3.15", "90.0", "ros:maritime-ros-base", "https://x/maritime")
@@ -160,9 +160,9 @@ def test_bake_makes_the_images_that_the_grader_looks_for(
 
 
 @pytest.mark.parametrize("name", TARGETS)
-def test_a_bake_target_fits_its_dockerfile(name: str) -> None:
+def test_a_bake_target_matches_its_dockerfile(name: str) -> None:
     target = TARGETS[name]
-    text = (stage.ROOT / target["dockerfile"]).read_text()
+    text = (processes.ROOT / target["dockerfile"]).read_text()
     assert target["target"] in STAGE.findall(text)
     assert set(target["args"]) <= set(ARGUMENT.findall(text))
     for context, other in target.get("contexts", {}).items():
@@ -171,5 +171,5 @@ def test_a_bake_target_fits_its_dockerfile(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", BAKE["group"])
-def test_a_bake_group_names_targets_that_are_there(name: str) -> None:
+def test_a_bake_group_names_existing_targets(name: str) -> None:
     assert set(BAKE["group"][name]["targets"]) <= set(TARGETS)

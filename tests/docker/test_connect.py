@@ -1,4 +1,4 @@
-"""A Docker daemon that cannot be used is said in words, with what to do, and soon."""
+"""An unusable Docker daemon is reported quickly, with a fix."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox.execs import docker_errors
-from tests import stage
+from tests import processes
 
 pytestmark = [pytest.mark.docker]
 
 
 class OldDaemon(BaseHTTPRequestHandler):
-    """Answers as Docker 18.09 does."""
+    """A server that answers like Docker 18.09."""
 
     def do_GET(self) -> None:
         """Answer `GET /version`."""
@@ -33,7 +33,7 @@ class OldDaemon(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def log_message(self, format: str, *args: object) -> None:
-        """Say nothing."""
+        """Log nothing."""
 
 
 @pytest.fixture
@@ -48,7 +48,9 @@ def old_daemon() -> Iterator[str]:
     server.server_close()
 
 
-def test_a_daemon_that_is_too_old_is_said(old_daemon: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_daemon_that_is_too_old_is_reported(
+    old_daemon: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("DOCKER_HOST", old_daemon)
     with pytest.raises(SurroundingsError) as caught:
         images.connect()
@@ -76,26 +78,28 @@ def test_a_connection_waits_long_enough_for_slow_answers() -> None:
         client.close()
 
 
-def test_no_daemon_is_said_with_what_to_do() -> None:
-    solution = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
-    command = stage.grader("grade", solution, "--sandbox", "docker")
-    done = stage.run(command, env={"DOCKER_HOST": "unix:///nonexistent/docker.sock"})
+def test_a_missing_daemon_is_reported_with_a_fix() -> None:
+    solution = (
+        processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+    )
+    command = processes.grader("grade", solution, "--sandbox", "docker")
+    done = processes.run(command, env={"DOCKER_HOST": "unix:///nonexistent/docker.sock"})
     assert done.returncode == 3
     assert "no Docker daemon answers at unix:///nonexistent/docker.sock" in done.stderr
     assert "SANDBOX=bubblewrap" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_closed_socket_is_said_with_what_to_do() -> None:
-    command = stage.as_user(stage.grader("images"))
-    done = stage.run(command, cwd=Path("/"))
+def test_a_socket_without_permission_is_reported_with_a_fix() -> None:
+    command = processes.as_user(processes.grader("images"))
+    done = processes.run(command, cwd=Path("/"))
     assert done.returncode == 3, done.stdout + done.stderr
     assert "no permission to use the Docker daemon" in done.stderr
     assert "docker" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_full_disk_is_said_with_what_to_do() -> None:
+def test_a_full_disk_is_reported_with_a_fix() -> None:
     said = "write /var/lib/docker/tmp/x: no space left on device"
     with (
         pytest.raises(SurroundingsError) as caught,

@@ -1,4 +1,4 @@
-"""Verdicts in containers are those of bubblewrap; many of them leave nothing behind."""
+"""Verdicts in containers equal those in bubblewrap and leave nothing behind."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from docker import DockerClient
 
 from grader.report.model import Report
 from grader.sandbox import orphans
-from tests import engine, stage
+from tests import engine, processes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
@@ -61,7 +61,7 @@ def test_the_report_names_the_image_and_what_is_in_it(tmp_path: Path) -> None:
     found = report.environment
     assert found.ros == "image"
     assert found.image.startswith(f"{engine.REPOSITORY}:grade-jazzy@sha256:")
-    assert found.rclpy.startswith("7.1.")  # as REP 2000 has it for jazzy
+    assert found.rclpy.startswith("7.1.")  # as in REP 2000 for jazzy
     assert found.colcon
     assert found.python.startswith("3.")
     assert found.limits["memory"].held_by == found.limits["cpus"].held_by == "cgroup"
@@ -70,8 +70,8 @@ def test_the_report_names_the_image_and_what_is_in_it(tmp_path: Path) -> None:
 @pytest.mark.long
 def test_several_distros_give_a_matrix(tmp_path: Path) -> None:
     root = write(RIGHT[0], tmp_path / "in")
-    command = stage.grader("grade", root, "--sandbox", "docker", "--distro", "jazzy,kilted")
-    done = stage.run([*command, "--out", tmp_path / "out"])
+    command = processes.grader("grade", root, "--sandbox", "docker", "--distro", "jazzy,kilted")
+    done = processes.run([*command, "--out", tmp_path / "out"])
     assert done.returncode == 0, done.stdout + done.stderr
     assert "jazzy" in done.stdout
     assert "kilted" in done.stdout
@@ -95,7 +95,7 @@ def test_fifty_verdicts_leave_the_daemon_as_it_was(client: DockerClient, tmp_pat
     )
     done = subprocess.run(
         [sys.executable, "-c", code, root],
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         capture_output=True,
         text=True,
         check=False,
@@ -106,7 +106,7 @@ def test_fifty_verdicts_leave_the_daemon_as_it_was(client: DockerClient, tmp_pat
 
 
 def everything(client: DockerClient) -> set[tuple[str, str, str]]:
-    """Return every container, network and volume: what it is, its id, and whose it is."""
+    """Return every container, network and volume as kind, id and owner."""
     containers = {
         ("container", str(each["Id"]), owner(each["Labels"]))
         for each in client.api.containers(all=True)
@@ -124,7 +124,7 @@ def owner(labels: dict[str, str] | None) -> str:
 
 
 def is_anothers(left: tuple[str, str, str]) -> bool:
-    """Whether it is of a test that runs beside this one: a living grader's, or a lab's."""
+    """Return whether it belongs to a concurrent test: to a running grader or a lab."""
     labels = json.loads(left[2] or "{}")
     if orphans.OWNER in labels:
         return not orphans.is_orphan(labels)

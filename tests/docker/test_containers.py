@@ -1,4 +1,4 @@
-"""The `docker` sandbox holds what every sandbox must, and leaves nothing behind."""
+"""The `docker` sandbox meets the sandbox contract and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from docker import DockerClient
 from grader.sandbox import orphans
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests import engine, stage
+from tests import engine, processes
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 from tests.sandbox_contract import shell
 
 pytestmark = [pytest.mark.docker]
 GONE_SECONDS = 15.0
-SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 
 
 def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
-    """Return the containers and volumes that a process has made and that are still there."""
+    """Return the remaining containers and volumes that a process has made."""
 
     def is_its(labels: dict[str, str] | None) -> bool:
         return (labels or {}).get(orphans.OWNER, "").split()[1:2] == [str(pid)]
@@ -48,7 +48,7 @@ def made_by(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
 def wait_until_gone(client: DockerClient, pid: int, *, state: str = "") -> list[str]:
     deadline = time.monotonic() + GONE_SECONDS
     while (left := made_by(client, pid, state=state)) and time.monotonic() < deadline:
-        time.sleep(0.05)  # the daemon removes them by itself
+        time.sleep(0.05)  # the daemon removes them itself
     return left
 
 
@@ -67,7 +67,7 @@ def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> No
         assert not host["Binds"]
         assert host["Privileged"] is False
         assert host["NetworkMode"].split(":")[0] in ("none", "container")
-        assert host["SecurityOpt"] == ["no-new-privileges"]  # and Docker's own seccomp filter
+        assert host["SecurityOpt"] == ["no-new-privileges"]  # and Docker's default seccomp filter
         assert host["Memory"] == host["MemorySwap"] == Limits().memory
         assert host["PidsLimit"] == Limits().processes
         assert host["NanoCpus"] > 0
@@ -90,7 +90,7 @@ def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -
     ]
 
 
-def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], Sandbox]) -> None:
+def test_a_limit_that_ends_the_probe_is_detected(make_sandbox: Callable[[Limits], Sandbox]) -> None:
     hog = "x = bytearray(500_000_000); x[::4096] = b'1' * len(x[::4096])"
     with make_sandbox(Limits(memory=80_000_000)) as opened:
         assert opened.probe_limit_hit() == ""
@@ -100,7 +100,7 @@ def test_a_limit_that_ends_the_probe_is_known(make_sandbox: Callable[[Limits], S
         probe.finish(1)
 
 
-def test_closing_leaves_nothing(
+def test_closing_leaves_nothing_behind(
     make_sandbox: Callable[[Limits], Sandbox], client: DockerClient
 ) -> None:
     with make_sandbox(Limits()) as opened:
@@ -114,7 +114,7 @@ SLOW = 'import time\nprint("building", flush=True)\ntime.sleep(300)\n'
 
 @pytest.fixture
 def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
-    """What starts a grader, in Docker, on a package whose build does not end."""
+    """A function that starts a grader in Docker on a package whose build does not end."""
     from pathlib import Path
     from shutil import copytree
 
@@ -124,8 +124,8 @@ def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
     setup.write_text(SLOW + setup.read_text())
 
     def start() -> subprocess.Popen[str]:
-        command = stage.grader("grade", package, "--sandbox", "docker", "--out", str(tmp_path))
-        environment = {**os.environ, "PYTHONPATH": str(stage.ROOT)}
+        command = processes.grader("grade", package, "--sandbox", "docker", "--out", str(tmp_path))
+        environment = {**os.environ, "PYTHONPATH": str(processes.ROOT)}
         return subprocess.Popen(
             command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
         )
@@ -136,7 +136,7 @@ def slow_build(tmp_path: object) -> Callable[[], subprocess.Popen[str]]:
 @pytest.mark.parametrize(
     ("sent", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
 )
-def test_however_the_grader_ends_nothing_is_left(
+def test_nothing_is_left_however_the_grader_ends(
     slow_build: Callable[[], subprocess.Popen[str]],
     client: DockerClient,
     sent: signal.Signals,
@@ -160,7 +160,7 @@ def test_however_the_grader_ends_nothing_is_left(
     assert wait_until_gone(client, grader.pid) == []
 
 
-def test_what_a_dead_grader_left_is_cleared_away_and_nothing_else(
+def test_only_the_remains_of_an_ended_grader_are_removed(
     make_sandbox: Callable[[Limits], Sandbox], client: DockerClient
 ) -> None:
     dead = subprocess.run(
@@ -170,7 +170,7 @@ def test_what_a_dead_grader_left_is_cleared_away_and_nothing_else(
             "import json; from grader.sandbox import orphans; "
             "print(json.dumps(orphans.labels(1000)))",
         ],
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         capture_output=True,
         text=True,
         check=True,
@@ -195,7 +195,7 @@ def test_what_a_dead_grader_left_is_cleared_away_and_nothing_else(
         living.remove()
 
 
-def test_another_machines_containers_have_their_time() -> None:
+def test_containers_of_another_machine_are_kept_for_a_while() -> None:
     label = {orphans.OWNER: "another-boot/1 1 1", orphans.UNTIL: str(int(time.time()) + 100)}
     assert not orphans.is_orphan(label)
     assert orphans.is_orphan(label | {orphans.UNTIL: str(int(time.time()) - 1)})

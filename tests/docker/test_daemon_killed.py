@@ -1,4 +1,4 @@
-"""A Docker daemon that is killed in the middle of a verdict: a clear message, and nothing stays."""
+"""A Docker daemon killed in the middle of a verdict: a clear message, and nothing is left."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from docker import DockerClient
 from grader.base.errors import SurroundingsError
 from grader.ros import images
 from grader.sandbox import orphans
-from tests import engine, stage
+from tests import engine, processes
 
 pytestmark = [pytest.mark.docker, pytest.mark.full]
 NAME = f"{engine.REPOSITORY}:grade-jazzy-wheels"
-SOLUTION = stage.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
+SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 START_SECONDS = 60.0
 
 
 class Daemon:
-    """A daemon of the test's own, beside the one that the other tests use."""
+    """A separate daemon for the test, beside the one that the other tests use."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -35,11 +35,11 @@ class Daemon:
 
     def start(self) -> None:
         folder = self.folder
-        # in a network of its own: two daemons in one would fight over their bridge
+        # in a separate network namespace: two daemons in one would conflict over their bridge
         command = ["unshare", "--net", "dockerd", "-H", self.address]
         command += ["--data-root", f"{folder}/data", "--exec-root", f"{folder}/exec"]
         command += ["--pidfile", f"{folder}/pid", "--iptables=false", "--ip6tables=false"]
-        # (where nobody collects dead processes, a killed daemon's containerd looks alive by its pid)
+        # (without an init that reaps zombies, a killed daemon's containerd looks alive by its pid)
         for pid in (folder / "pid", folder / "exec" / "containerd" / "containerd.pid"):
             pid.unlink(missing_ok=True)
         with (folder / "log").open("ab") as log:
@@ -53,7 +53,7 @@ class Daemon:
             except SurroundingsError:
                 if self._process.poll() is not None or time.monotonic() > deadline:
                     pytest.fail((folder / "log").read_text()[-3000:])
-                time.sleep(0.1)  # until its socket answers
+                time.sleep(0.1)  # wait until its socket answers
             else:
                 return
 
@@ -80,7 +80,7 @@ class Daemon:
             self._process.wait(30)
         except subprocess.TimeoutExpired:
             self.kill()
-        for entry in Path("/proc").iterdir():  # what a killed daemon has left of its own
+        for entry in Path("/proc").iterdir():  # the remains of a killed daemon
             if entry.name.isdigit():
                 try:
                     if str(self.folder) in (entry / "cmdline").read_bytes().decode(
@@ -114,13 +114,13 @@ def daemon(client: DockerClient) -> Iterator[Daemon]:
                 subprocess.run(["umount", "-l", mount], check=False)
 
 
-def test_a_daemon_killed_in_the_middle_is_said_and_its_leavings_are_cleared(
+def test_a_killed_daemon_is_reported_and_its_remains_are_removed(
     daemon: Daemon, tmp_path: Path
 ) -> None:
-    command = stage.grader("grade", SOLUTION, "--sandbox", "docker", "--out", tmp_path)
+    command = processes.grader("grade", SOLUTION, "--sandbox", "docker", "--out", tmp_path)
     environment = {
         **os.environ,
-        "PYTHONPATH": str(stage.ROOT),
+        "PYTHONPATH": str(processes.ROOT),
         "DOCKER_HOST": daemon.address,
     }
     grader = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True)
@@ -135,7 +135,7 @@ def test_a_daemon_killed_in_the_middle_is_said_and_its_leavings_are_cleared(
     assert "Traceback" not in said
 
     daemon.start()
-    again = stage.run(command, env={"DOCKER_HOST": daemon.address})
+    again = processes.run(command, env={"DOCKER_HOST": daemon.address})
     assert again.returncode == 0, again.stdout + again.stderr
     left = daemon.client()
     assert left.api.containers(all=True, filters={"label": orphans.OWNER}) == []

@@ -1,4 +1,4 @@
-"""The dev container comes up with the dev containers' own command, and is the lab."""
+"""The dev container starts with the `devcontainer` command and contains the lab."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import docker
 import pytest
 
 from grader.ros.distro import distros
-from tests import stage
+from tests import processes
 from tests.docker import checkout, devcontainer_cli
 
 pytestmark = pytest.mark.docker
@@ -23,9 +23,9 @@ Inside = Callable[..., subprocess.CompletedProcess[str]]
 
 
 def configuration(*variables: str) -> dict[str, Any]:
-    """Return the configuration as the command reads it, its variables filled in."""
-    words = ["read-configuration", "--workspace-folder", str(stage.ROOT)]
-    done = stage.run(["env", "-u", "DISTRO", *variables, *devcontainer_cli.command(), *words])
+    """Return the configuration as the command reads it, with variables substituted."""
+    words = ["read-configuration", "--workspace-folder", str(processes.ROOT)]
+    done = processes.run(["env", "-u", "DISTRO", *variables, *devcontainer_cli.command(), *words])
     assert done.returncode == 0, done.stderr
     read: dict[str, Any] = json.loads(done.stdout)["configuration"]
     return read
@@ -33,19 +33,19 @@ def configuration(*variables: str) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def inside(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Inside]:
-    """What runs a command in the dev container; made of the stand-in, on a volume of its own."""
+    """A function that runs a command in the dev container, built from the stand-in image."""
     folder = checkout.copy_to(tmp_path_factory.mktemp("dev") / NAME)
     own = json.loads((folder / CONFIG).read_text())
     own["build"]["args"].update(checkout.ARGUMENTS)
     own["workspaceMount"] = own["workspaceMount"].replace("source=ros2_ws", f"source={NAME}")
-    assert NAME in own["workspaceMount"]  # never the user's own
+    assert NAME in own["workspaceMount"]  # never the user's volume
     (folder / CONFIG).write_text(json.dumps(own))
     cli = devcontainer_cli.command()
     mine = ["--workspace-folder", str(folder), "--id-label", f"tests={NAME}"]
     try:
-        made = stage.run([*cli, "up", *mine, "--buildkit", "never"], timeout=600)
+        made = processes.run([*cli, "up", *mine, "--buildkit", "never"], timeout=600)
         assert made.returncode == 0, made.stdout[-2000:] + made.stderr[-4000:]
-        yield lambda *words: stage.run([*cli, "exec", *mine, *words], timeout=300)
+        yield lambda *words: processes.run([*cli, "exec", *mine, *words], timeout=300)
     finally:
         clear_away()
 
@@ -71,7 +71,7 @@ def test_ros_and_colcon_answer_in_every_shell(inside: Inside) -> None:
     assert "colcon [-h]" in done.stdout
 
 
-def test_its_user_is_the_student_in_an_own_workspace(inside: Inside) -> None:
+def test_its_user_is_the_student_in_their_own_workspace(inside: Inside) -> None:
     done = inside("bash", "-c", "id -un; pwd; touch src/mine && stat -c %U src/mine")
     assert done.stdout.splitlines() == ["student", "/home/student/ros2_ws", "student"]
 
@@ -81,7 +81,7 @@ def test_nobody_can_become_root(inside: Inside) -> None:
     assert done.stdout.split() == ["NoNewPrivs:", "1"]
 
 
-def test_the_guide_and_the_check_are_there(inside: Inside) -> None:
+def test_the_guide_and_the_check_are_available(inside: Inside) -> None:
     done = inside("bash", "-ic", "command -v guide check")
     assert [Path(line).name for line in done.stdout.split()] == ["guide", "check"]
 
@@ -91,12 +91,12 @@ def test_distro_in_the_environment_chooses_another(name: str) -> None:
     assert configuration(f"DISTRO={name}")["build"]["args"]["DISTRO"] == name
 
 
-def test_jazzy_is_what_comes_without_a_choice() -> None:
+def test_jazzy_is_the_default() -> None:
     assert configuration()["build"]["args"]["DISTRO"] == "jazzy"
 
 
 def test_its_base_is_the_official_image_of_the_distro(tmp_path: Path) -> None:
-    """(No registry is reached here: the command says which image it would have had.)"""
+    """No registry is reachable here; the command names the image that it would pull."""
     folder = checkout.copy_to(tmp_path / "checkout")
     words = ["up", "--workspace-folder", str(folder), "--id-label", f"tests={NAME}-none"]
     docker_path = tmp_path / "docker"
@@ -106,5 +106,5 @@ def test_its_base_is_the_official_image_of_the_distro(tmp_path: Path) -> None:
     pulled = tmp_path / "pulled"
     words += ["--buildkit", "never", "--docker-path", str(docker_path)]
     env = {"DISTRO": "humble", "PULLED": str(pulled)}
-    stage.run([*devcontainer_cli.command(), *words], env=env)
+    processes.run([*devcontainer_cli.command(), *words], env=env)
     assert set(pulled.read_text().split()) == {"ros:humble-ros-base"}

@@ -11,9 +11,9 @@ import pexpect
 import pytest
 
 from grader.validate.tree import Chmod, Delete, Replace, Write
-from tests import stage
+from tests import processes
 from tests.corpus.model import INNER, MANIFEST, MARKER, NODE, SETUP
-from tests.fix.bench import TOOLS, edited, plan_of, with_tool
+from tests.fix.corpus_fixes import TOOLS, edited, plan_of, with_tool
 from tests.fix.test_disk import tree
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
@@ -23,10 +23,12 @@ EMPTY = Write(NODE, b"")
 def test_a_dry_run_is_the_default_and_prints_what_apply_writes(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, Delete(MARKER))
     before = tree(tmp_path)
-    done = stage.run(stage.grader("fix", "--no-run", root))
+    done = processes.run(processes.grader("fix", "--no-run", root))
     assert done.returncode == 0, done.stderr
     assert tree(tmp_path) == before
-    assert stage.run(stage.grader("fix", "--dry-run", "--no-run", root)).stdout == done.stdout
+    assert (
+        processes.run(processes.grader("fix", "--dry-run", "--no-run", root)).stdout == done.stdout
+    )
     copy = with_tool(TOOLS[0], done.stdout.encode(), root)
     assert plan_of(copy).patch == b""
     assert "fixes  package.manifest" in done.stderr
@@ -35,18 +37,18 @@ def test_a_dry_run_is_the_default_and_prints_what_apply_writes(tmp_path: Path) -
 
 def test_apply_writes_and_says_where_the_old_files_are(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
-    done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    done = processes.run(processes.grader("fix", "--apply", "--no-run", root))
     assert done.returncode == 0, done.stderr
     assert f"{MANIFEST}.~1~" in done.stderr
     assert (root / f"{MANIFEST}.~1~").is_file()
-    again = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    again = processes.run(processes.grader("fix", "--apply", "--no-run", root))
     assert (again.returncode, again.stdout) == (0, "")
     assert "Nothing is wrong" in again.stderr
 
 
-def test_what_cannot_be_fixed_is_named_and_the_status_is_1(tmp_path: Path) -> None:
+def test_unfixable_mistakes_are_named_and_the_status_is_1(tmp_path: Path) -> None:
     root = edited(tmp_path, EMPTY, NAME)
-    done = stage.run(stage.grader("fix", "--apply", root))
+    done = processes.run(processes.grader("fix", "--apply", root))
     assert done.returncode == 1
     assert "left    source.node_file: the file is empty" in done.stderr
     assert "was not run" in done.stderr
@@ -55,7 +57,7 @@ def test_what_cannot_be_fixed_is_named_and_the_status_is_1(tmp_path: Path) -> No
 
 def test_one_check_alone_can_be_fixed(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, Delete(MARKER), Chmod(NODE, 0o644))
-    done = stage.run(stage.grader("fix", "--apply", "--check", "package.marker", root))
+    done = processes.run(processes.grader("fix", "--apply", "--check", "package.marker", root))
     assert done.returncode == 0, done.stderr
     assert (root / MARKER).is_file()
     assert {finding.check for finding in plan_of(root).fixed} == {
@@ -63,33 +65,33 @@ def test_one_check_alone_can_be_fixed(tmp_path: Path) -> None:
     }
 
 
-def test_a_setup_py_that_cannot_be_read_is_not_called_right(tmp_path: Path) -> None:
+def test_an_unreadable_setup_py_is_not_reported_as_right(tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(SETUP, "setup(\n    name", "setup((\n    name"))
-    done = stage.run(stage.grader("fix", "--no-run", root))
+    done = processes.run(processes.grader("fix", "--no-run", root))
     assert done.returncode == 1
     assert "left    entry_point.mapping: the files alone do not show it" in done.stderr
-    one = stage.run(stage.grader("fix", "--check", "entry_point.mapping", root))
+    one = processes.run(processes.grader("fix", "--check", "entry_point.mapping", root))
     assert one.returncode == 1
 
 
-def test_a_comma_that_setup_py_lacks_is_put_in_without_a_run(tmp_path: Path) -> None:
+def test_a_missing_comma_in_setup_py_is_added_without_a_run(tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(SETUP, "version='0.0.0',", "version='0.0.0'"), NAME)
-    done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    done = processes.run(processes.grader("fix", "--apply", "--no-run", root))
     assert done.returncode == 0, done.stderr
     assert "version='0.0.0'," in (root / SETUP).read_text()
 
 
-def test_a_workspace_is_fixed_where_its_package_lies(tmp_path: Path) -> None:
+def test_the_package_inside_a_workspace_is_fixed(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     workspace = tmp_path / "ros2_ws"
     shutil.copytree(root, workspace / "src" / INNER)
-    done = stage.run(stage.grader("fix", "--apply", "--no-run", workspace))
+    done = processes.run(processes.grader("fix", "--apply", "--no-run", workspace))
     assert done.returncode == 0, done.stderr
     assert (workspace / "src" / INNER / f"{MANIFEST}.~1~").is_file()
 
 
-def test_a_folder_without_a_package_is_told_and_is_1(tmp_path: Path) -> None:
-    done = stage.run(stage.grader("fix", tmp_path))
+def test_a_folder_without_a_package_is_reported_with_status_1(tmp_path: Path) -> None:
+    done = processes.run(processes.grader("fix", tmp_path))
     assert done.returncode == 1
     assert "package.found" in done.stderr
 
@@ -102,7 +104,7 @@ def _zip(root: Path) -> bytes:
     return stream.getvalue()
 
 
-def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
+def test_a_usage_error_has_status_2_and_writes_nothing(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     archive = tmp_path / "handed_in.zip"
     archive.write_bytes(_zip(root))
@@ -119,8 +121,8 @@ def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
         ([root, "--distro", "jazzy,kilted"], "one distro"),
         ([], "path/to/my_package"),
     ):
-        done = stage.run(
-            stage.grader("fix", "--apply", "--no-run", *words),
+        done = processes.run(
+            processes.grader("fix", "--apply", "--no-run", *words),
             cwd=tmp_path,
             env={"HOME": str(tmp_path)},
         )
@@ -130,11 +132,11 @@ def test_wrong_usage_is_2_with_nothing_written(tmp_path: Path) -> None:
     assert tree(tmp_path) == before
 
 
-def test_a_read_only_file_is_2_with_nothing_written(tmp_path: Path) -> None:
+def test_a_read_only_file_has_status_2_and_nothing_is_written(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, Delete(MARKER))
     (root / MANIFEST).chmod(0o444)
     before = tree(root)
-    done = stage.run(stage.grader("fix", "--apply", "--no-run", root))
+    done = processes.run(processes.grader("fix", "--apply", "--no-run", root))
     assert done.returncode == 2
     assert "read-only" in done.stderr
     assert tree(root) == before
@@ -142,16 +144,19 @@ def test_a_read_only_file_is_2_with_nothing_written(tmp_path: Path) -> None:
 
 def test_a_diff_is_coloured_on_a_terminal_and_plain_in_a_pipe(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
-    words = stage.grader("fix", "--no-run", root)
+    words = processes.grader("fix", "--no-run", root)
     shown, status = pexpect.run(
-        " ".join(words), cwd=str(stage.ROOT), withexitstatus=True, env={"TERM": "xterm-256color"}
+        " ".join(words),
+        cwd=str(processes.ROOT),
+        withexitstatus=True,
+        env={"TERM": "xterm-256color"},
     )
     assert status == 0
     assert b"\x1b[32m+  <name>my_robot_controller</name>" in shown
-    assert "\x1b" not in stage.run(words).stdout
+    assert "\x1b" not in processes.run(words).stdout
 
 
-def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path) -> None:
+def test_control_characters_of_a_submission_do_not_reach_the_terminal(tmp_path: Path) -> None:
     root = edited(
         tmp_path,
         Replace(SETUP, "'test_node = my", "'test_nod = my"),
@@ -161,9 +166,9 @@ def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path)
             "        # \x1b]0;title\x07\n        'console_scripts'",
         ),
     )
-    words = " ".join(stage.grader("fix", "--no-run", root))
+    words = " ".join(processes.grader("fix", "--no-run", root))
     shown, status = pexpect.run(
-        words, cwd=str(stage.ROOT), withexitstatus=True, env={"TERM": "xterm-256color"}
+        words, cwd=str(processes.ROOT), withexitstatus=True, env={"TERM": "xterm-256color"}
     )
     assert status == 0
     assert b"\x1b]0;" not in shown
@@ -171,16 +176,16 @@ def test_the_students_control_characters_do_not_reach_a_terminal(tmp_path: Path)
 
 
 @pytest.mark.prefix
-def test_what_only_a_run_shows_is_fixed_and_run_again(tmp_path: Path) -> None:
+def test_a_mistake_found_by_a_run_is_fixed_and_run_again(tmp_path: Path) -> None:
     root = edited(
         tmp_path,
         Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"),
         Replace(NODE, "'my_first_node'", "'my_node'"),
         Delete(MARKER),
     )
-    done = stage.run(stage.grader("fix", "--apply", root))
+    done = processes.run(processes.grader("fix", "--apply", root))
     assert done.returncode == 0, done.stderr
     assert "f'Hello time: {self.counter_}'" in (root / NODE).read_text()
     assert "running the node" in done.stderr
-    again = stage.run(stage.grader("fix", root))
+    again = processes.run(processes.grader("fix", root))
     assert (again.returncode, again.stdout) == (0, ""), again.stderr

@@ -1,4 +1,4 @@
-"""The diff is one from which git and patch make the new bytes, whatever the bytes are."""
+"""Diffs: git and patch recreate any new bytes from them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile
-from tests.fix.bench import TOOLS
+from tests.fix.corpus_fixes import TOOLS
 
 LINE = st.sampled_from([b"a", b"b", b"", b"\t x", b"c\r", b"f\xfcr", b"-- a", b"++ b", b"\\ No"])
 DATA = st.lists(LINE, max_size=30).map(b"\n".join)
@@ -25,7 +25,7 @@ def files(found: dict[str, bytes], mode: int = 0o644) -> Files:
 
 
 def made_by(tool: tuple[str, ...], old: dict[str, bytes], patch: bytes) -> dict[str, bytes]:
-    """Return the files that a tool makes of the old ones."""
+    """Return the files that a tool makes of the old ones by applying a patch."""
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for path, found in old.items():
@@ -38,7 +38,9 @@ def made_by(tool: tuple[str, ...], old: dict[str, bytes], patch: bytes) -> dict[
 @settings(max_examples=60, deadline=None)
 @given(old=DATA, new=DATA)
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
-def test_any_bytes_become_any_others(tool: tuple[str, ...], old: bytes, new: bytes) -> None:
+def test_a_diff_turns_any_bytes_into_any_others(
+    tool: tuple[str, ...], old: bytes, new: bytes
+) -> None:
     patch = diff(files({"f": old}), files({"f": new}))
     if old == new:
         assert patch == b""
@@ -48,7 +50,7 @@ def test_any_bytes_become_any_others(tool: tuple[str, ...], old: bytes, new: byt
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 @pytest.mark.parametrize("name", NAMES)
-def test_any_name_arrives(name: str, tool: tuple[str, ...]) -> None:
+def test_a_diff_keeps_any_file_name(name: str, tool: tuple[str, ...]) -> None:
     patch = diff(files({name: b"one\n"}), files({name: b"two\n"}))
     assert made_by(tool, {name: b"one\n"}, patch) == {name: b"two\n"}
 
@@ -56,7 +58,7 @@ def test_any_name_arrives(name: str, tool: tuple[str, ...]) -> None:
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("changed", [True, False])
-def test_a_file_moves_with_or_without_a_change(
+def test_a_file_moves_with_or_without_changes(
     name: str, tool: tuple[str, ...], changed: bool
 ) -> None:
     old = files({name: b"one\ntwo\n"})
@@ -66,12 +68,12 @@ def test_a_file_moves_with_or_without_a_change(
     assert made == {"new name.py": b"one\n2\n" if changed else b"one\ntwo\n"}
 
 
-def test_a_file_that_moves_there_and_back_is_no_change() -> None:
+def test_a_file_moved_there_and_back_gives_no_diff() -> None:
     old = files({"a": b"1\n"})
     assert diff(old, old.with_move("a", "b").with_move("b", "a")) == b""
 
 
-def test_modes_are_those_that_git_knows() -> None:
+def test_modes_are_the_two_that_git_records() -> None:
     old = files({"a": b"1\n"}, mode=0o640)
     assert diff(old, old.with_mode("a", 0o750)) == (
         b"diff --git a/a b/a\nold mode 100644\nnew mode 100755\n"
@@ -79,7 +81,7 @@ def test_modes_are_those_that_git_knows() -> None:
     assert diff(old, old.with_mode("a", 0o600)) == b""
 
 
-def test_a_long_file_in_which_every_line_changes_is_compared_at_once() -> None:
+def test_a_long_file_with_every_line_changed_is_compared_quickly() -> None:
     old, new = b"x\r\n" * 20_000, b"x\n" * 20_000
     patch = diff(files({"f": old}), files({"f": new}))
     assert made_by(TOOLS[0], {"f": old}, patch) == {"f": new}

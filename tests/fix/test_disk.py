@@ -14,14 +14,14 @@ from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.validate.tree import Chmod, Delete, Move, Replace
 from tests.corpus.model import MANIFEST, MARKER, NODE, SETUP
-from tests.fix.bench import contents, edited, plan_of, taken
+from tests.fix.corpus_fixes import contents, edited, plan_of, taken
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
 ENTRY = Replace(SETUP, "my_first_node:main", "my_frist_node:main")
 
 
 def tree(root: Path) -> dict[str, tuple[bytes, int]]:
-    """Return all that is in a folder, with modes."""
+    """Return everything in a folder, with modes."""
     return {
         str(path.relative_to(root)): (
             str(path.readlink()).encode() if path.is_symlink() else path.read_bytes(),
@@ -37,7 +37,7 @@ def write_plan(root: Path) -> list[str]:
     return apply(plan.old, plan.new, root)
 
 
-def test_the_package_is_then_as_planned_and_the_old_files_are_kept(tmp_path: Path) -> None:
+def test_the_package_matches_the_plan_and_old_files_are_backed_up(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME, ENTRY, Delete(MARKER), Chmod(NODE, 0o640))
     (root / MANIFEST).chmod(0o660)
     before = tree(root)
@@ -60,7 +60,7 @@ def test_a_second_backup_does_not_replace_the_first(tmp_path: Path) -> None:
     assert (root / f"{MANIFEST}.~1~").read_text() == "an older one"
 
 
-def test_a_file_that_moves_is_not_left_behind(tmp_path: Path) -> None:
+def test_a_moved_file_is_removed_from_its_old_place(tmp_path: Path) -> None:
     root = edited(tmp_path, Move(NODE, "scripts/my_first_node.py"))
     write_plan(root)
     assert not (root / "scripts/my_first_node.py").exists()
@@ -105,7 +105,7 @@ def _resource_is_a_link(root: Path) -> None:
         (_resource_is_a_link, "link"),
     ],
 )
-def test_what_may_not_be_written_is_refused_and_nothing_is(
+def test_an_unwritable_file_is_refused_and_nothing_is_written(
     meanwhile: Callable[[Path], None], said: str, tmp_path: Path
 ) -> None:
     root = edited(tmp_path, NAME, ENTRY, Delete(MARKER))
@@ -126,7 +126,7 @@ def test_what_may_not_be_written_is_refused_and_nothing_is(
     ],
     ids=["disk full", "Ctrl+C"],
 )
-def test_a_failure_half_way_brings_everything_back(
+def test_a_failure_half_way_restores_everything(
     failure: BaseException,
     raised: type[BaseException],
     tmp_path: Path,
@@ -139,7 +139,7 @@ def test_a_failure_half_way_brings_everything_back(
     rename = os.rename
 
     def full(old: str, new: str, **folders: int) -> None:
-        if new == SETUP:  # the last one, in the order of names
+        if new == SETUP:  # the last file by name
             raise failure
         rename(old, new, **folders)
 
@@ -213,7 +213,7 @@ def test_a_plan_with_a_path_out_of_the_package_is_refused(tmp_path: Path) -> Non
     assert not (tmp_path / "outside.txt").exists()
 
 
-def test_other_names_of_a_file_keep_its_old_bytes(tmp_path: Path) -> None:
+def test_hard_links_to_a_file_keep_its_old_bytes(tmp_path: Path) -> None:
     root = edited(tmp_path, NAME)
     os.link(root / MANIFEST, tmp_path / "another name")
     old = (root / MANIFEST).read_bytes()

@@ -1,4 +1,4 @@
-"""Mistakes in the forms in which packages are really written: each is fixed, and only it."""
+"""Mistakes in package forms that occur in practice: each is fixed, and nothing else changes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from grader.validate.tree import Delete, Edit, Move, Replace, Write
 from tests.corpus.model import CFG, INNER, MANIFEST, MARKER, NODE, SETUP
-from tests.fix.bench import contents, edited, plan_of
+from tests.fix.corpus_fixes import contents, edited, plan_of
 
 ENTRY = "'test_node = my_robot_controller.my_first_node:main'"
 POINTS = f"""\
@@ -184,7 +184,7 @@ MORE: dict[str, tuple[Edit, ...]] = {
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_it_is_fixed(form: str, tmp_path: Path) -> None:
+def test_the_mistake_is_fixed(form: str, tmp_path: Path) -> None:
     edit, (path, wanted) = FORMS[form]
     plan = plan_of(edited(tmp_path, edit, *MORE.get(form, ())))
     assert not plan.left, plan.left
@@ -197,7 +197,7 @@ def test_it_is_fixed(form: str, tmp_path: Path) -> None:
     assert changed == [path]
 
 
-# What is computed, or where two fixes are possible, is the student's own to change.
+# Computed values, and mistakes with two possible fixes, are left to the student.
 UNCERTAIN: dict[str, tuple[Edit, ...]] = {
     "entries by a function": (points("    entry_points={'console_scripts': entries()},\n"),
                               Replace(SETUP, "\nsetup(", "\ndef entries():\n    return []\n\n\nsetup(")),
@@ -221,14 +221,14 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
 
 
 @pytest.mark.parametrize("form", UNCERTAIN)
-def test_it_is_left_to_the_student(form: str, tmp_path: Path) -> None:
+def test_an_uncertain_fix_is_left_to_the_student(form: str, tmp_path: Path) -> None:
     root = edited(tmp_path, *UNCERTAIN[form])
     plan = plan_of(root)
     assert contents(plan.new) == contents(plan.old), plan.patch.decode()
 
 
-def test_an_entry_that_is_there_twice_is_not_added_once_more(tmp_path: Path) -> None:
-    """(Two on one line, without a comma between them: found by fuzzing.)"""
+def test_an_entry_that_exists_twice_is_not_added_again(tmp_path: Path) -> None:
+    """Two on one line without a comma between them (found by fuzzing)."""
     entry = "'test_node = my_robot_controller.my_first_node:main'"
     wrong = entry.replace("first", "frist")
     old = plan_of(edited(tmp_path, Replace(SETUP, f"{entry},", f"{entry} {wrong},")))

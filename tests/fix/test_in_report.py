@@ -1,4 +1,4 @@
-"""The change in a report is the one that fixes: applied by git, the check that failed passes."""
+"""The fix in a report, applied with git, makes the failed check pass."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from grader.report import events
 from grader.verdict import mark as runner
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
-from tests.fix.bench import TOOLS, with_tool
+from tests.fix.corpus_fixes import TOOLS, with_tool
 from tests.recorded import mark
 
 BY_NAME = {package.name: package for package in BROKEN}
@@ -20,7 +20,7 @@ BY_NAME = {package.name: package for package in BROKEN}
     "name",
     ["text_capital", "comma_missing", "printed"],
 )
-def test_the_change_in_a_report_fixes_the_check_that_failed(name: str, tmp_path: Path) -> None:
+def test_the_fix_in_a_report_makes_the_failed_check_pass(name: str, tmp_path: Path) -> None:
     handed_in = write(BY_NAME[name], tmp_path)
     report = mark(handed_in)
     first = next(check for check in report.checks if check.status == "failed")
@@ -30,12 +30,12 @@ def test_the_change_in_a_report_fixes_the_check_that_failed(name: str, tmp_path:
     assert first.patch not in [check.patch for check in fixed.checks]
 
 
-def test_what_passes_has_no_change(tmp_path: Path) -> None:
+def test_a_passed_check_has_no_fix(tmp_path: Path) -> None:
     report = mark(write(BY_NAME["printed"], tmp_path))
     assert {check.patch for check in report.checks if check.status != "failed"} == {""}
 
 
-def test_a_fault_of_ours_in_a_change_costs_no_verdict_and_is_told(
+def test_a_failing_fix_costs_no_verdict_and_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def faulty(*_: object) -> str:

@@ -1,4 +1,4 @@
-"""A fix changes what it fixes: line ends, encodings, tabs, marks and last lines stay as they are."""
+"""A fix preserves line ends, encodings, tabs, byte order marks and last lines."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from grader.validate.tree import Crlf, Delete, Edit, Replace, Write
 from tests.corpus.model import CFG, MANIFEST, NODE, SETUP
-from tests.fix.bench import TOOLS, contents, edited, plan_of, taken, with_tool
+from tests.fix.corpus_fixes import TOOLS, contents, edited, plan_of, taken, with_tool
 
 OLD = "'test_node = my_robot_controller.my_first_node:main'"
 BAD = OLD.replace("my_first_node:", "my_frist_node:")
@@ -18,7 +18,7 @@ CFG_BIN = Replace(CFG, "script_dir=$base/lib/my_robot_controller\n[", "script_di
 
 
 def change(root: Path, path: str) -> tuple[bytes, bytes]:
-    """Return a file's bytes before and after the fix of all that is wrong in its package."""
+    """Return a file's bytes before and after fixing everything in its package."""
     plan = plan_of(root)
     assert not plan.left
     for tool in TOOLS:
@@ -37,7 +37,7 @@ def change(root: Path, path: str) -> tuple[bytes, bytes]:
     ids=["setup.py", "package.xml", "setup.cfg"],
 )
 @pytest.mark.parametrize("ending", ["lf", "crlf", "no end"])
-def test_line_ends_and_a_missing_last_one_stay(
+def test_line_ends_stay_even_if_the_last_one_is_missing(
     path: str, edit: Edit, bad: bytes, good: bytes, ending: str, tmp_path: Path
 ) -> None:
     root = edited(tmp_path, edit, *([Crlf(path)] if ending == "crlf" else []))
@@ -48,7 +48,7 @@ def test_line_ends_and_a_missing_last_one_stay(
 
 
 @pytest.mark.parametrize("encoding", ["latin-1", "cp1252", "euc-kr"])
-def test_the_encoding_that_a_file_declares_stays(encoding: str, tmp_path: Path) -> None:
+def test_the_declared_encoding_of_a_file_stays(encoding: str, tmp_path: Path) -> None:
     word = "감사" if encoding == "euc-kr" else "für"
     root = edited(tmp_path, MISSPELT)
     text = f"# -*- coding: {encoding} -*-\n# {word}\n" + (root / SETUP).read_text()
@@ -58,7 +58,7 @@ def test_the_encoding_that_a_file_declares_stays(encoding: str, tmp_path: Path) 
     assert word.encode(encoding) in after
 
 
-def test_the_byte_order_mark_of_a_file_that_may_have_one_stays(tmp_path: Path) -> None:
+def test_a_byte_order_mark_stays_if_the_file_may_have_one(tmp_path: Path) -> None:
     root = edited(tmp_path, MISSPELT)
     (root / SETUP).write_bytes(b"\xef\xbb\xbf" + (root / SETUP).read_bytes())
     before, after = change(root, SETUP)
@@ -78,7 +78,7 @@ def test_tabs_stay_and_a_new_entry_is_indented_like_the_others(tmp_path: Path) -
     assert after.count(row) == 1
 
 
-def test_double_quotes_and_a_comment_behind_the_entry_stay(tmp_path: Path) -> None:
+def test_double_quotes_and_a_comment_after_the_entry_stay(tmp_path: Path) -> None:
     root = edited(
         tmp_path, Replace(SETUP, OLD + ",", BAD.replace("'", '"') + ",  # mine, since Monday")
     )
@@ -87,26 +87,26 @@ def test_double_quotes_and_a_comment_behind_the_entry_stay(tmp_path: Path) -> No
     assert b"# mine, since Monday" in after
 
 
-def test_columns_behind_letters_of_several_bytes_are_the_right_ones(tmp_path: Path) -> None:
+def test_columns_after_multibyte_letters_are_right(tmp_path: Path) -> None:
     entry = f"'é=my_robot_controller.my_first_node:é', {BAD}"
     root = edited(tmp_path, Replace(SETUP, OLD, entry))
     before, after = change(root, SETUP)
     assert after == before.replace(b"my_frist", b"my_first")
 
 
-def test_a_shebang_before_windows_lines_makes_them_those_of_linux(tmp_path: Path) -> None:
+def test_adding_a_shebang_converts_windows_line_ends(tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(NODE, "#!/usr/bin/env python3\n", ""), Crlf(NODE))
     before, after = change(root, NODE)
     assert after == b"#!/usr/bin/env python3\n" + before.replace(b"\r\n", b"\n")
 
 
-def test_carriage_returns_in_a_line_are_not_line_ends_to_be_changed(tmp_path: Path) -> None:
+def test_carriage_returns_inside_a_line_are_not_converted(tmp_path: Path) -> None:
     code = b"#!/usr/bin/env python3\r\nTEXT = 'a\\rb'\r\n\r\ndef main():\r\n    pass\r\n"
     before, after = change(edited(tmp_path, Write(NODE, code)), NODE)
     assert after == before.replace(b"\r\n", b"\n")
 
 
-def test_a_node_keeps_its_comments_when_the_colon_is_put_in(tmp_path: Path) -> None:
+def test_a_node_keeps_its_comments_when_a_colon_is_added(tmp_path: Path) -> None:
     root = edited(
         tmp_path,
         Replace(NODE, "def timer_callback(self):", "def timer_callback(self)  # it says 'hello'"),

@@ -1,4 +1,4 @@
-"""Fixes of what only a build or a run shows, by the mistake that the real verdict names."""
+"""Fixes of mistakes that only a build or a run shows, as named by the real verdict."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.model import NODE, SETUP, Package
-from tests.fix.bench import TOOLS, edited, taken, with_tool
+from tests.fix.corpus_fixes import TOOLS, edited, taken, with_tool
 from tests.recorded import mark
 from tests.static_bench import ASSIGNMENT
 
-# The one fix of these is the solution, letter by letter.
+# The only fix of these is exactly the solution.
 BACK_TO_SOLUTION = (
     *("setup_syntax_error", "setup_prints", "import_misspelt", "import_of_node"),
     *("import_node_missing", "super_missing", "super_after_timer", "super_without_name"),
@@ -50,8 +50,8 @@ OTHERWISE = {
 }
 # A verdict takes seconds: `make test` has one of each kind, `make test-long` every one.
 QUICK = ("setup_prints", "counter_not_set")
-# What these should be, nobody but the student knows.
-NOT_MENDED = {
+# Only the student knows what these should be.
+NOT_FIXED = {
     *("import_unknown", "raises_at_import", "exception_in_init", "name_error_in_callback"),
     *("timer_in_callback", "three_then_exit", "text_of_another_course", "python_logging"),
     *("waits_for_input", "loop_without_node", "callback_is_another", "log_line_forgotten"),
@@ -64,7 +64,7 @@ def package(name: str) -> Package:
 
 
 def patches(name: str, folder: Path) -> list[str]:
-    """Return the patches of a corpus package's failed checks, as a report of it carries them."""
+    """Return the patches of a corpus package's failed checks, as in its report."""
     submission = taken(write(package(name), folder))
     found = []
     for check, mistake in package(name).expect_failed.items():
@@ -79,15 +79,13 @@ def patches(name: str, folder: Path) -> list[str]:
     return found
 
 
-def test_each_mistake_with_a_fix_is_one_of_the_catalogue() -> None:
+def test_each_mistake_with_a_fix_is_in_the_catalogue() -> None:
     assert set(BY_MISTAKE) <= set(CATALOGUE)
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 @pytest.mark.parametrize("name", BACK_TO_SOLUTION)
-def test_the_patch_leads_back_to_the_solution(
-    name: str, tool: tuple[str, ...], tmp_path: Path
-) -> None:
+def test_the_patch_restores_the_solution(name: str, tool: tuple[str, ...], tmp_path: Path) -> None:
     patch = patches(name, tmp_path)[0]
     assert patch
     fixed = with_tool(tool, patch.encode(), tmp_path / name)
@@ -104,8 +102,8 @@ def test_the_patch_holds_the_fix_and_the_verdict_is_full_after_it(
     assert mark(with_tool(TOOLS[0], patch.encode(), tmp_path / name)).all_passed
 
 
-@pytest.mark.parametrize("name", sorted(NOT_MENDED))
-def test_where_nothing_is_certain_there_is_no_patch(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", sorted(NOT_FIXED))
+def test_an_uncertain_mistake_has_no_patch(name: str, tmp_path: Path) -> None:
     assert set(patches(name, tmp_path)) == {""}
 
 
@@ -124,7 +122,7 @@ def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
         for name in (*BACK_TO_SOLUTION, *OTHERWISE)
     ],
 )
-def test_the_real_verdict_is_full_after_the_fix(name: str, tmp_path: Path) -> None:
+def test_the_real_verdict_has_full_marks_after_the_fix(name: str, tmp_path: Path) -> None:
     root = write(package(name), tmp_path)
     limits = ("build_seconds=30", "start_seconds=15")
     (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
@@ -143,7 +141,7 @@ def test_the_real_verdict_is_full_after_the_fix(name: str, tmp_path: Path) -> No
         "self.create_timer(period(), self.timer_callback())\n        self.create_timer(2.0, None)",
     ],
 )
-def test_code_of_another_form_is_left_alone(line: str, tmp_path: Path) -> None:
+def test_unrecognised_code_is_left_unchanged(line: str, tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(NODE, "self.create_timer(1.0, self.timer_callback)", line))
     files = Files.of(taken(root))
     for mistake in ("node.callback_called", "run.wrong_period", "node.callback_misspelt"):

@@ -1,4 +1,4 @@
-"""Fixes of what the files alone show: the check passes then, and the diff is one that tools take."""
+"""Fixes of static mistakes: the check passes afterwards, and tools accept the diff."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from grader.verdict.static import static_results
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.fix.bench import NODE, TOOLS, contents, plan_of, taken, with_tool
+from tests.fix.corpus_fixes import NODE, TOOLS, contents, plan_of, taken, with_tool
 from tests.static_bench import ASSIGNMENT
 
 STATIC = ("package.", "source.", "entry_point.mapping")
-# Nothing tells what these should be, so nothing is offered.
-NOT_MENDED = {
+# Nothing shows what these should be, so no fix is offered.
+NOT_FIXED = {
     *("no_manifest", "manifest_empty", "manifest_not_utf8", "cmake_package", "setup_missing"),
     *("as_created", "node_not_written", "node_empty", "indentation", "tabs_and_spaces"),
     *("python_2_print", "not_utf8", "null_bytes", "word_document"),
@@ -34,20 +34,20 @@ def is_static(package: Package) -> bool:
 
 
 SHOWN_BY_FILES = [package for package in BROKEN if is_static(package)]
-MENDED = [package for package in SHOWN_BY_FILES if package.name not in NOT_MENDED]
+FIXED = [package for package in SHOWN_BY_FILES if package.name not in NOT_FIXED]
 
 
 def named(package: Package) -> str:
     return package.name
 
 
-def test_most_of_what_files_show_is_fixed() -> None:
-    assert {package.name for package in SHOWN_BY_FILES} >= NOT_MENDED
-    assert len(MENDED) >= 50
+def test_most_static_mistakes_are_fixed() -> None:
+    assert {package.name for package in SHOWN_BY_FILES} >= NOT_FIXED
+    assert len(FIXED) >= 50
 
 
-@pytest.mark.parametrize("package", MENDED, ids=named)
-def test_every_check_of_the_files_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
+@pytest.mark.parametrize("package", FIXED, ids=named)
+def test_every_static_check_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert not plan.left
     results = static_results(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
@@ -57,7 +57,7 @@ def test_every_check_of_the_files_passes_after_the_fix(package: Package, tmp_pat
 
 
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
-@pytest.mark.parametrize("package", MENDED, ids=named)
+@pytest.mark.parametrize("package", FIXED, ids=named)
 def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path: Path) -> None:
     root = write(package, tmp_path)
     plan = plan_of(root)
@@ -67,8 +67,8 @@ def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path:
     assert got[NODE].mode & 0o100, "git and a new patch set modes"
 
 
-@pytest.mark.parametrize("package", MENDED, ids=named)
-def test_what_is_fixed_stays_as_it_is(package: Package, tmp_path: Path) -> None:
+@pytest.mark.parametrize("package", FIXED, ids=named)
+def test_a_fixed_package_is_not_changed_again(package: Package, tmp_path: Path) -> None:
     root = write(package, tmp_path)
     fixed = with_tool(TOOLS[0], plan_of(root).patch, root)
     again = plan_of(fixed)
@@ -76,7 +76,7 @@ def test_what_is_fixed_stays_as_it_is(package: Package, tmp_path: Path) -> None:
     assert again.fixed == ()
 
 
-@pytest.mark.parametrize("package", MENDED, ids=named)
+@pytest.mark.parametrize("package", FIXED, ids=named)
 def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_path: Path) -> None:
     submission = taken(write(package, tmp_path))
     for check_id in package.expect_failed:
@@ -85,8 +85,8 @@ def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_pa
         assert patch.startswith("diff --git a/"), check_id
 
 
-@pytest.mark.parametrize("package", [p for p in SHOWN_BY_FILES if p.name in NOT_MENDED], ids=named)
-def test_where_nothing_is_certain_the_file_at_fault_stays(package: Package, tmp_path: Path) -> None:
+@pytest.mark.parametrize("package", [p for p in SHOWN_BY_FILES if p.name in NOT_FIXED], ids=named)
+def test_an_uncertain_mistake_leaves_its_file_unchanged(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert plan.left
     for finding in plan.left:
@@ -102,7 +102,7 @@ def test_without_a_package_there_is_no_patch(package: Package, tmp_path: Path) -
     assert patch_for(result, submission, ASSIGNMENT) == ""
 
 
-def test_many_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
+def test_several_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
     wanted = (
         *("build_type_missing", "marker_missing", "setup_cfg_without_install"),
         *("exec_bit_missing", "shebang_crlf", "comma_missing", "manifest_other_name"),
@@ -117,13 +117,13 @@ def test_many_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
     }
 
 
-def test_a_right_package_is_left_alone(tmp_path: Path) -> None:
+def test_a_right_package_is_left_unchanged(tmp_path: Path) -> None:
     plan = plan_of(write(Package(name="right", edits=()), tmp_path))
     assert plan.patch == b""
     assert plan.left == ()
 
 
-def test_a_report_is_not_filled_by_the_diff_of_a_huge_file(tmp_path: Path) -> None:
+def test_the_diff_of_a_huge_file_is_left_out_of_a_report(tmp_path: Path) -> None:
     root = write(Package(name="huge", edits=(Crlf(NODE),)), tmp_path)
     for size, has_patch in ((100, True), (1_000, False), (100_000, False)):
         code = b"#!/usr/bin/env python3\r\n" + b"x = 'some text of a line'\r\n" * size

@@ -1,12 +1,12 @@
 """Coverage-guided fuzzing of all targets in one process, with atheris (libFuzzer).
 
-It is in the tests' environment for Python 3.11 to 3.13 (there is no wheel for 3.10).
+atheris is in the tests' environment for Python 3.11 to 3.13 (there is no wheel for 3.10).
 
     nice -n 19 .venv/bin/python -m tests.fuzz.deep FOLDER -max_total_time=600
 
-FOLDER keeps what reached new code; it begins with the corpus's packages. The first byte of an
+FOLDER keeps the inputs that reached new code, first the corpus' packages. The first byte of an
 input chooses the target (`python -m tests.fuzz.deep --targets` lists them). Options are libFuzzer's;
-a crash is written to a file, which as the only argument is run again.
+a crash is written to a file; give that file as the only argument to run it again.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-TIMEOUT = 10  # seconds for one input, on a machine that is busy
-MEGABYTES = 1_500  # with what libFuzzer itself takes
+TIMEOUT = 10  # seconds for one input on a busy machine
+MEGABYTES = 1_500  # including libFuzzer's own memory
 LONGEST = 6_000  # bytes of an input
 
 
@@ -48,7 +48,7 @@ def main(argv: list[str]) -> int:
 
 
 def seed(folder: Path, names: list[str], seeds: dict[str, bytes]) -> None:
-    """Write the first inputs: for each target a right example, and what the corpus makes of it."""
+    """Write the first inputs: for each target a right example and its variants from the corpus."""
     short = importlib.import_module("tests.fuzz.test_short")
     broken = importlib.import_module("tests.corpus.broken").BROKEN
     model = importlib.import_module("tests.corpus.model")
@@ -70,7 +70,7 @@ def seed(folder: Path, names: list[str], seeds: dict[str, bytes]) -> None:
 
 
 def dictionary(folder: Path) -> Path:
-    """Write the words that inputs are made of, as libFuzzer wants them."""
+    """Write the words of which inputs are made as a libFuzzer dictionary."""
     short = importlib.import_module("tests.fuzz.test_short")
     rows = ['"' + "".join(f"\\x{byte:02x}" for byte in word) + '"' for word in short.WORDS]
     path = Path(tempfile.gettempdir()) / f"{folder.resolve().name}.dict"

@@ -1,7 +1,7 @@
-"""What is fuzzed: everything that reads bytes of a student's. Each target returns, or is a bug.
+"""Fuzzing targets: every function that reads a student's bytes.
 
-Each takes any bytes; the faults that it may tell are its own exceptions, and none of those that
-Python raises by itself.
+Each takes any bytes. It must return or raise one of its own exceptions; any exception that Python
+raises by itself is a bug.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def build_log(found: bytes) -> None:
 
 
 class _Recorded(Console):
-    """A console on which bytes come in pieces."""
+    """A console on which bytes arrive in pieces."""
 
     def __init__(self, found: bytes) -> None:
         size = max(1, len(found) // 5)

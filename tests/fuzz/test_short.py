@@ -1,6 +1,6 @@
-"""A short fuzzing of all that reads a student's bytes; `python -m tests.fuzz.atheris` goes deeper.
+"""Short fuzzing of all that reads a student's bytes; `python -m tests.fuzz.deep` goes deeper.
 
-Time is the processor's: how busy the machine is does not matter.
+Times are processor time, so the load of the machine does not matter.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from grader.validate.tree import Replace
 from tests.corpus.broken import BROKEN
 from tests.fuzz.targets import SEEDS, TARGETS
 
-SECONDS = 10.0  # of processor time for one input; what is not made to be slow takes 0.01
-MEGABYTES = 100  # beyond what the input itself takes
+SECONDS = 10.0  # of processor time for one input; an ordinary one takes 0.01
+MEGABYTES = 100  # beyond the size of the input
 WORDS = (
     *(b"\r", b"\n", b"\r\n", b"\0", b"\t", b" ", b"'", b'"', b"'''", b"(", b")", b"[", b"]", b"{"),
     *(b"}", b",", b":", b"=", b"==", b"#", b"\\", b"%", b"$", b"&", b"<", b">", b"</", b"<!--"),
@@ -34,7 +34,7 @@ BROKEN_PARTS = sorted(
 
 @st.composite
 def altered(draw: st.DrawFn, seed: bytes) -> bytes:
-    """Draw a right file with some of it cut out, doubled, or replaced."""
+    """Draw a right file with parts of it removed, doubled or replaced."""
     found = seed
     for _ in range(draw(st.integers(0, 5))):
         start = draw(st.integers(0, len(found)))
@@ -91,8 +91,8 @@ HOSTILE = {
 
 @pytest.mark.parametrize("name", TARGETS)
 @pytest.mark.parametrize("kind", HOSTILE)
-def test_what_is_made_to_be_slow_is_bounded_in_time(kind: str, name: str) -> None:
-    TARGETS[name](SEEDS[name])  # (what is loaded at the first call does not count)
+def test_input_made_to_be_slow_takes_bounded_time(kind: str, name: str) -> None:
+    TARGETS[name](SEEDS[name])  # (modules loaded by the first call do not count)
     found = HOSTILE[kind]
     begin = time.process_time()
     TARGETS[name](found)
@@ -102,7 +102,7 @@ def test_what_is_made_to_be_slow_is_bounded_in_time(kind: str, name: str) -> Non
 @pytest.mark.full
 @pytest.mark.parametrize("name", TARGETS)
 @pytest.mark.parametrize("kind", HOSTILE)
-def test_what_is_made_to_be_large_takes_little_memory(kind: str, name: str) -> None:
+def test_input_made_to_be_large_needs_little_memory(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])
     tracemalloc.start()
     try:

@@ -1,1 +1,1 @@
-"""What goes back into other systems, read with those systems' own rules."""
+"""Outputs for other systems, read by those systems' own rules."""

@@ -1,4 +1,4 @@
-"""Fixtures of these tests: the real reports that the page's tests have marked, once a session."""
+"""Fixtures: classes and reports, made from the real reports of a test session."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import pytest
 
 from grader.batch.model import ClassResult
 from grader.report.model import Report
-from tests.site import classes
+from tests.pages import classes
 
 
 @pytest.fixture
 def mixed(reports: tuple[Report, ...]) -> ClassResult:
-    """A class of 24 with something of everything: late, missing, ungradable, corrected, …"""
+    """A class of 24 with every kind of student: late, missing, ungradable, corrected, …"""
     return classes.mixed(reports, 24)
 
 

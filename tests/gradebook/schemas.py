@@ -1,4 +1,4 @@
-"""The fields that other systems' readers know, as JSON Schemas: written from their documentation."""
+"""JSON Schemas of the fields that other systems read, written from their documentation."""
 
 from __future__ import annotations
 

@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
 from grader.batch.systems.canvas.write import new_gradebook
-from tests.gradebook.filled import fill_gradebook
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.fill import fill_gradebook
+from tests.gradebook.hostile_texts import hostile_class, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 TASK = "Hello time (4711)"
 HEADER = f"Student,ID,SIS User ID,SIS Login ID,Section,Other (12),{TASK},Current Score"
@@ -33,7 +33,7 @@ def student(number: int, grade: str = "") -> str:
 
 
 def canvas_reads(content: bytes) -> tuple[list[str], list[list[str]]]:
-    """Return header and students as the importer sees them; InvalidHeaderRow is an assertion."""
+    """Return header and students as the importer reads them; InvalidHeaderRow is an assertion."""
     lines = content.decode("utf-8-sig").splitlines()[:3]
     counts = {sep: {len(next(csv.reader([line], delimiter=sep))) for line in lines} for sep in ";,"}
     fields = {sep: found.pop() if len(found) == 1 else 0 for sep, found in counts.items()}
@@ -93,7 +93,9 @@ def test_semicolons_and_decimal_commas_stay() -> None:
     assert [row[header.index(TASK)] for row in rows] == ["91,5", "88,50"]
 
 
-def test_who_is_missing_or_pending_gets_nothing_and_strangers_are_named(mixed: ClassResult) -> None:
+def test_missing_and_pending_students_get_nothing_and_unknown_ones_are_named(
+    mixed: ClassResult,
+) -> None:
     result = dataclasses.replace(mixed, title="Hello time", system="canvas")
     before = export(POSSIBLE, *(student(n) for n in range(23)))
     filled = fill_gradebook(before, result)
@@ -105,13 +107,13 @@ def test_who_is_missing_or_pending_gets_nothing_and_strangers_are_named(mixed: C
     assert filled.warnings == (f"{stranger} is not in the gradebook: nothing was filled in",)
 
 
-def test_a_class_from_elsewhere_is_joined_by_the_login() -> None:
+def test_a_class_of_another_system_is_matched_by_login() -> None:
     result = dataclasses.replace(hello(1), system="folders")
     filled = fill_gradebook(export(POSSIBLE, student(0), student(1)), result)
     assert filled.content == export(POSSIBLE, student(0), student(1, "100"))
 
 
-def test_other_points_possible_are_said() -> None:
+def test_different_points_possible_are_reported() -> None:
     before = export(POSSIBLE.replace("100.00", "20"), student(0))
     assert "100 here" in fill_gradebook(before, hello(0)).warnings[0]
 
@@ -126,7 +128,7 @@ def test_other_points_possible_are_said() -> None:
         (export(POSSIBLE, '"Lee",1000,0'), "", "too short"),
     ],
 )
-def test_what_cannot_be_filled_in_is_refused(content: bytes, column: str, said: str) -> None:
+def test_an_unusable_gradebook_is_refused(content: bytes, column: str, said: str) -> None:
     with pytest.raises(UsageError) as caught:
         fill_gradebook(content, hello(0), column=column)
     assert said in str(caught.value)
@@ -134,7 +136,7 @@ def test_what_cannot_be_filled_in_is_refused(content: bytes, column: str, said: 
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(texts, min_size=1, max_size=3))
-def test_a_new_gradebook_is_one_that_canvas_reads(found: list[str]) -> None:
+def test_a_new_gradebook_can_be_read_by_canvas(found: list[str]) -> None:
     result = dataclasses.replace(hostile_class(*found), system="canvas", title="Hello")
     header, rows = canvas_reads(new_gradebook(result))
     assert header[5:] == ["Hello"]

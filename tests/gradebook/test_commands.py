@@ -1,4 +1,4 @@
-"""The commands of this room: what they print, write and refuse, and with which exit status."""
+"""The conversion commands: output, files, refusals and exit statuses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import jsonschema
 import pytest
 
 from grader.report.files import report_json
-from tests import stage
+from tests import processes
 from tests.gradebook.schemas import GRADESCOPE, PRAIRIELEARN
 from tests.gradebook.test_github import read
 from tests.gradebook.test_junit import suites
@@ -21,7 +21,7 @@ from tests.report import samples
 
 
 def outputs(*words: str | Path) -> subprocess.CompletedProcess[str]:
-    return stage.run([sys.executable, "-m", "grader", *words])
+    return processes.run([sys.executable, "-m", "grader", *words])
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def test_a_report_is_converted_into_each_form(report: Path) -> None:
     assert outputs("convert", "md", report).stdout.startswith("# anna")
 
 
-def test_the_archive_is_written_for_its_owner_only(tmp_path: Path) -> None:
+def test_the_archive_is_readable_by_its_owner_only(tmp_path: Path) -> None:
     out = tmp_path / "autograder.zip"
     done = outputs("gradescope-zip", out)
     assert done.returncode == 0, done.stderr
@@ -56,14 +56,14 @@ def test_the_archive_is_written_for_its_owner_only(tmp_path: Path) -> None:
     ("words", "status", "said"),
     [
         (["convert", "gradescope", "/no/such"], 2, "/no/such"),
-        (["convert", "gradescope", str(stage.ROOT / "setup.py")], 2, "not a report"),
+        (["convert", "gradescope", str(processes.ROOT / "setup.py")], 2, "not a report"),
         (["convert", "gradscope", "x"], 2, "gradscope"),
         (["gradescope-zip", "--distro", "jazy", "x.zip"], 2, "did you mean 'jazzy'?"),
         (["gradescope-zip", "--sandbox", "acount", "x.zip"], 2, "did you mean 'account'?"),
         (["gradescope-zip", "/no/such/folder/x.zip"], 3, "could not be written"),
     ],
 )
-def test_wrong_usage_says_what_to_do(words: list[str], status: int, said: str) -> None:
+def test_a_usage_error_says_what_to_do(words: list[str], status: int, said: str) -> None:
     done = outputs(*words)
     assert done.returncode == status
     assert said in done.stderr

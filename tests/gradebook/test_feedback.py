@@ -1,4 +1,4 @@
-"""One student's feedback: all that is theirs, nothing of others, and no text becomes markup."""
+"""A student's feedback: complete, nothing about others, and no text becomes markup."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from grader.batch.points import single
 from grader.publish.feedback import html_page
 from grader.publish.markdown import markdown
 from grader.report.model import Report
-from tests.gradebook.texts import hostile_entry, texts
+from tests.gradebook.hostile_texts import hostile_entry, texts
+from tests.pages.browser import Open
 from tests.report import samples
-from tests.site.browser import Open
 
 TITLE = "Hello time"
 
 
-def spoken(text: str) -> str:
-    """Return what a reader of the Markdown sees, line by line."""
+def visible_text(text: str) -> str:
+    """Return the visible text of the Markdown, line by line."""
     tokens = MarkdownIt("commonmark").parse(text)
     lines = [token for token in tokens if token.type in ("inline", "fence")]
     return "\n".join(
@@ -35,10 +35,10 @@ def spoken(text: str) -> str:
 def both(entry_of: ClassResult, key: str) -> list[str]:
     entry = entry_of.entry(key)
     page = html_page(entry, TITLE, show_hidden=False).decode()
-    return [spoken(markdown(entry, TITLE, show_hidden=False)), page]
+    return [visible_text(markdown(entry, TITLE, show_hidden=False)), page]
 
 
-def test_the_result_corrections_lateness_and_attempts_are_told(mixed: ClassResult) -> None:
+def test_result_corrections_lateness_and_attempts_are_listed(mixed: ClassResult) -> None:
     for text in both(mixed, "1003"):
         assert "of 100 points" in text
         assert "Late by 2 h 10 min: 5 points taken." in text
@@ -51,7 +51,7 @@ def test_the_result_corrections_lateness_and_attempts_are_told(mixed: ClassResul
 def test_a_failed_check_is_explained(broken: Report) -> None:
     entry = single(broken)
     check = broken.check("run.output")
-    text = spoken(markdown(entry, TITLE, show_hidden=False))
+    text = visible_text(markdown(entry, TITLE, show_hidden=False))
     for told in (check.title, check.expected, check.actual.split("\n")[0], check.fix):
         assert told in text
     assert "hello time: 9" in text
@@ -70,7 +70,7 @@ def test_hidden_checks_are_counted_and_not_named() -> None:
     assert "secret" in markdown(entry, TITLE, show_hidden=True)
 
 
-def test_nothing_of_others_and_nothing_for_the_instructor_alone(mixed: ClassResult) -> None:
+def test_nothing_about_others_and_no_notes_for_the_instructor_are_shown(mixed: ClassResult) -> None:
     entry = dataclasses.replace(mixed.entries[0], same_as=("1006",), notes=("smells of copying",))
     result = dataclasses.replace(mixed, entries=(entry, *mixed.entries[1:]))
     assert entry.report is not None
@@ -81,7 +81,9 @@ def test_nothing_of_others_and_nothing_for_the_instructor_alone(mixed: ClassResu
 
 
 @pytest.mark.parametrize(("key", "said"), [("1013", "ends in the middle"), ("1007", "nothing")])
-def test_who_has_no_report_is_told_why(mixed: ClassResult, key: str, said: str) -> None:
+def test_a_student_without_a_report_gets_the_reason(
+    mixed: ClassResult, key: str, said: str
+) -> None:
     for text in both(mixed, key):
         assert said in text
 
@@ -102,7 +104,7 @@ def test_no_text_becomes_markup_in_markdown(text: str) -> None:
 
 
 class Markup(HTMLParser):
-    """Collects what a page consists of beside its text."""
+    """Collects the tags and attributes of a page."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -127,8 +129,8 @@ def test_no_text_becomes_markup_in_html(text: str) -> None:
     assert all((value or "").startswith("#") for name, value in found.attributes if name == "href")
 
 
-@pytest.mark.full  # Chromium is not there for `make test`
-def test_the_page_asks_for_nothing_and_runs_nothing(visit: Open, tmp_path: Path) -> None:
+@pytest.mark.full  # `make test` has no Chromium
+def test_the_page_loads_nothing_and_runs_nothing(visit: Open, tmp_path: Path) -> None:
     text = "\"'></pre><script>alert(1)</script><img src=http://x.example/ onerror=alert(2)>"
     path = tmp_path / "feedback.html"
     path.write_bytes(html_page(hostile_entry(text), text, show_hidden=True))

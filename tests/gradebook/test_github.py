@@ -1,4 +1,4 @@
-"""The variable of GitHub Classroom's reporter: what its notice adds up is the final score."""
+"""The variable of GitHub Classroom's reporter: its notice adds up to the final score."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from grader.batch.model import ClassResult, Override
 from grader.batch.points import single
 from grader.batch.systems.github_classroom import write as github
+from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import GITHUB
-from tests.gradebook.texts import hostile_entry, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 
 def read(variable: str) -> dict[str, Any]:
@@ -27,11 +27,11 @@ def read(variable: str) -> dict[str, Any]:
 
 
 def notice(found: dict[str, Any]) -> tuple[float, float]:
-    """Return what the classroom is told (src/notify-classroom.js), as the table has it as well."""
+    """Return the points sent to the classroom (src/notify-classroom.js) and shown in the table."""
     return sum(test["score"] for test in found["tests"]), found["max_score"]
 
 
-def test_the_notice_has_the_final_points_of_everybody(mixed: ClassResult) -> None:
+def test_the_notice_has_the_final_points(mixed: ClassResult) -> None:
     for entry in mixed.entries:
         found = read(github.encoded(github.results(entry)))
         points, most = notice(found)
@@ -71,12 +71,12 @@ def test_hidden_checks_are_one_line_without_names() -> None:
     assert "build.colcon" in json.dumps(github.results(entry, show_hidden=True))
 
 
-def test_there_is_always_a_test() -> None:
+def test_there_is_always_at_least_one_test() -> None:
     for entry in (classes.entry(1, None, status="missing"), single(samples.report(checks=[]))):
         assert len(read(github.encoded(github.results(entry)))["tests"]) >= 1
 
 
-def test_the_step_s_output_is_one_line_and_the_variable_is_named_by_the_step() -> None:
+def test_the_steps_output_is_one_line_and_the_variable_has_its_name() -> None:
     line = github.github_output(github.results(single(samples.failing_report())))
     name, _, value = line.partition("=")
     assert name == "result"
@@ -87,13 +87,13 @@ def test_the_step_s_output_is_one_line_and_the_variable_is_named_by_the_step() -
 
 @settings(max_examples=60, deadline=None)
 @given(texts)
-def test_hostile_texts_keep_the_points_and_print_nothing_strange(text: str) -> None:
+def test_hostile_texts_change_no_points_and_print_no_workflow_command(text: str) -> None:
     entry = hostile_entry(text)
     found = read(github.encoded(github.results(entry)))
     assert notice(found)[0] == entry.final
     for test in found["tests"]:
         assert test["name"].isprintable()
         for line in f"{test['name']}\n{test['message']}".split("\n"):
-            # GitHub's runner would obey such a line of the log
+            # GitHub's runner would execute such a line of the log
             assert not line.lstrip().startswith("::")
             assert "##[" not in line

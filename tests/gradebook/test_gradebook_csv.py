@@ -1,4 +1,4 @@
-"""gradebook.csv: everybody is in it, its numbers are the reports', and no cell is a formula."""
+"""gradebook.csv: it has everybody with the points of their reports, and no cell is a formula."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.publish.gradebook_csv import gradebook_csv
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.report import samples
 
 FORMULA = re.compile(r"[\s\"']*[=+\-@＝＋－＠]")
@@ -22,7 +22,7 @@ def table(content: bytes) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(content.decode("utf-8-sig"), newline="")))
 
 
-def test_every_student_is_in_it_with_the_points_of_each_check(mixed: ClassResult) -> None:
+def test_every_student_has_the_points_of_each_check(mixed: ClassResult) -> None:
     rows = table(gradebook_csv(mixed))
     assert [row["key"] for row in rows] == [entry.student.key for entry in mixed.entries]
     for row, entry in zip(rows, mixed.entries, strict=True):
@@ -38,7 +38,7 @@ def test_every_student_is_in_it_with_the_points_of_each_check(mixed: ClassResult
         }
 
 
-def test_corrections_lateness_and_times_are_told(mixed: ClassResult) -> None:
+def test_corrections_lateness_and_times_are_columns(mixed: ClassResult) -> None:
     rows = {row["key"]: row for row in table(gradebook_csv(mixed))}
     assert rows["1009"]["run.output"] == "10"
     assert "M. Curie" in rows["1009"]["notes"]
@@ -51,20 +51,20 @@ def test_corrections_lateness_and_times_are_told(mixed: ClassResult) -> None:
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(texts, min_size=1, max_size=2))
-def test_no_text_becomes_a_formula_or_a_row(found: list[str]) -> None:
+def test_no_text_becomes_a_formula_or_a_new_row(found: list[str]) -> None:
     content = gradebook_csv(hostile_class(*found))
     rows = table(content)
     assert len(rows) == len(found)
     for row in rows:
         for name in ("name", "email", "username", "id_number", "section", "mistakes", "notes"):
             assert "\n" not in row[name]
-            # in a country whose spreadsheets split at semicolons
+            # in countries whose spreadsheets split at semicolons
             for piece in row[name].split(";"):
                 assert not FORMULA.match(piece) or piece.lstrip(' "').startswith("'")
             assert row[name].isprintable()
 
 
-def test_a_name_with_commas_and_quotes_comes_back_whole() -> None:
+def test_a_name_with_commas_and_quotes_is_read_back_unchanged() -> None:
     result = hostile_class("x")
     student = dataclasses.replace(result.entries[0].student, name='O\'Neil, "Jim" 名')
     entry = dataclasses.replace(result.entries[0], student=student)
@@ -72,7 +72,7 @@ def test_a_name_with_commas_and_quotes_comes_back_whole() -> None:
     assert rows[0]["name"] == student.name
 
 
-def test_the_byte_order_mark_is_there_when_asked_for() -> None:
+def test_the_byte_order_mark_is_written_on_request() -> None:
     result = hostile_class("x")
     assert gradebook_csv(result, bom=True) == b"\xef\xbb\xbf" + gradebook_csv(result)
 

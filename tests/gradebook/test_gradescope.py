@@ -1,4 +1,4 @@
-"""Gradescope's results.json: the reader's fields, our points, and what a student may not see."""
+"""Gradescope's results.json: its fields, the points, and what students must not see."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from grader.batch.model import ClassResult, Override
 from grader.batch.systems.gradescope import write as gradescope
 from grader.report.model import Report
+from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import GRADESCOPE
-from tests.gradebook.texts import hostile_entry, texts
 from tests.report import samples
 
 
-def test_real_reports_are_results_that_gradescope_reads(mixed: ClassResult) -> None:
+def test_real_reports_give_results_that_gradescope_reads(mixed: ClassResult) -> None:
     reports = [entry.report for entry in mixed.entries if entry.report is not None]
     for report in reports:
         found = gradescope.results(report)
@@ -27,7 +27,7 @@ def test_real_reports_are_results_that_gradescope_reads(mixed: ClassResult) -> N
         ]
 
 
-def test_a_failed_check_tells_what_was_found_and_how_to_fix_it(broken: Report) -> None:
+def test_a_failed_check_says_what_was_found_and_how_to_fix_it(broken: Report) -> None:
     tests = {t["extra_data"]["check"]: t for t in gradescope.results(broken)["tests"]}
     output = tests["run.output"]["output"]
     assert tests["run.output"]["status"] == "failed"
@@ -36,7 +36,7 @@ def test_a_failed_check_tells_what_was_found_and_how_to_fix_it(broken: Report) -
     assert tests["build.colcon"]["status"] == "passed"
 
 
-def test_each_check_keeps_its_visibility_and_no_other_text_names_it() -> None:
+def test_each_check_keeps_its_visibility_and_hidden_ones_are_not_named() -> None:
     hidden = samples.check("build.colcon", "failed", visibility="hidden", actual="secret fault")
     late = samples.check("run.logger", "passed", visibility="after_due_date")
     blocked = samples.check("run.output", "skipped", blocked_by="build.colcon")
@@ -67,11 +67,11 @@ def test_penalty_and_corrections_are_in_the_score_and_in_the_text() -> None:
 
 
 @pytest.mark.parametrize("penalty", [100, 1_000])
-def test_a_penalty_never_leads_below_zero(penalty: float) -> None:
+def test_a_penalty_never_gives_a_negative_score(penalty: float) -> None:
     assert gradescope.results(samples.failing_report(), penalty=penalty)["score"] == 0
 
 
-def test_what_nobody_knows_is_neither_passed_nor_failed() -> None:
+def test_an_inconclusive_check_is_neither_passed_nor_failed() -> None:
     open_ = samples.check("run.period", "inconclusive", actual="too busy")
     found = gradescope.results(samples.report(open_))
     test = next(t for t in found["tests"] if t["extra_data"]["check"] == "run.period")
@@ -80,7 +80,7 @@ def test_what_nobody_knows_is_neither_passed_nor_failed() -> None:
     assert "4 points could be neither given nor taken" in found["output"]
 
 
-def test_the_grader_s_own_fault_is_called_so() -> None:
+def test_a_grader_failure_is_called_one() -> None:
     found = gradescope.results(samples.report(status="error", checks=[], score=0))
     assert found["score"] == 0
     assert "not your package" in found["output"]

@@ -1,5 +1,6 @@
-"""The autograder archive, unpacked as Gradescope does, marks real packages in a real container-like
-root: `results.json` is there and right, whatever happens.
+"""The autograder archive, unpacked as Gradescope does, marks real packages as root of a container.
+
+`results.json` is written and right, whatever happens.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from grader.ros.prefix import Ros
 from grader.validate.tree import Replace
 from grader.verdict.mark import grade
 from grader.verdict.order import Order, make_orders
-from tests import stage, weather
+from tests import processes, weather
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.gradebook.schemas import GRADESCOPE
@@ -36,7 +37,7 @@ from tests.report import samples
 
 SOLUTION = Package(name="my_robot_controller", edits=())
 SECRETS = ("source/grader/keys", "submission_metadata.json", "results", "submission")
-# a setup.py that ends the build if it can read what is not the student's
+# a setup.py that fails the build if it can read files that are not the student's
 SPY = """import os
 for name in {places!r}:
     try:
@@ -68,7 +69,7 @@ def unpack(folder: Path, content: bytes) -> None:
 
 @pytest.fixture
 def autograder(ros_jazzy: Ros) -> Iterator[Path]:
-    """A folder that plays /autograder, open to all as there; our environment is its own."""
+    """A folder in the role of /autograder, open to all as there, with our own environment."""
     folder = Path(tempfile.mkdtemp(prefix="autograder-"))
     folder.chmod(0o755)
     unpack(folder, gradescope_zip())
@@ -78,9 +79,9 @@ def autograder(ros_jazzy: Ros) -> Iterator[Path]:
 
 
 def run(autograder: Path) -> tuple[int, dict[str, Any], str]:
-    """Run it as root of a container that is thrown away; return status, results and output."""
-    command = stage.as_root_of_a_container([str(autograder / "run_autograder")])
-    done = stage.run(command, cwd=autograder, env={"PYTHONPATH": ""})
+    """Run it as root of a throwaway container; return status, results and output."""
+    command = processes.as_root_of_a_container([str(autograder / "run_autograder")])
+    done = processes.run(command, cwd=autograder, env={"PYTHONPATH": ""})
     written = (autograder / "results/results.json").read_bytes()
     assert written.isascii()
     assert b"\r" not in written
@@ -90,7 +91,7 @@ def run(autograder: Path) -> tuple[int, dict[str, Any], str]:
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_the_solution_gets_full_marks_and_leaves_the_keys_closed(autograder: Path) -> None:
+def test_the_solution_gets_full_marks_and_cannot_read_the_keys(autograder: Path) -> None:
     places = [str(autograder / name) for name in SECRETS]
     line = "from setuptools import find_packages\n"
     edit = Replace("setup.py", line, SPY.format(places=places))
@@ -105,7 +106,7 @@ def test_the_solution_gets_full_marks_and_leaves_the_keys_closed(autograder: Pat
 
 
 @pytest.mark.full
-def test_a_broken_package_gets_its_reasons(autograder: Path) -> None:
+def test_a_broken_package_gets_the_reasons(autograder: Path) -> None:
     fault = Replace("setup.py", "my_first_node:main", "my_frist_node:main")
     write(Package(name=SOLUTION.name, edits=(fault,)), autograder / "submission")
     status, found, said = run(autograder)
@@ -118,7 +119,7 @@ def test_a_broken_package_gets_its_reasons(autograder: Path) -> None:
 
 
 @pytest.mark.full
-def test_without_a_package_there_are_results_too(autograder: Path) -> None:
+def test_a_submission_without_a_package_has_results(autograder: Path) -> None:
     (autograder / "submission/notes.txt").write_text("I could not do it")
     status, found, _ = run(autograder)
     assert (status, found["score"]) == (0, 0)
@@ -126,7 +127,7 @@ def test_without_a_package_there_are_results_too(autograder: Path) -> None:
 
 
 @pytest.mark.full
-def test_a_grader_that_cannot_start_says_that_it_is_not_the_student(autograder: Path) -> None:
+def test_a_grader_that_cannot_start_says_it_is_not_the_students_fault(autograder: Path) -> None:
     (autograder / "source/.venv").unlink()
     status, found, said = run(autograder)
     assert status != 0
@@ -136,10 +137,10 @@ def test_a_grader_that_cannot_start_says_that_it_is_not_the_student(autograder: 
 
 
 @pytest.mark.full
-def test_the_archive_s_setup_makes_all_that_it_needs(autograder: Path) -> None:
-    """`setup.sh` makes the environment from the archive alone, locked, without the tests' parts."""
+def test_the_archives_setup_installs_all_that_it_needs(autograder: Path) -> None:
+    """`setup.sh` makes the locked environment from the archive alone, without the tests' part."""
     (autograder / "source/.venv").unlink()
-    done = stage.run([autograder / "source/setup.sh"], cwd=autograder, timeout=300)
+    done = processes.run([autograder / "source/setup.sh"], cwd=autograder, timeout=300)
     assert done.returncode == 0, done.stderr
     write(SOLUTION, autograder / "submission")
     status, found, said = run(autograder)
@@ -176,7 +177,7 @@ def test_results_are_complete_after_each_check(
 
 
 @pytest.mark.parametrize("fault", [SurroundingsError("no sandbox"), RuntimeError("a bug of ours")])
-def test_a_fault_of_the_grader_keeps_what_was_found(
+def test_a_grader_failure_keeps_earlier_results(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -198,7 +199,7 @@ def test_a_fault_of_the_grader_keeps_what_was_found(
     assert str(fault) in capsys.readouterr().err, "the instructor sees why"
 
 
-def test_a_missing_submission_and_a_wrong_assignment_have_results(tmp_path: Path) -> None:
+def test_a_missing_submission_or_wrong_assignment_has_results(tmp_path: Path) -> None:
     for assignment in ("hello_time", "hello_tme"):
         assert gradescope_run.run(tmp_path, sandbox="bubblewrap", assignment=assignment) != 0
         found = json.loads((tmp_path / "results/results.json").read_text())
@@ -211,19 +212,19 @@ def test_a_missing_submission_and_a_wrong_assignment_have_results(tmp_path: Path
     "content",
     ["", "[]", "{", "null", '{"users": 3}', '{"users": [1, {"name": 2}]}', "[" * 100_000],
 )
-def test_odd_metadata_is_no_hindrance(tmp_path: Path, content: str) -> None:
+def test_invalid_metadata_is_tolerated(tmp_path: Path, content: str) -> None:
     path = tmp_path / "submission_metadata.json"
     path.write_text(content)
     assert gradescope_run.student_name(gradescope_run.read_metadata(path)) is None
     assert gradescope_run.read_metadata(tmp_path / "none") == {}
 
 
-def test_a_group_hands_in_under_all_its_names() -> None:
+def test_a_group_submission_has_all_names() -> None:
     metadata = {"users": [{"name": "Ann"}, {"name": "B\u202eob\n"}]}
     assert gradescope_run.student_name(metadata) == "Ann, B\\u202eob\\n"
 
 
-def test_the_archive_has_what_gradescope_needs_and_no_more() -> None:
+def test_the_archive_has_only_what_gradescope_needs() -> None:
     content = gradescope_zip()
     assert content == gradescope_zip(), "the same files make the same archive"
     with zipfile.ZipFile(BytesIO(content)) as archive:
@@ -241,16 +242,16 @@ def test_the_archive_has_what_gradescope_needs_and_no_more() -> None:
     assert not any("__pycache__" in name for name in names)
 
 
-def test_an_assignment_of_the_instructor_s_own_goes_in(tmp_path: Path) -> None:
+def test_the_archive_can_have_the_instructors_own_assignment(tmp_path: Path) -> None:
     own = tmp_path / "a b; $(touch x)" / "own assignment.yaml"
     own.parent.mkdir()
-    shutil.copy(stage.ROOT / "lab/course/hello_time/assignment.yaml", own)
+    shutil.copy(processes.ROOT / "lab/course/hello_time/assignment.yaml", own)
     with zipfile.ZipFile(BytesIO(gradescope_zip(assignment=str(own)))) as archive:
         assert archive.read("assignment/own assignment.yaml") == own.read_bytes()
         assert b"--assignment 'assignment/own assignment.yaml'" in archive.read("run_autograder")
 
 
-def test_another_courses_assignment_goes_in(
+def test_the_archive_can_have_another_courses_assignment(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     course = weather.write_course(tmp_path)
@@ -273,8 +274,8 @@ def test_an_archive_of_nothing_is_refused(tmp_path: Path) -> None:
 
 
 def policy(tmp_path: Path) -> Order:
-    """An order by an assignment that takes a tenth a day from 2026-11-20 12:00 in Los Angeles on."""
-    text = (stage.ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
+    """Return an order with 10% off a day after 2026-11-20 12:00 in Los Angeles."""
+    text = (processes.ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
     file = tmp_path / "assignment.yaml"
     file.write_text(f"{text}policy: {{due: 2026-11-20T12:00:00-08:00, late: {{per_day: 10%}}}}\n")
     (order,) = make_orders(tmp_path, str(file), "jazzy", "account", ())
@@ -291,7 +292,7 @@ def policy(tmp_path: Path) -> Order:
         (None, 0),
     ],
 )
-def test_lateness_is_told_by_gradescope_s_time_stamp(
+def test_lateness_comes_from_gradescopes_time_stamp(
     tmp_path: Path, created: str | None, taken: float
 ) -> None:
     metadata = {"created_at": created}
@@ -301,7 +302,7 @@ def test_lateness_is_told_by_gradescope_s_time_stamp(
 @pytest.mark.parametrize(
     ("method", "modes"), [("upload", "unknown"), ("GitHub", "recorded"), (None, "unknown")]
 )
-def test_an_exec_bit_that_an_upload_has_lost_is_not_the_student_s(
+def test_an_exec_bit_lost_by_an_upload_costs_nothing(
     tmp_path: Path, method: str | None, modes: str
 ) -> None:
     write(SOLUTION, tmp_path / "submission")

@@ -1,4 +1,4 @@
-"""JUnit XML, read by junitparser and by its schema's rules."""
+"""JUnit XML, read by junitparser and checked by the rules of its schema."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from junitparser import TestSuite as Suite
 from grader.batch.model import ClassResult
 from grader.publish.junit import class_xml, report_xml
 from grader.report.model import Report
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.report import samples
 
-# what may stand in what, and the attributes that must be there (Jenkins' xunit plugin, junit-10.xsd)
+# the children that an element may have, and its required attributes (Jenkins' junit-10.xsd)
 PARTS = {
     "testsuites": {"testsuite"},
     "testsuite": {"properties", "testcase", "system-out", "system-err"},
@@ -40,7 +40,7 @@ KINDS = {
 
 
 def suites(content: bytes) -> list[Suite]:
-    """Parse with junitparser, after the schema's rules were checked."""
+    """Check the schema's rules, then parse with junitparser."""
     for element in ET.fromstring(content).iter():
         assert {child.tag for child in element} <= PARTS.get(element.tag, set())
         assert NEEDED.get(element.tag, set()) <= set(element.attrib)
@@ -61,7 +61,7 @@ def test_each_state_of_a_check_has_its_element(reports: tuple[Report, ...]) -> N
         assert kinds(suite) == {check.id: KINDS[check.status] for check in report.checks}
 
 
-def test_the_numbers_of_the_suites_are_those_of_their_cases(mixed: ClassResult) -> None:
+def test_the_counts_of_a_suite_match_its_cases(mixed: ClassResult) -> None:
     content = class_xml(mixed)
     found = suites(content)
     assert [suite.name for suite in found] == [entry.student.key for entry in mixed.entries]
@@ -75,7 +75,7 @@ def test_the_numbers_of_the_suites_are_those_of_their_cases(mixed: ClassResult) 
     assert {name: int(top.get(name, "-1")) for name in sums} == sums
 
 
-def test_who_has_no_report_is_told_apart(mixed: ClassResult) -> None:
+def test_a_student_without_a_report_is_distinguished(mixed: ClassResult) -> None:
     found = {
         suite.name: kinds(suite)["submission"]
         for suite in suites(class_xml(mixed))
@@ -97,7 +97,7 @@ def test_corrections_and_penalties_are_properties(mixed: ClassResult) -> None:
 
 def test_a_check_that_was_corrected_to_all_its_points_passes(broken: Report) -> None:
     from grader.batch.model import Override
-    from tests.site import classes
+    from tests.pages import classes
 
     override = Override("1001", "run.output", 10, "agreed")
     entry = dataclasses.replace(classes.entry(1, broken), overrides=(override,))
@@ -107,7 +107,7 @@ def test_a_check_that_was_corrected_to_all_its_points_passes(broken: Report) -> 
 
 @settings(max_examples=80, deadline=None)
 @given(st.lists(texts, min_size=1, max_size=2))
-def test_every_text_gives_xml_that_can_be_read(found: list[str]) -> None:
+def test_every_text_gives_readable_xml(found: list[str]) -> None:
     content = class_xml(hostile_class(*found))
     assert len(suites(content)) == len(found)
     for element in ET.fromstring(content).iter():

@@ -1,4 +1,4 @@
-"""What systems and students are given of a Korean report: all of our prose in Korean."""
+"""Outputs of a Korean report for systems and students: all of our prose is Korean."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ from grader.publish.feedback import html_page, short_html
 from grader.publish.markdown import markdown
 from grader.report.model import Evidence, Report
 from grader.verdict.order import Order
-from tests import stage
-from tests.gradebook.filled import comment
+from tests import processes
+from tests.gradebook.fill import comment
 from tests.marking import ASSIGNMENT
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 TITLE = "첫 노드"
 # names, units of the SI, and words that are the same in every language
@@ -49,7 +49,7 @@ LATIN = re.compile(r"[A-Za-z]{2,}")
 
 
 def korean(report: Report) -> Report:
-    """Return a report as if all of its prose, and what programs printed, were Korean."""
+    """Return a report with all prose and program output replaced by Korean."""
     checks = []
     for check in report.checks:
         prose = dict.fromkeys(("expected", "actual", "rationale", "fix", "patch"), "글")
@@ -73,7 +73,7 @@ def korean(report: Report) -> Report:
 
 
 def report_of(**statuses: str) -> Report:
-    """Return a Korean report in which the checks `run_output=` … have these statuses."""
+    """Return a Korean report whose checks have the given statuses (`run_output=` …)."""
     changed = []
     for name, status in statuses.items():
         check_id = name.replace("_", ".", 1)
@@ -120,7 +120,7 @@ ENTRIES = list(entries())
 
 
 class Texts(HTMLParser):
-    """Collects what a reader of a page sees or hears."""
+    """Collects the text of a page, visible or read aloud."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -140,7 +140,7 @@ class Texts(HTMLParser):
 
 
 def strings(part: Any) -> Iterator[str]:
-    """Yield every text of a JSON document that is a sentence or a name, not a word of its form."""
+    """Yield every text of a JSON document that is prose or a name, not a keyword of its format."""
     if isinstance(part, dict):
         for name, value in part.items():
             form = ("status", "visibility", "extra_data", "execution_time")
@@ -154,7 +154,7 @@ def strings(part: Any) -> Iterator[str]:
 
 
 def english(text: str) -> list[str]:
-    """Return the Latin words of a text that are no names."""
+    """Return the Latin words of a text that are not names."""
     return LATIN.findall(KNOWN.sub(" ", text.replace(samples.COMMAND, " ")))
 
 
@@ -191,14 +191,14 @@ def test_what_other_systems_show_has_no_english_in_it(entry: GradebookEntry) -> 
             assert english(text) == [], text
 
 
-def test_what_is_no_report_yet_is_told_in_the_language_that_was_asked_for() -> None:
+def test_a_student_without_a_report_gets_the_chosen_language() -> None:
     found = gradescope.problem(OUR_FAULT, lang="ko")
     for text in strings(found):
         assert re.search("[가-힣]", text)
         assert english(text) == [], text
 
 
-def test_moodle_s_feedback_is_korean_and_its_header_is_moodle_s() -> None:
+def test_moodles_feedback_is_korean_and_its_header_stays() -> None:
     result: ClassResult = classes.result([ENTRIES[0]], title=TITLE)
     header, row = moodle_import(result, comment, by="email").content.decode().splitlines()
     assert header.startswith("Email address,Full name,")
@@ -221,7 +221,7 @@ def test_ids_points_and_states_are_the_same_in_both_languages() -> None:
     assert json.dumps(gradescope.results(EVERYTHING)).isascii()
 
 
-def test_gradescope_s_archive_keeps_the_language(tmp_path: Path) -> None:
+def test_gradescopes_archive_keeps_the_language(tmp_path: Path) -> None:
     with zipfile.ZipFile(io.BytesIO(gradescope_zip(lang="ko"))) as archive:
         script = archive.read("run_autograder").decode("ascii")
         names = archive.namelist()
@@ -229,14 +229,14 @@ def test_gradescope_s_archive_keeps_the_language(tmp_path: Path) -> None:
     assert "grader/base/i18n/ko/LC_MESSAGES/grader.mo" in names
     line = next(line for line in script.splitlines() if "echo " in line)
     out = tmp_path / "results.json"
-    done = stage.run(["bash", "-c", f"results={shlex.quote(str(out))}\n{line}"])
+    done = processes.run(["bash", "-c", f"results={shlex.quote(str(out))}\n{line}"])
     assert done.returncode == 0, done.stderr
     found = json.loads(out.read_text())
     assert found["score"] == 0
     assert english(found["output"]) == []
 
 
-def test_gradescope_s_results_are_korean_before_the_first_check_and_after_a_fault(
+def test_gradescopes_results_are_korean_before_the_first_check_and_after_a_fault(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "submission").mkdir()

@@ -1,4 +1,4 @@
-"""What counts as lowering a grade that is there already."""
+"""What counts as lowering an existing grade."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from grader.batch.earlier_gradebook import EarlierGradebook, read_earlier_gradeb
 from grader.batch.lowered import lowered
 from grader.batch.model import GradebookEntry, Override
 from grader.publish.gradebook_csv import gradebook_csv
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 FAILED = samples.report(samples.check("run.output", "failed"))  # 90 of 100
 
@@ -34,7 +34,7 @@ def entry(final: float | None, *overrides: Override) -> GradebookEntry:
         ("80", 90, False),
         ("80", None, True),
         ("0", 0, False),
-        # what cannot be compared is not replaced unasked
+        # a grade that cannot be compared is not replaced without consent
         ("A-", 90, True),
         ("complete", 90, True),
     ],
@@ -45,7 +45,7 @@ def test_a_grade_is_lowered_if_a_cell_gets_less(
     assert (lowered(entry(final), before, "x") is not None) == lower
 
 
-def test_what_a_correction_takes_is_the_instructors_word() -> None:
+def test_a_grade_lowered_by_a_correction_needs_no_consent() -> None:
     total = Override("1001", "", 50, "x")
     assert lowered(entry(50, total), "90", "x") is None
     taken = Override("1001", "run.starts", 1, "x")  # 4 of 5 points
@@ -59,7 +59,7 @@ def before_of(tmp_path: Path, *entries: GradebookEntry) -> EarlierGradebook:
     return read_earlier_gradebook(path)
 
 
-def test_the_gradebook_that_is_there_is_compared_row_by_row(tmp_path: Path) -> None:
+def test_the_earlier_gradebook_is_compared_row_by_row(tmp_path: Path) -> None:
     old = [classes.entry(n, FAILED, final=90) for n in range(4)]
     old.append(classes.entry(4, None, status="missing", final=0))
     before = before_of(tmp_path, *old)
@@ -75,7 +75,7 @@ def test_the_gradebook_that_is_there_is_compared_row_by_row(tmp_path: Path) -> N
     ], "what is still to be marked is not lost, and a zero for nothing is no grade"
 
 
-def test_a_student_whose_key_has_changed_is_still_there(tmp_path: Path) -> None:
+def test_a_student_whose_key_has_changed_is_found(tmp_path: Path) -> None:
     old = classes.entry(3, FAILED, final=90)
     before = before_of(tmp_path, old)
     renamed = dataclasses.replace(old, student=dataclasses.replace(old.student, key="ann"))
@@ -91,7 +91,9 @@ def test_a_student_whose_key_has_changed_is_still_there(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "content", [None, b"", b"\0\0", b"a,b\n1,2\n", b'"', "키\n1\n".encode("cp949")]
 )
-def test_what_is_no_gradebook_of_ours_holds_nothing(tmp_path: Path, content: bytes | None) -> None:
+def test_another_file_in_place_of_the_gradebook_has_no_grades(
+    tmp_path: Path, content: bytes | None
+) -> None:
     path = tmp_path / "gradebook.csv"
     if content is not None:
         path.write_bytes(content)

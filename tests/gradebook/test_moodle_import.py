@@ -1,4 +1,4 @@
-"""Moodle's gradebook import: one unknown user would end it, so nobody doubtful is in the file."""
+"""Moodle's gradebook import: an unknown user would stop it, so ambiguous users are left out."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult
 from grader.batch.systems.moodle.gradebook_import import moodle_import
-from tests.gradebook.filled import comment
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.fill import comment
+from tests.gradebook.hostile_texts import hostile_class, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 
 def rows(content: bytes) -> list[dict[str, str]]:
@@ -31,15 +31,15 @@ def test_each_student_has_one_row_by_id_number(mixed: ClassResult) -> None:
     assert "laboratory" in found[mixed.entries[9].student.id_number]["Feedback"]
 
 
-def test_a_row_without_a_grade_would_take_one_away_so_there_is_none(mixed: ClassResult) -> None:
-    """grade/import/csv takes `-` and an empty cell for null, and writes it over what is there."""
+def test_a_student_without_a_grade_has_no_row(mixed: ClassResult) -> None:
+    """grade/import/csv reads `-` and an empty cell as null and overwrites the grade with it."""
     assert any(entry.final is None for entry in mixed.entries)
     assert {row[mixed.title] for row in rows(moodle_import(mixed, comment).content)}.isdisjoint(
         {"-", ""}
     )
 
 
-def test_who_cannot_be_told_is_left_out_and_named() -> None:
+def test_an_ambiguous_student_is_left_out_and_named() -> None:
     entries = [classes.entry(n, samples.report()) for n in range(5)]
 
     def with_email(n: int, email: str) -> None:
@@ -57,7 +57,7 @@ def test_who_cannot_be_told_is_left_out_and_named() -> None:
         assert entry.student.name in warning
 
 
-def test_what_most_students_have_identifies_them() -> None:
+def test_the_field_that_most_students_have_identifies_them() -> None:
     entries = [classes.entry(n, samples.report()) for n in range(3)]
     bare = [
         dataclasses.replace(e, student=dataclasses.replace(e.student, id_number="", email=""))

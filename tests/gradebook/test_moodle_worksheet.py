@@ -1,4 +1,4 @@
-"""The teacher's own worksheet comes back with Grade and Feedback filled in and nothing else."""
+"""The instructor's worksheet comes back with only Grade and Feedback filled in."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from hypothesis import given, settings
 
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
-from tests.gradebook.filled import fill_worksheet
-from tests.gradebook.texts import hostile_class, texts
+from tests.gradebook.fill import fill_worksheet
+from tests.gradebook.hostile_texts import hostile_class, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 ENGLISH = (
     "Identifier,Full name,ID number,Email address,Status,Group,Grade,Maximum Grade,"
@@ -42,7 +42,7 @@ def rows(content: bytes, delimiter: str = ",") -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter))
 
 
-def one(number: int = 0, **fields: object) -> ClassResult:
+def class_of_one(number: int = 0, **fields: object) -> ClassResult:
     fields = {"score": 85, "final": 85, **fields}
     return classes.result([classes.entry(number, samples.failing_report(), **fields)])
 
@@ -78,7 +78,7 @@ def test_a_german_worksheet_with_semicolons_bom_and_decimal_comma() -> None:
         + f"{GERMAN}\nTeilnehmer/in1000;Ann;;Abgegeben;;100,00;Ja;-;-;\n"
         f"Teilnehmer/in1001;Bea;;Abgegeben;12,00;100,00;Ja;-;-;gut\n".encode()
     )
-    filled = fill_worksheet(worksheet, one(score=85.5, final=85.5))
+    filled = fill_worksheet(worksheet, class_of_one(score=85.5, final=85.5))
     after = rows(filled.content, ";")
     assert after[0]["Bewertung"] == "85,5"
     assert after[0]["Feedback als Kommentar"].startswith("<p>")
@@ -86,30 +86,32 @@ def test_a_german_worksheet_with_semicolons_bom_and_decimal_comma() -> None:
     assert filled.content.startswith(b"\xef\xbb\xbfID;")
 
 
-def test_other_orders_and_unknown_columns_are_no_hindrance() -> None:
+def test_other_column_orders_and_unknown_columns_are_accepted() -> None:
     worksheet = (
         b"Groupe,Remarques,Note,Note maximale,Commentaires de feedback,Identifiant\n"
         b"Groupe 1,x,,100.00,,Participant1000\nGroupe 1,y,,100.00,,Participant1002\n"
     )
-    after = rows(fill_worksheet(worksheet, one()).content)
+    after = rows(fill_worksheet(worksheet, class_of_one()).content)
     assert after[0]["Note"] == "85"
     assert after[0]["Remarques"] == "x"
     assert after[1]["Note"] == ""
 
 
-def test_an_unknown_language_works_with_the_columns_named() -> None:
+def test_an_unknown_language_works_if_the_columns_are_named() -> None:
     worksheet = b"Kennung,Pisteet,Palaute\nOsallistuja 1000,,\nOsallistuja 1001,,\n"
     with pytest.raises(UsageError, match="Pisteet") as caught:
-        fill_worksheet(worksheet, one())
+        fill_worksheet(worksheet, class_of_one())
     assert "--grade-column" in caught.value.remedy
-    filled = fill_worksheet(worksheet, one(), grade_column="pisteet", feedback_column="Palaute")
+    filled = fill_worksheet(
+        worksheet, class_of_one(), grade_column="pisteet", feedback_column="Palaute"
+    )
     assert rows(filled.content)[0]["Pisteet"] == "85"
     assert rows(filled.content)[0]["Palaute"].startswith("<p>")
     with pytest.raises(UsageError, match="no column 'Points'"):
-        fill_worksheet(worksheet, one(), grade_column="Points")
+        fill_worksheet(worksheet, class_of_one(), grade_column="Points")
 
 
-def test_who_is_not_in_the_worksheet_is_named() -> None:
+def test_a_student_outside_the_worksheet_is_named() -> None:
     result = classes.result([classes.entry(n, samples.report()) for n in (0, 1)])
     filled = fill_worksheet(english(1, 2), result)
     assert filled.warnings == (
@@ -118,8 +120,8 @@ def test_who_is_not_in_the_worksheet_is_named() -> None:
     assert [row["Grade"] for row in rows(filled.content)] == ["100", ""]
 
 
-def test_a_class_from_elsewhere_is_joined_by_email_never_by_a_number() -> None:
-    result = dataclasses.replace(one(1), system="folders")
+def test_a_class_of_another_system_is_matched_by_email_not_by_number() -> None:
+    result = dataclasses.replace(class_of_one(1), system="folders")
     swapped = (
         english(0, 1)
         .replace(b"Participant 1001", b"Participant 1")
@@ -129,8 +131,8 @@ def test_a_class_from_elsewhere_is_joined_by_email_never_by_a_number() -> None:
     assert [row["Grade"] for row in after] == ["", "85"]
 
 
-def test_more_than_the_maximum_is_refused_by_name() -> None:
-    result = one()
+def test_a_grade_above_the_maximum_is_refused_with_the_name() -> None:
+    result = class_of_one()
     with pytest.raises(UsageError) as caught:
         fill_worksheet(english(0, 1, maximum="50.00"), result)
     assert result.entries[0].student.name in caught.value.message
@@ -148,23 +150,23 @@ def test_more_than_the_maximum_is_refused_by_name() -> None:
         (b"Identifier,Full name,Grade\nParticipant 1000,Ann\n", "damaged"),
     ],
 )
-def test_what_is_no_worksheet_is_refused(content: bytes, said: str) -> None:
+def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, said: str) -> None:
     with pytest.raises(UsageError, match=said):
-        fill_worksheet(content, one())
+        fill_worksheet(content, class_of_one())
 
 
 @settings(max_examples=60, deadline=None)
 @given(texts)
-def test_no_text_of_a_submission_breaks_a_cell_for_php_or_for_html(text: str) -> None:
+def test_no_submission_text_breaks_a_cell_in_php_or_html(text: str) -> None:
     worksheet = english(0, 1)
     result = hostile_class(text)
-    # (whose row it is, is told by number and name)
+    # the row is identified by number and name
     student = dataclasses.replace(result.entries[0].student, name=classes.student(0).name)
     entry = dataclasses.replace(result.entries[0], student=student)
     result = dataclasses.replace(result, entries=(entry,))
     content = fill_worksheet(worksheet, result).content
     after = rows(content)
-    # PHP's fgetcsv takes a backslash for an escape; both readers must see the same
+    # PHP's fgetcsv reads a backslash as an escape; both readers must get the same
     escaping = csv.DictReader(
         io.StringIO(content.decode(), newline=""), escapechar="\\", doublequote=True
     )

@@ -1,4 +1,4 @@
-"""The files of a class: all there, whole, for their owner only, and never half of them."""
+"""The output files of a class: complete, readable by their owner only, never partial."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from grader.batch.systems.moodle.worksheet import read_worksheet
 from grader.publish import gradebooks as outputs
 from grader.publish.gradebooks import write_outputs
 from grader.publish.written import raise_failures
+from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.gradebook.test_canvas import POSSIBLE, export, student
 from tests.gradebook.test_moodle_worksheet import english
-from tests.gradebook.texts import hostile_class, texts
 
 
 def files(out: Path) -> set[Path]:
@@ -66,7 +66,7 @@ def test_the_same_result_gives_the_same_bytes(mixed: ClassResult, tmp_path: Path
     assert first == {p.name: p.read_bytes() for p in write_outputs(mixed, tmp_path / "b").files}
 
 
-def test_the_others_are_written_if_one_output_is_refused(
+def test_the_other_outputs_are_written_if_one_is_refused(
     mixed: ClassResult, tmp_path: Path
 ) -> None:
     worksheet = read_worksheet(english(*range(24), maximum="10.00"))
@@ -81,7 +81,7 @@ def test_the_others_are_written_if_one_output_is_refused(
     assert "All other files were written" in caught.value.remedy
 
 
-def test_a_fault_of_ours_in_one_output_costs_none_of_the_others(
+def test_a_failing_output_does_not_prevent_the_others(
     mixed: ClassResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(result: ClassResult, *, bom: bool) -> bytes:
@@ -91,11 +91,11 @@ def test_a_fault_of_ours_in_one_output_costs_none_of_the_others(
     written = write_outputs(mixed, tmp_path)
     assert (tmp_path / "junit.xml").is_file()
     assert len(list((tmp_path / "feedback").iterdir())) == 2 * len(mixed.entries)
-    with pytest.raises(KeyError):  # it is told with its traceback
+    with pytest.raises(KeyError):  # it is reported with its traceback
         raise_failures(written.failures)
 
 
-def test_a_link_in_the_way_is_not_followed(mixed: ClassResult, tmp_path: Path) -> None:
+def test_a_link_at_the_output_path_is_not_followed(mixed: ClassResult, tmp_path: Path) -> None:
     out, theirs = tmp_path / "out", tmp_path / "theirs"
     out.mkdir()
     theirs.mkdir()

@@ -1,4 +1,4 @@
-"""PrairieLearn's results.json: gradable or not, points on all tests, one megabyte at most."""
+"""PrairieLearn's results.json: gradable or not, points of all tests, at most one megabyte."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from grader.batch.model import ClassResult
 from grader.batch.points import single
 from grader.batch.systems.prairielearn import write as prairielearn
 from grader.report.model import Report
+from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import PRAIRIELEARN
-from tests.gradebook.texts import hostile_entry, texts
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 
 def test_the_score_is_the_share_of_the_final_points(mixed: ClassResult) -> None:
@@ -27,7 +27,7 @@ def test_the_score_is_the_share_of_the_final_points(mixed: ClassResult) -> None:
             assert len(found["tests"]) == len(entry.report.checks)
 
 
-def test_an_archive_that_cannot_be_read_costs_no_attempt() -> None:
+def test_an_unreadable_archive_costs_no_attempt() -> None:
     entry = classes.entry(1, None, status="ungradable", problem="not a zip file any more")
     found = prairielearn.results(entry)
     assert found["gradable"] is False
@@ -35,7 +35,7 @@ def test_an_archive_that_cannot_be_read_costs_no_attempt() -> None:
     assert "score" not in found
 
 
-def test_corrections_and_lateness_are_told(mixed: ClassResult) -> None:
+def test_corrections_and_lateness_are_shown(mixed: ClassResult) -> None:
     late, corrected = mixed.entry("1003"), mixed.entry("1009")
     assert "late: -5 points" in prairielearn.results(late)["message"]
     tests = {test["name"]: test for test in prairielearn.results(corrected)["tests"]}
@@ -52,13 +52,13 @@ def test_hidden_checks_have_points_but_no_name() -> None:
     assert sum(test["max_points"] for test in prairielearn.results(entry)["tests"]) == 100
 
 
-def test_what_was_printed_is_in_it(broken: Report) -> None:
+def test_program_output_is_included(broken: Report) -> None:
     output = prairielearn.results(single(broken))["output"]
     assert "hello time: 9" in output
     assert "Finished <<< my_robot_controller" in output
 
 
-def test_a_report_of_many_megabytes_fits() -> None:
+def test_a_report_of_many_megabytes_is_cut_to_the_limit() -> None:
     long = "\U0001f600" * 400 + "\n"
     checks = [
         samples.check(f"check.n{n}", "failed", actual=long * 40, fix=long * 40, expected=long * 40)

@@ -1,4 +1,4 @@
-"""A teacher's CSV file is read as `csv` reads it, and only the cells that we fill in change."""
+"""An instructor's CSV file is read as `csv` reads it, and only the filled cells change."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from grader.base.errors import UsageError
 from grader.batch.sheet import Sheet
-from tests.gradebook.texts import texts
+from tests.gradebook.hostile_texts import texts
 
 bits = st.lists(st.sampled_from(["a", "ß", '"', ",", ";", "\t", "\r", "\n", "\r\n", " "])).map(
     "".join
@@ -24,7 +24,7 @@ def rows_of(content: bytes, delimiter: str) -> list[list[str]]:
 
 
 @given(bits.filter(lambda text: text.strip("\r\n") != ""), st.booleans())
-def test_every_text_is_read_as_csv_reads_it(text: str, bom: bool) -> None:
+def test_every_text_is_read_as_the_csv_module_reads_it(text: str, bom: bool) -> None:
     content = text.encode("utf-8-sig" if bom else "utf-8")
     sheet = Sheet(content, name="x")
     assert [[c.value for c in row] for row in sheet.rows] == rows_of(content, sheet.delimiter)
@@ -39,7 +39,7 @@ def test_every_text_is_read_as_csv_reads_it(text: str, bom: bool) -> None:
     st.sampled_from(["\n", "\r\n"]),
     texts.map(lambda t: t.replace("\x00", "")),
 )
-def test_one_filled_cell_changes_no_other(
+def test_filling_a_cell_changes_no_other(
     rows: list[list[str]], delimiter: str, end: str, value: str
 ) -> None:
     rows[0] = ["Identifier", "Grade", "Feedback"]
@@ -66,14 +66,14 @@ def test_bytes_around_a_filled_cell_stay() -> None:
         ("cp949", "김민지", "CP949"),
         ("cp949", "뷁 가나다라마", "CP949"),
         ("cp1252", "Änn Å€", "Windows-1252"),
-        # valid CP949 as well: a Hangul syllable that hardly anybody is called
+        # valid CP949 as well: a Hangul syllable that hardly occurs in names
         ("cp1252", "Åsa Berg", "Windows-1252"),
         ("latin-1", "Zo\xeb \x81", "Latin-1"),
         ("utf-16", "김민지", ""),
         ("utf-8-sig", "김민지", ""),
     ],
 )
-def test_every_encoding_of_a_spreadsheet_is_read_and_becomes_utf8(
+def test_every_spreadsheet_encoding_is_read_and_written_as_utf8(
     encoding: str, name: str, said: str
 ) -> None:
     sheet = Sheet(f"a,b\n{name},1\n".encode(encoding), name="the file")
@@ -91,6 +91,6 @@ def test_every_encoding_of_a_spreadsheet_is_read_and_becomes_utf8(
         (b"\n\n", "is empty"),
     ],
 )
-def test_what_is_no_csv_file_is_refused(content: bytes, said: str) -> None:
+def test_a_file_that_is_not_csv_is_refused(content: bytes, said: str) -> None:
     with pytest.raises(UsageError, match=said):
         Sheet(content, name="the file")

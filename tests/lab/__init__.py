@@ -1,1 +1,1 @@
-"""Tests of the student's side."""
+"""Tests of the lab, which students use."""

@@ -17,7 +17,7 @@ IMAGES = (
 
 @pytest.fixture(params=["bubblewrap", *IMAGES])
 def kind(request: pytest.FixtureRequest, ros_jazzy: Ros) -> Iterator[Kind]:
-    """Each kind of lab in turn."""
+    """Each kind of lab."""
     yield from open_kind(request.param)
 
 

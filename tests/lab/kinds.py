@@ -1,4 +1,4 @@
-"""The kinds of lab; every test of a visit runs the same steps in each of them."""
+"""The kinds of lab; every test with an open lab runs the same steps in each of them."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ LABEL = "ros2-teaching-lab.lab"
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of lab: the value of --sandbox, and what chooses its image."""
+    """A kind of lab: the value of --sandbox, and the variables that choose its image."""
 
     sandbox: str
     env: dict[str, str] = field(default_factory=dict)
 
 
 def open_kind(name: str) -> Iterator[Kind]:
-    """Yield a kind: `bubblewrap`, or the image `lab-jazzy` or `lab-jazzy-wheels` alone."""
+    """Yield a kind: `bubblewrap`, or Docker with only `lab-jazzy` or `lab-jazzy-wheels`."""
     if name == "bubblewrap":
         yield Kind("bubblewrap")
         return
@@ -41,7 +41,7 @@ def open_kind(name: str) -> Iterator[Kind]:
 
 
 def containers(workspace: Path) -> list[str]:
-    """Return the states of the containers that have this workspace, running or not."""
+    """Return the states of all containers with this workspace, running or not."""
     import docker
 
     client = docker.from_env()

@@ -1,4 +1,4 @@
-"""A lab on a pseudo-terminal, typed into as a student does."""
+"""A lab on a pseudo-terminal, used by typing as a student does."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from pathlib import Path
 import pexpect
 
 from grader.base.cache import cache_root
-from tests import stage
+from tests import processes
 from tests.lab.kinds import Kind
 
 PROMPT = re.compile(r"student@lab-\w+:[^\n$]*\$ ")
-WAIT = 60  # seconds for one command, a build on a busy machine included
+WAIT = 60  # seconds for one command, including a build on a busy machine
 _worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
 _domains = itertools.count(10 + 20 * (_worker % 4))
 
@@ -27,7 +27,7 @@ def command(*words: str | Path) -> list[str]:
 
 
 def environment(**more: str) -> dict[str, str]:
-    """Return a caller's variables; the cache is root's, as in a class's machine room."""
+    """Return a caller's environment variables; the cache is root's, as in a computer lab."""
     inherited = {k: v for k, v in os.environ.items() if not k.startswith(("SUDO_", "ROS_"))}
     own = {"TERM": "dumb", "GRADER_CACHE": str(cache_root())}
     return inherited | own | more
@@ -39,7 +39,7 @@ def new_domain() -> str:
 
 
 class Lab:
-    """An open lab; `screen` is the pexpect terminal."""
+    """An open lab; `screen` is its pexpect terminal."""
 
     def __init__(
         self,
@@ -51,11 +51,11 @@ class Lab:
         distro: str = "jazzy",
     ) -> None:
         words = command("--sandbox", kind.sandbox, "--workspace", workspace, "--distro", distro)
-        words = stage.as_user(words) if user else words
+        words = processes.as_user(words) if user else words
         self.screen = pexpect.spawn(
             words[0],
             words[1:],
-            cwd=str(stage.ROOT),
+            cwd=str(processes.ROOT),
             env=environment(**{"ROS_DOMAIN_ID": new_domain(), **kind.env, **(env or {})}),
             encoding="utf-8",
             timeout=WAIT,
@@ -71,12 +71,12 @@ class Lab:
         self.screen.close(force=True)
 
     def wait_for_prompt(self) -> str:
-        """Return what was printed until the prompt came."""
+        """Return the output up to the prompt."""
         self.screen.expect(PROMPT)
         return str(self.screen.before).replace("\r", "")
 
     def type(self, line: str) -> str:
-        """Type a line, and return what it printed."""
+        """Type a line and return its output."""
         self.screen.sendline(line)
         return self.wait_for_prompt().removeprefix(line + "\n")
 
@@ -85,7 +85,7 @@ class Lab:
         return int(self.type("echo $?"))
 
     def write(self, file: str, text: str) -> None:
-        """Write a file as one does without an editor."""
+        """Write a file with a here-document."""
         self.screen.sendline(f"cat > {file} << 'END'")
         for line in text.splitlines():
             self.screen.sendline(line)
@@ -93,12 +93,12 @@ class Lab:
         self.wait_for_prompt()
 
     def interrupt(self) -> str:
-        """Press Ctrl+C and return what came until the prompt was back."""
+        """Press Ctrl+C and return the output up to the prompt."""
         self.screen.sendintr()
         return self.wait_for_prompt()
 
     def leave(self) -> int:
-        """Type `exit` and return the lab's own exit status."""
+        """Type `exit` and return the lab's exit status."""
         self.screen.sendline("exit")
         self.screen.expect(pexpect.EOF)
         self.screen.close()

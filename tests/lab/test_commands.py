@@ -1,4 +1,4 @@
-"""A command that is run in the lab instead of a shell; the same in every kind of lab."""
+"""A command run in the lab instead of a shell, the same in every kind of lab."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.lab.helpers import run
 from tests.lab.kinds import Kind
-from tests.lab.visits import run
 
 
-def test_nodes_stay_on_this_machine_unless_told_otherwise(kind: Kind, tmp_path: Path) -> None:
+def test_nodes_stay_on_this_machine_by_default(kind: Kind, tmp_path: Path) -> None:
     asked = ("--", "bash", "-c", "echo $ROS_AUTOMATIC_DISCOVERY_RANGE")
     assert run(kind, tmp_path / "ws", *asked).stdout == "LOCALHOST\n"
     wide = Kind(kind.sandbox, {**kind.env, "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
@@ -22,13 +22,13 @@ def test_nodes_stay_on_this_machine_unless_told_otherwise(kind: Kind, tmp_path: 
     ("script", "status"),
     [("exit 0", 0), ("exit 7", 7), ("no-such-command", 127), ("kill -9 $$", 137)],
 )
-def test_a_commands_exit_status_is_the_labs(
+def test_the_lab_exits_with_the_commands_status(
     script: str, status: int, kind: Kind, tmp_path: Path
 ) -> None:
     assert run(kind, tmp_path / "ws", "--", "bash", "-c", script).returncode == status
 
 
-def test_a_commands_output_and_errors_come_apart_and_whole(kind: Kind, tmp_path: Path) -> None:
+def test_a_commands_stdout_and_stderr_are_separate_and_complete(kind: Kind, tmp_path: Path) -> None:
     script = "echo first >&2; seq 100000; echo last >&2"
     done = run(kind, tmp_path / "ws", "--", "bash", "-c", script)
     assert done.stdout.split() == [str(number) for number in range(1, 100_001)]
@@ -43,7 +43,7 @@ def test_a_script_on_standard_input_is_run_with_ros(kind: Kind, tmp_path: Path) 
     assert (tmp_path / "ws" / "v").read_text() == Path("/proc/version").read_text()
 
 
-def test_the_students_are_not_root_and_have_no_privilege(kind: Kind, tmp_path: Path) -> None:
+def test_the_student_is_not_root_and_has_no_privileges(kind: Kind, tmp_path: Path) -> None:
     script = "id -u; grep -E 'CapEff|CapPrm|CapBnd|NoNewPrivs' /proc/self/status"
     uid, *lines = run(kind, tmp_path / "ws", "--", "bash", "-c", script).stdout.splitlines()
     assert int(uid) == (os.geteuid() or 1000)
@@ -52,7 +52,7 @@ def test_the_students_are_not_root_and_have_no_privilege(kind: Kind, tmp_path: P
     assert values["NoNewPrivs"] == "1"
 
 
-def test_solutions_and_the_callers_secrets_are_not_in_the_lab(
+def test_the_lab_has_no_solutions_and_no_secrets_of_the_caller(
     kind: Kind, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SECRET_TOKEN", "abc")

@@ -1,4 +1,4 @@
-"""A lab that is opened for another course's lesson: its guide, its check, and nothing beside it."""
+"""A lab for another course's lesson: its guide, its check, and nothing else."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from lab.config import LabConfig
 from lab.lesson import chosen_lesson
 from lab.workspace import prepare
 from tests import weather
+from tests.lab.helpers import run
 from tests.lab.kinds import Kind
-from tests.lab.visits import run
 
 
 def of_course(kind: Kind, course: Path, **more: str) -> Kind:
@@ -24,7 +24,7 @@ def of_course(kind: Kind, course: Path, **more: str) -> Kind:
 
 
 def workspace_with(folder: Path, broken: bool) -> Path:
-    """Make a workspace with the package in it, the student's own to write to."""
+    """Make a workspace with the package in it, writable by the student."""
     source = folder / "ws" / "src"
     source.mkdir(parents=True)
     edits = [Replace(weather.SETUP, weather.ENTRY, "")] if broken else []
@@ -35,9 +35,7 @@ def workspace_with(folder: Path, broken: bool) -> Path:
     return source.parent
 
 
-def test_guide_and_check_are_the_lessons_that_the_lab_was_opened_for(
-    kind: Kind, tmp_path: Path
-) -> None:
+def test_guide_and_check_belong_to_the_lesson_of_the_lab(kind: Kind, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     workspace = workspace_with(tmp_path, broken=True)
     opened = of_course(kind, course)
@@ -56,7 +54,7 @@ def test_guide_and_check_are_the_lessons_that_the_lab_was_opened_for(
     assert "f'Reading {self." in explained.stdout
 
 
-def test_the_lab_has_the_lesson_alone_and_cannot_write_to_it(kind: Kind, tmp_path: Path) -> None:
+def test_the_lab_has_only_the_lesson_and_cannot_write_to_it(kind: Kind, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     (course / "solutions.txt").write_text("secret")
     script = (
@@ -83,14 +81,14 @@ def test_a_lesson_may_be_named_by_its_file(kind: Kind, tmp_path: Path) -> None:
     assert not (tmp_path / "x").exists()
 
 
-def test_our_own_course_is_opened_for_its_lesson(kind: Kind, tmp_path: Path) -> None:
+def test_the_default_course_is_opened_for_its_lesson(kind: Kind, tmp_path: Path) -> None:
     script = 'echo "$GRADER_ASSIGNMENT-$GRADER_COURSE"; ls /opt/ros2_teaching_lab/course'
     done = run(kind, tmp_path / "ws", "--", "bash", "-c", script)
     assert done.stdout.split() == ["hello_time-"]
 
 
 def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
-    """(What is mounted in a container cannot be changed any more.)"""
+    """The mounts of an existing container cannot be changed."""
     course = weather.write_course(tmp_path, "winds")
     workspace = prepare(tmp_path / "ws")
     found = find_distro("jazzy")
@@ -109,8 +107,8 @@ def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
     ]
 
 
-def test_a_home_folder_is_no_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All that a person has would be in the lab."""
+def test_a_home_folder_is_not_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All files of the person would be visible in the lab."""
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     for folder in (tmp_path / "home", tmp_path):
         folder.mkdir(exist_ok=True)

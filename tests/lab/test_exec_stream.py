@@ -1,4 +1,4 @@
-"""The connection to a command in a container, against a daemon of our own that is quicker than any."""
+"""The connection to a command in a container, tested with our own very fast daemon."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lab.exec_stream import STDERR, STDOUT, ExecStream
 
 
 class _Daemon(socketserver.StreamRequestHandler):
-    """Answers `exec`; the command's first words come in one piece with the answer's head."""
+    """Answers `exec`; the command's first output arrives together with the response header."""
 
     def handle(self) -> None:
         while line := self.rfile.readline():
@@ -52,7 +52,7 @@ def api(tmp_path: Path) -> Iterator[docker.APIClient]:
         thread.join()
 
 
-def test_words_that_come_with_the_answers_head_are_not_lost(api: docker.APIClient) -> None:
+def test_output_that_arrives_with_the_response_header_is_not_lost(api: docker.APIClient) -> None:
     stream = ExecStream(api, "any", ["true"], tty=True)
     said = b""
     while data := stream.read():
@@ -62,7 +62,7 @@ def test_words_that_come_with_the_answers_head_are_not_lost(api: docker.APIClien
 
 
 @pytest.mark.parametrize("size", [1, 7, 8, 9, 1000])
-def test_the_two_streams_are_taken_apart_however_they_are_cut(size: int) -> None:
+def test_the_two_streams_are_separated_however_they_are_split(size: int) -> None:
     sent = [(STDOUT, b"a" * 300), (STDERR, b"b"), (STDOUT, b""), (STDOUT, b"c\n")]
     wire = b"".join(struct.pack(">BxxxL", stream, len(text)) + text for stream, text in sent)
     frames = Frames()

@@ -1,4 +1,4 @@
-"""The guide tells from the workspace where a student is, and what comes next."""
+"""The guide finds the student's current step from the workspace, and the next action."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ import pytest
 from grader.course.load import load_assignment
 from lab.guide import progress as steps
 from lab.guide.lesson import read_lesson
-from tests import stage
-from tests.lab.walk import NODE
+from tests import processes
+from tests.lab.ten_steps import NODE
 from tests.lab.workspaces import PACKAGE, SETUP, after_step, put
 
-COURSE = stage.ROOT / "lab/course/hello_time"
+COURSE = processes.ROOT / "lab/course/hello_time"
 LESSON = read_lesson(COURSE / "lesson.md", distro="jazzy")
 INNER = f"src/{PACKAGE}/{PACKAGE}"
 FILE = f"{INNER}/my_first_node.py"
@@ -31,11 +31,11 @@ def found(workspace: Path, environment: Mapping[str, str]) -> tuple[str, ...]:
 
 def guide(*words: str, workspace: Path, env: dict[str, str]) -> tuple[int, str, str]:
     line = [sys.executable, "-m", "lab.guide", "--workspace", str(workspace), *words]
-    done = stage.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **env})
+    done = processes.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **env})
     return done.returncode, done.stdout, done.stderr
 
 
-def test_every_step_of_the_lesson_can_be_told() -> None:
+def test_every_step_of_the_lesson_can_be_detected() -> None:
     assert [step.number for step in LESSON.steps] == list(range(1, 11))
     assert [step.done for step in LESSON.steps] == list(steps.STEPS)
 
@@ -72,7 +72,7 @@ def test_another_terminal_has_not_sourced_the_overlay(tmp_path: Path) -> None:
         ("class MyFirstNode(Node):", "class MyFirstNode(Node)", "line 6"),
     ],
 )
-def test_an_unfinished_node_is_told_by_what_is_missing(
+def test_an_unfinished_node_is_reported_with_what_is_missing(
     old: str, new: str, said: str, tmp_path: Path
 ) -> None:
     environment = after_step(tmp_path / "ws", 9, NODE.replace(old, new))
@@ -81,14 +81,14 @@ def test_an_unfinished_node_is_told_by_what_is_missing(
     assert said in now[5]
 
 
-def test_another_way_to_write_the_node_counts_as_well(tmp_path: Path) -> None:
+def test_another_way_to_write_the_node_counts(tmp_path: Path) -> None:
     node = NODE.replace("from rclpy.node import Node", "import rclpy.node as n")
     environment = after_step(tmp_path / "ws", 9, node.replace("(Node)", "(n.Node)"))
     assert steps.current(found(tmp_path / "ws", environment)) == 10
 
 
-def test_files_in_the_wrong_state_are_told_as_what_they_are(tmp_path: Path) -> None:
-    """Each fault by itself, in a workspace that is right otherwise."""
+def test_files_in_a_wrong_state_are_reported(tmp_path: Path) -> None:
+    """Each mistake alone, in an otherwise right workspace."""
 
     def after(name: str) -> tuple[Path, Mapping[str, str]]:
         return tmp_path / name, after_step(tmp_path / name, 9, NODE)
@@ -117,7 +117,7 @@ def test_files_in_the_wrong_state_are_told_as_what_they_are(tmp_path: Path) -> N
     assert "You built in src" in found(workspace, environment)[3]
 
 
-def test_a_merged_install_folder_counts_as_well(tmp_path: Path) -> None:
+def test_a_merged_install_folder_counts(tmp_path: Path) -> None:
     environment = after_step(tmp_path / "ws", 9, NODE)
     install = tmp_path / "ws" / "install"
     for part in ("share", "lib"):
@@ -125,7 +125,7 @@ def test_a_merged_install_folder_counts_as_well(tmp_path: Path) -> None:
     assert steps.current(found(tmp_path / "ws", environment)) == 10
 
 
-def test_what_is_no_workspace_at_all_is_step_2(tmp_path: Path) -> None:
+def test_a_folder_that_is_not_a_workspace_is_at_step_2(tmp_path: Path) -> None:
     assert steps.current(found(tmp_path / "none", {"AMENT_PREFIX_PATH": "/opt/ros/jazzy"})) == 2
 
 
@@ -139,10 +139,10 @@ def test_the_command_shows_the_current_step_and_one_next_action(tmp_path: Path) 
     assert re.findall("^Next: .*$", out, re.MULTILINE) == [
         "Next: Write the node in my_first_node.py."
     ]
-    assert guide(workspace=tmp_path / "ws", env=env)[1] == out  # nothing is counted
+    assert guide(workspace=tmp_path / "ws", env=env)[1] == out  # no state is kept
 
 
-def test_a_step_by_number_the_list_and_the_whole_lesson(tmp_path: Path) -> None:
+def test_one_step_the_list_and_the_whole_lesson_can_be_shown(tmp_path: Path) -> None:
     env = after_step(tmp_path / "ws", 5, NODE)
     assert guide("9", workspace=tmp_path / "ws", env=env)[1].startswith("Step 9 of 10")
     listed = guide("list", workspace=tmp_path / "ws", env=env)[1].splitlines()
@@ -153,7 +153,7 @@ def test_a_step_by_number_the_list_and_the_whole_lesson(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("word", ["0", "11", "lst", "-1", "²"])
-def test_a_step_that_is_none_is_wrong_usage(word: str, tmp_path: Path) -> None:
+def test_an_unknown_step_is_a_usage_error(word: str, tmp_path: Path) -> None:
     status, out, err = guide(word, workspace=tmp_path, env={})
     assert (status, out) == (2, "")
     assert "Traceback" not in err
@@ -165,9 +165,9 @@ def test_the_commands_are_those_of_the_labs_distro(tmp_path: Path) -> None:
     assert "jazzy" not in out
 
 
-def test_on_a_terminal_commands_are_in_one_piece(tmp_path: Path) -> None:
-    """A command that is broken into lines cannot be copied."""
-    env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(stage.ROOT)}
+def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
+    """A command that is wrapped cannot be copied."""
+    env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(processes.ROOT)}
     screen = pexpect.spawn(
         sys.executable,
         ["-m", "lab.guide", "3", "--workspace", str(tmp_path)],

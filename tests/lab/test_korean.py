@@ -12,15 +12,15 @@ import pytest
 from grader.base.i18n.translator import LANGUAGES
 from grader.ros.prefix import Ros
 from lab.guide.lesson import lesson_file, read_lesson
-from tests import stage
+from tests import processes
+from tests.lab.helpers import run
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment
-from tests.lab.visits import run
-from tests.lab.walk import NODE
+from tests.lab.ten_steps import NODE
 from tests.lab.workspaces import after_step, put
 
-COURSE = stage.ROOT / "lab/course/hello_time"
-WORDS = stage.ROOT / "lab/shell/words"
+COURSE = processes.ROOT / "lab/course/hello_time"
+WORDS = processes.ROOT / "lab/shell/words"
 STARTER = COURSE / "starter/src"
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
 BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
@@ -32,16 +32,16 @@ KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""
 
 def guide(*words: str, workspace: Path, env: dict[str, str]) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "lab.guide", "--workspace", str(workspace), *words]
-    return stage.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **KOREAN, **env})
+    return processes.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **KOREAN, **env})
 
 
 def code_of(text: str) -> list[str]:
-    """Return what is to be typed, or is printed, word for word."""
+    """Return the texts to be typed, or printed, literally."""
     return BLOCK.findall(text)
 
 
 def names_in(text: str) -> set[str]:
-    """Return the names, commands and messages that a lesson sets as code within a line."""
+    """Return the names, commands and messages that a lesson formats as inline code."""
     return set(INLINE.findall(BLOCK.sub("", text)))
 
 
@@ -73,7 +73,7 @@ def test_the_lesson_has_the_same_steps_with_the_same_parts(lang: str) -> None:
     assert [(s.number, s.done) for s in same.steps] == [(s.number, s.done) for s in one.steps]
     for step, other in zip(one.steps, same.steps, strict=True):
         assert code_of(other.text) == code_of(step.text)
-        for part in (r"^\d\. ", r"^\|", r"^\*(?!\*)"):  # the guide names a list's parts by number
+        for part in (r"^\d\. ", r"^\|", r"^\*(?!\*)"):  # the guide refers to list items by number
             found = [re.findall(part, text, re.MULTILINE) for text in (step.text, other.text)]
             assert found[0] == found[1]
 
@@ -83,8 +83,8 @@ def test_a_language_without_a_lesson_has_the_english_one(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("step", range(2, 10))
-def test_the_guide_tells_each_next_thing_in_korean(step: int, tmp_path: Path) -> None:
-    """(A next thing that is nothing but a command is the same in every language.)"""
+def test_the_guide_names_each_next_action_in_korean(step: int, tmp_path: Path) -> None:
+    """A next action that is only a command is the same in every language."""
     env = after_step(tmp_path / "ws", step, NODE)
     done = guide(workspace=tmp_path / "ws", env=env)
     assert (done.returncode, done.stderr) == (0, "")
@@ -110,7 +110,7 @@ def test_the_guide_tells_each_next_thing_in_korean(step: int, tmp_path: Path) ->
         ("class MyFirstNode(Node):", "class MyFirstNode(Node)"),
     ],
 )
-def test_what_a_node_lacks_is_told_in_korean(old: str, new: str, tmp_path: Path) -> None:
+def test_missing_parts_of_a_node_are_named_in_korean(old: str, new: str, tmp_path: Path) -> None:
     env = after_step(tmp_path / "ws", 9, NODE.replace(old, new))
     *_, last = guide(workspace=tmp_path / "ws", env=env).stdout.splitlines()
     assert "my_first_node.py" in last
@@ -118,7 +118,7 @@ def test_what_a_node_lacks_is_told_in_korean(old: str, new: str, tmp_path: Path)
     assert PROSE.findall(last) == []
 
 
-def test_a_package_in_a_wrong_state_and_a_wrong_step_are_told_in_korean(tmp_path: Path) -> None:
+def test_a_package_in_a_wrong_state_and_a_wrong_step_are_reported_in_korean(tmp_path: Path) -> None:
     env = after_step(tmp_path / "ws", 9, NODE)
     put(tmp_path / "ws", "src/my_robot_controller/setup.py", "setup(")
     listed = guide("list", workspace=tmp_path / "ws", env=env).stdout.splitlines()
@@ -129,7 +129,7 @@ def test_a_package_in_a_wrong_state_and_a_wrong_step_are_told_in_korean(tmp_path
     assert "'11' 단계는 없습니다" in done.stderr
 
 
-def test_the_shell_s_words_have_every_language_with_the_same_places() -> None:
+def test_the_shells_texts_exist_in_every_language_with_the_same_placeholders() -> None:
     def words(lang: str) -> dict[str, list[str]]:
         text = (WORDS / f"{lang}.sh").read_text(encoding="utf-8")
         found = re.findall(r"^(\w+)=(.*)$", text, re.MULTILINE)
@@ -143,7 +143,7 @@ def test_the_shell_s_words_have_every_language_with_the_same_places() -> None:
         assert all(HANGUL.search(line) for line in lines)
 
 
-def test_the_language_of_the_caller_is_the_labs(kind: Kind, tmp_path: Path) -> None:
+def test_the_lab_has_the_language_of_the_caller(kind: Kind, tmp_path: Path) -> None:
     for words, env, lang in (
         ((), KOREAN, "ko"),
         (("--lang", "ko"), {**KOREAN, "LANG": "C.UTF-8"}, "ko"),
@@ -157,7 +157,7 @@ def test_the_language_of_the_caller_is_the_labs(kind: Kind, tmp_path: Path) -> N
             assert bool(HANGUL.search(line)) == (lang == "ko"), line
 
 
-def test_a_check_in_the_lab_speaks_the_language(kind: Kind, tmp_path: Path) -> None:
+def test_a_check_in_the_lab_uses_the_language(kind: Kind, tmp_path: Path) -> None:
     there = Kind(kind.sandbox, {**kind.env, **KOREAN})
     done = run(there, tmp_path / "ws", "--", "check")
     assert done.returncode == 1, done.stderr
@@ -171,11 +171,11 @@ def test_the_welcome_is_in_the_language(kind: Kind, tmp_path: Path) -> None:
         assert "다음에 할 일을 한 단계씩" in told
         assert str(tmp_path / "ws") in lab.welcome
         assert PROSE.findall(told) == []
-        assert lab.type("echo $lab_welcome").strip() == ""  # the words are not left in the shell
+        assert lab.type("echo $lab_welcome").strip() == ""  # not left in the shell
         assert lab.leave() == 0
 
 
-def test_wrong_words_are_told_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
+def test_usage_errors_of_the_lab_are_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
     for words, status in (
         (["--workspace", "/"], 2),
         (["--sandbox", "dokcer"], 2),
@@ -184,7 +184,7 @@ def test_wrong_words_are_told_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
     ):
         done = subprocess.run(
             command(*words, "--", "true"),
-            cwd=stage.ROOT,
+            cwd=processes.ROOT,
             env=environment(**KOREAN, DOCKER_HOST="unix:///no-daemon"),
             capture_output=True,
             text=True,
@@ -193,5 +193,5 @@ def test_wrong_words_are_told_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
         assert done.returncode == status
         assert done.stderr.startswith("lab: ")
         assert HANGUL.search(done.stderr)
-        told = re.sub(r"\(.*?\)", "", done.stderr)  # (commands to be typed)
+        told = re.sub(r"\(.*?\)", "", done.stderr)  # commands to be typed
         assert PROSE.findall(told) == [], done.stderr

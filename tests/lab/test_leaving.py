@@ -1,4 +1,4 @@
-"""Whichever way the lab ends, nothing of it is left running."""
+"""However the lab ends, none of its processes is left running."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import pexpect
 import pytest
 
 from grader.sandbox.processes import adopt_orphans
-from tests import stage
+from tests import processes
+from tests.lab.helpers import SLOW, alive, run, start, until
 from tests.lab.kinds import Kind, containers
 from tests.lab.screen import PROMPT, Lab, command, environment
-from tests.lab.visits import SLOW, alive, run, start, until
 
 
 def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
@@ -34,17 +34,17 @@ def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["KILL", "TERM"])
-def test_a_lab_that_ends_while_it_opens_leaves_nothing(tmp_path: Path, name: str) -> None:
+def test_a_lab_that_ends_while_opening_leaves_nothing(tmp_path: Path, name: str) -> None:
     adopt_orphans()
-    before = set(stage.descendants())
-    own = environment(**stage.ends_as_bwrap_starts(tmp_path, name))
+    before = set(processes.descendants())
+    own = environment(**processes.ends_as_bwrap_starts(tmp_path, name))
     words = command("--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "cat")
-    with subprocess.Popen(words, cwd=stage.ROOT, env=own, stdin=subprocess.PIPE) as opened:
+    with subprocess.Popen(words, cwd=processes.ROOT, env=own, stdin=subprocess.PIPE) as opened:
         assert opened.wait(SLOW) in (-signal.SIGKILL, 143)
-    stage.wait_until_gone(before)
+    processes.wait_until_gone(before)
 
 
-def test_a_container_is_gone_when_the_lab_has_been_left(docker_kind: Kind, tmp_path: Path) -> None:
+def test_the_container_is_removed_when_the_lab_ends(docker_kind: Kind, tmp_path: Path) -> None:
     with Lab(docker_kind, tmp_path / "ws") as first, Lab(docker_kind, tmp_path / "ws") as second:
         assert containers(tmp_path / "ws") == ["running"]
         second.leave()
@@ -55,9 +55,7 @@ def test_a_container_is_gone_when_the_lab_has_been_left(docker_kind: Kind, tmp_p
     assert containers(tmp_path / "ws") == []
 
 
-def test_closing_one_terminal_ends_what_ran_on_it_and_not_the_other(
-    docker_kind: Kind, tmp_path: Path
-) -> None:
+def test_closing_one_terminal_ends_only_its_own_programs(docker_kind: Kind, tmp_path: Path) -> None:
     one, other = (f"sleep 92{secrets.randbelow(10**6)}" for _ in range(2))
     with Lab(docker_kind, tmp_path / "ws") as first, Lab(docker_kind, tmp_path / "ws") as second:
         start(first, one)
@@ -69,7 +67,7 @@ def test_closing_one_terminal_ends_what_ran_on_it_and_not_the_other(
         assert second.leave() == 0
 
 
-def test_sigterm_closes_the_lab_and_gives_the_terminal_back(kind: Kind, tmp_path: Path) -> None:
+def test_sigterm_closes_the_lab_and_restores_the_terminal(kind: Kind, tmp_path: Path) -> None:
     mark = f"sleep 93{secrets.randbelow(10**6)}"
     with Lab(kind, tmp_path / "ws") as lab:
         start(lab, mark)
@@ -80,7 +78,7 @@ def test_sigterm_closes_the_lab_and_gives_the_terminal_back(kind: Kind, tmp_path
     until(lambda: not alive(mark))
 
 
-def test_leaving_does_not_wait_for_what_runs_in_the_background(kind: Kind, tmp_path: Path) -> None:
+def test_leaving_does_not_wait_for_background_jobs(kind: Kind, tmp_path: Path) -> None:
     marks = [f"sleep 91{secrets.randbelow(10**6)}" for _ in range(2)]
     with Lab(kind, tmp_path / "ws") as lab:
         lab.type(f"{marks[0]} &")
@@ -90,8 +88,8 @@ def test_leaving_does_not_wait_for_what_runs_in_the_background(kind: Kind, tmp_p
     until(lambda: not any(alive(mark) for mark in marks))
 
 
-def test_the_terminal_is_the_callers_again(kind: Kind, tmp_path: Path) -> None:
-    """A script that goes on after the lab reads from the terminal, in the mode that it was in."""
+def test_the_caller_gets_the_terminal_back(kind: Kind, tmp_path: Path) -> None:
+    """A script that continues after the lab can read from the terminal in its original mode."""
     line = shlex.join(command("--sandbox", kind.sandbox, "--workspace", tmp_path / "ws"))
     script = (
         f'before=$(stty -g); {line}; [ "$before" = "$(stty -g)" ] && read -r x && echo "got $x"'
@@ -99,7 +97,7 @@ def test_the_terminal_is_the_callers_again(kind: Kind, tmp_path: Path) -> None:
     screen = pexpect.spawn(
         "bash",
         ["-c", script],
-        cwd=str(stage.ROOT),
+        cwd=str(processes.ROOT),
         env=environment(**kind.env),
         encoding="utf-8",
         timeout=SLOW,

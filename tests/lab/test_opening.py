@@ -1,4 +1,4 @@
-"""What the lab opens, where the workspace is, and what it refuses."""
+"""Which lab is opened, where its workspace is, and what is refused."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from grader.ros.prefix import Ros
-from tests import stage
-from tests.lab import walk
+from tests import processes
+from tests.lab import ten_steps
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment
 from tests.lab.workspaces import open_to_all
@@ -27,8 +27,8 @@ def lab(
     """Run the lab without a terminal."""
     line = command(*words)
     return subprocess.run(
-        stage.as_user(line) if user else line,
-        cwd=stage.ROOT,
+        processes.as_user(line) if user else line,
+        cwd=processes.ROOT,
         env=environment(**(env or {})),
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -40,7 +40,7 @@ def lab(
 
 def test_help_is_quick_to_load_and_names_the_options() -> None:
     code = "import sys, lab.cli; lab.cli.main(['--help']); sys.exit('pydantic' in sys.modules)"
-    done = stage.run([sys.executable, "-c", code])
+    done = processes.run([sys.executable, "-c", code])
     assert done.returncode == 0
     for option in ("--distro", "--workspace", "--sandbox"):
         assert option in done.stdout
@@ -61,7 +61,7 @@ def test_help_is_quick_to_load_and_names_the_options() -> None:
         (["--sandbox", "bubblewrap", "--workspace", "/proc/ws"], "cannot be created"),
     ],
 )
-def test_wrong_words_are_told_with_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
+def test_usage_errors_say_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
     done = lab(*words, "--", "true")
     assert done.returncode == 2
     assert said in done.stderr
@@ -78,7 +78,7 @@ def test_auto_without_a_daemon_opens_bubblewrap_and_says_why(
     assert line.startswith("lab: opening ROS 2 jazzy in bubblewrap because ")
 
 
-def test_docker_without_a_daemon_is_told(tmp_path: Path) -> None:
+def test_docker_without_a_daemon_is_reported(tmp_path: Path) -> None:
     done = lab("--sandbox", "docker", "--workspace", tmp_path / "ws", "--", "true", env=NO_DAEMON)
     assert done.returncode == 3
     assert "Traceback" not in done.stderr
@@ -92,7 +92,7 @@ def test_a_distro_without_wheels_and_without_docker_says_what_it_needs(tmp_path:
 
 
 @pytest.mark.docker
-def test_docker_without_an_image_names_the_command_that_makes_it(
+def test_docker_without_an_image_names_the_command_that_builds_it(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     words: list[str | Path] = ["--workspace", tmp_path / "ws", "--", "echo", "inside"]
@@ -106,14 +106,14 @@ def test_docker_without_an_image_names_the_command_that_makes_it(
 
 @pytest.mark.docker
 def test_a_daemon_on_another_machine_is_refused() -> None:
-    """(The daemon that is asked here is this machine's, under a name that is not.)"""
+    """The test uses this machine's daemon under another host name."""
     code = (
         "import docker, lab.container as c\n"
         "client = docker.from_env()\n"
         "client.api.base_url = 'https://10.0.0.1:2376'\n"
         "c._require_local_daemon(client)\n"
     )
-    done = stage.run([sys.executable, "-c", code])
+    done = processes.run([sys.executable, "-c", code])
     assert "is not on this machine (https://10.0.0.1:2376)" in done.stderr
 
 
@@ -124,9 +124,7 @@ def test_the_default_workspace_is_ros2_ws_in_the_callers_home(ros_jazzy: Ros) ->
         assert (home / "ros2_ws" / "src").is_dir()
 
 
-def test_a_workspace_that_is_there_is_used_and_nothing_of_it_changed(
-    kind: Kind, tmp_path: Path
-) -> None:
+def test_an_existing_workspace_is_used_and_not_changed(kind: Kind, tmp_path: Path) -> None:
     with open_to_all() as folder:
         workspace = folder / "ws"
         (workspace / "src").mkdir(parents=True)
@@ -140,7 +138,7 @@ def test_a_workspace_that_is_there_is_used_and_nothing_of_it_changed(
         done = lab(*words, "sh", "-c", "id -u; id -g; whoami; cat src/notes", env=kind.env)
         uid, gid, name, text = done.stdout.splitlines()
         assert (name, text) == ("student", "mine")
-        if os.geteuid() == 0:  # root's lab is the owner's
+        if os.geteuid() == 0:  # root's lab belongs to the workspace's owner
             assert (uid, gid) == ("4321", "4322")
         after = {path: path.lstat() for path in (workspace, *workspace.rglob("*"))}
         assert {path: (s.st_mtime_ns, s.st_uid, s.st_mode) for path, s in before.items()} == {
@@ -149,7 +147,7 @@ def test_a_workspace_that_is_there_is_used_and_nothing_of_it_changed(
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_behind_sudo_the_files_are_those_of_who_called(kind: Kind) -> None:
+def test_under_sudo_the_files_belong_to_the_caller(kind: Kind) -> None:
     with open_to_all() as folder:
         workspace = folder / "deep" / "er" / "ws"
         who = {"SUDO_UID": "4321", "SUDO_GID": "4322"}
@@ -163,18 +161,18 @@ def test_behind_sudo_the_files_are_those_of_who_called(kind: Kind) -> None:
             "src/made",
         ]
         assert lab(*words, env={**who, **kind.env}).returncode == 0
-        assert walk.owners(folder / "deep") == {4321}
+        assert ten_steps.owners(folder / "deep") == {4321}
 
 
 @pytest.mark.full  # needs root, which `make test` does not
-def test_a_workspace_of_roots_is_refused_rather_than_changed(
+def test_a_workspace_owned_by_root_is_refused_and_not_changed(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     (tmp_path / "ws" / "src").mkdir(parents=True)
     done = lab("--sandbox", "bubblewrap", "--workspace", tmp_path / "ws", "--", "true")
     assert done.returncode == 2
     assert "chown" in done.stderr
-    assert walk.owners(tmp_path / "ws") == {0}
+    assert ten_steps.owners(tmp_path / "ws") == {0}
 
 
 def test_a_workspace_that_its_student_cannot_write_is_refused(ros_jazzy: Ros) -> None:
@@ -198,7 +196,7 @@ def test_a_workspace_that_its_student_cannot_write_is_refused(ros_jazzy: Ros) ->
         assert "cannot be created: Permission denied" in done.stderr
 
 
-def test_bubblewrap_that_is_refused_is_told_with_cause_and_remedy(
+def test_a_forbidden_bubblewrap_is_reported_with_cause_and_fix(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     fake = tmp_path / "bin" / "bwrap"
@@ -213,10 +211,10 @@ def test_bubblewrap_that_is_refused_is_told_with_cause_and_remedy(
     assert "unprivileged user namespaces are not allowed" in done.stderr
 
 
-def test_after_an_interactive_visit_the_status_is_not_the_last_commands(
+def test_an_interactive_lab_does_not_exit_with_the_last_commands_status(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
-    """`make lab` would end with an error message otherwise."""
+    """Otherwise `make lab` would end with an error message."""
     with Lab(Kind("bubblewrap"), tmp_path / "ws") as opened:
         opened.type("false")
         assert opened.leave() == 0

@@ -1,4 +1,4 @@
-"""Terminals in the lab: keys, sizes, completion, and a second one; the same in every kind of lab."""
+"""Terminals in every kind of lab: keys, sizes, completion, and a second terminal."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from pathlib import Path
 
 import pexpect
 
-from tests import stage
+from tests import processes
+from tests.lab.helpers import SLOW, has_the_terminal, start, until
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment, new_domain
-from tests.lab.visits import SLOW, has_the_terminal, start, until
 
 NODE = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('talker'))"
 SEEN = "timeout 60 bash -c 'until ros2 node list | grep -x /talker; do :; done'"
 
 
-def test_the_welcome_says_where_one_is_once(kind: Kind, tmp_path: Path) -> None:
+def test_the_welcome_is_shown_once(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         for word in ("ROS 2 jazzy", str(tmp_path / "ros2_ws"), "guide", "check", "exit"):
             assert word in lab.welcome
@@ -27,7 +27,7 @@ def test_the_welcome_says_where_one_is_once(kind: Kind, tmp_path: Path) -> None:
 
 
 def _missing(lab: Lab) -> str:
-    """Return what bash says where the image brings no ~/.bashrc: it has /etc/bash.bashrc."""
+    """Return bash's message if the image has no ~/.bashrc but only /etc/bash.bashrc."""
     return "bash: /home/student/.bashrc: No such file or directory"
 
 
@@ -36,22 +36,24 @@ def test_the_tutorials_first_command_works_and_changes_nothing(kind: Kind, tmp_p
         before = lab.type("env | grep -v ^_ | sort")
         assert lab.type("source /opt/ros/jazzy/setup.bash") == ""
         assert lab.type("env | grep -v ^_ | sort") == before
-        assert "ros2_ws" not in lab.type("echo $AMENT_PREFIX_PATH")  # no overlay by itself
+        assert "ros2_ws" not in lab.type("echo $AMENT_PREFIX_PATH")  # not sourced automatically
 
 
-def test_ctrl_c_reaches_what_runs_and_leaves_the_lab_open(kind: Kind, tmp_path: Path) -> None:
+def test_ctrl_c_reaches_the_running_command_and_leaves_the_lab_open(
+    kind: Kind, tmp_path: Path
+) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         start(lab, "sleep 1000")
         lab.interrupt()
         assert lab.status() == 130
         lab.screen.sendintr()  # at an empty prompt
-        lab.screen.sendline()  # with it readline wakes where Ctrl+C came just before it slept
+        lab.screen.sendline()  # wakes readline if Ctrl+C came just before it slept
         lab.screen.sendline("echo still $((40 + 2))")
         lab.screen.expect_exact("still 42")
         assert lab.leave() == 0
 
 
-def test_ctrl_z_stops_a_command_and_fg_takes_it_up_again(kind: Kind, tmp_path: Path) -> None:
+def test_ctrl_z_stops_a_command_and_fg_resumes_it(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         mark = f"sleep 90{secrets.randbelow(10**6)}"
         start(lab, mark)
@@ -65,7 +67,7 @@ def test_ctrl_z_stops_a_command_and_fg_takes_it_up_again(kind: Kind, tmp_path: P
         assert lab.status() == 130
 
 
-def test_the_window_size_is_the_terminals_also_when_it_changes(kind: Kind, tmp_path: Path) -> None:
+def test_the_window_size_follows_the_terminal(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ros2_ws") as lab:
         size = """timeout 20 bash -c 'until [ "$(stty size)" = "%s" ]; do :; done'; echo met $?"""
         lab.screen.sendline(size % "40 200")
@@ -85,7 +87,7 @@ def test_tab_completes_commands_verbs_and_packages(kind: Kind, tmp_path: Path) -
         ):
             lab.screen.send(typed)
             lab.screen.expect_exact(rest)
-            # no Ctrl+C: readline misses a signal that comes between drawing a line and reading on
+            # no Ctrl+C: readline misses a signal between drawing a line and the next read
             lab.screen.sendcontrol("u")
 
 
@@ -103,13 +105,13 @@ def test_a_second_terminal_sees_the_nodes_of_the_first(kind: Kind, tmp_path: Pat
         assert first.leave() == 0
 
 
-def test_ctrl_c_reaches_a_command_that_is_run_on_the_terminal(kind: Kind, tmp_path: Path) -> None:
+def test_ctrl_c_reaches_a_command_run_on_the_terminal(kind: Kind, tmp_path: Path) -> None:
     script = "trap 'echo last words; exit 5' INT; echo up; while :; do sleep 0.1; done"
     words = command("--sandbox", kind.sandbox, "--workspace", tmp_path / "ws", "--")
     screen = pexpect.spawn(
         words[0],
         [*words[1:], "bash", "-c", script],
-        cwd=str(stage.ROOT),
+        cwd=str(processes.ROOT),
         env=environment(**kind.env),
         encoding="utf-8",
         timeout=SLOW,
@@ -122,6 +124,6 @@ def test_ctrl_c_reaches_a_command_that_is_run_on_the_terminal(kind: Kind, tmp_pa
     assert screen.exitstatus == 5
 
 
-def test_a_hostile_name_is_shown_in_the_welcome_as_it_is(kind: Kind, tmp_path: Path) -> None:
+def test_a_hostile_name_is_shown_literally_in_the_welcome(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "$(echo run)") as lab:
         assert re.search(r"\\\$\\\(echo\\ run\\\)", lab.welcome)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 @contextlib.contextmanager
 def open_to_all() -> Iterator[Path]:
-    """Yield a folder that any user of this machine may write to (pytest's are closed)."""
+    """Yield a folder that any user of this machine may write to (pytest's are private)."""
     folder = Path(tempfile.mkdtemp(prefix="lab-test-"))
     try:
         folder.chmod(0o777)
@@ -36,7 +36,7 @@ setup(
 
 
 def put(workspace: Path, file: str, text: str = "", *, mode: int = 0o644) -> Path:
-    """Write a file of a workspace, with the folders above it."""
+    """Write a file of a workspace and make its parent folders."""
     path = workspace / file
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -45,7 +45,7 @@ def put(workspace: Path, file: str, text: str = "", *, mode: int = 0o644) -> Pat
 
 
 def after_step(workspace: Path, step: int, node: str) -> dict[str, str]:
-    """Bring a workspace to the state after a step, and return its terminal's variables."""
+    """Bring a workspace to the state after a step; return the terminal's variables."""
     inner = f"src/{PACKAGE}/{PACKAGE}"
     (workspace / "src").mkdir(parents=True)
     if step >= 3:

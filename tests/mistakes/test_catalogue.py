@@ -1,4 +1,4 @@
-"""The catalogue is complete: every mistake that is named anywhere has its entry, and can be read."""
+"""The catalogue is complete: every mistake that is named anywhere has a readable entry."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def entries() -> list[object]:
 
 
 def named_in_the_code() -> set[str]:
-    """Return every mistake id that a check, the intake or a recogniser names in its source."""
+    """Return every mistake id in the source of checks, intake and recognisers."""
     prefixes = {kind.partition(".")[0] for kind in CATALOGUE}
     files = {"setup.py", "setup.cfg", "setup.bash", "package.xml"}
     named: set[str] = set()
@@ -58,7 +58,7 @@ def named_in_the_code() -> set[str]:
     return named - files - checks
 
 
-def test_every_mistake_that_is_named_has_an_entry() -> None:
+def test_every_mistake_that_the_code_names_has_an_entry() -> None:
     named = named_in_the_code()
     assert len(named) > 150
     assert named - set(CATALOGUE) == set()
@@ -92,7 +92,7 @@ def test_an_entry_can_be_read_in_every_language(kind: Kind) -> None:
 
 
 @pytest.mark.parametrize("kind", entries())
-def test_an_entry_leads_to_the_documentation(kind: Kind) -> None:
+def test_an_entry_links_to_the_documentation(kind: Kind) -> None:
     for distro in distros().values():
         parts = urlsplit(address(kind.link, distro))
         assert parts.scheme == "https"

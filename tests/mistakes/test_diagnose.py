@@ -1,4 +1,4 @@
-"""A failed check says the root cause first, with its line; and looking for it costs next to nothing."""
+"""A failed check names the root cause first, with its line; finding it takes little time."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
-MOST_SECONDS = 0.15  # that a diagnosis may add to a verdict
+MOST_SECONDS = 0.15  # of a verdict that a diagnosis may take
 TRACEBACK = """\
 Traceback (most recent call last):
   File "/ws/install/my_robot_controller/lib/my_robot_controller/test_node", line 33, in <module>
@@ -39,7 +39,7 @@ Traceback (most recent call last):
 
 @dataclass
 class StandIn:
-    """The part of the evidence that a diagnosis looks at."""
+    """The part of the evidence that a diagnosis uses."""
 
     assignment: Assignment
     submission: Submission
@@ -70,7 +70,7 @@ def bench(tmp_path: Path) -> Bench:
     return Bench(tmp_path / "my_robot_controller")
 
 
-def test_the_root_is_first_the_symptom_second_and_the_line_is_shown(bench: Bench) -> None:
+def test_the_root_cause_is_first_the_symptom_second_and_the_line_is_shown(bench: Bench) -> None:
     source = RIGHT.replace("self.timer_callback)", "self.timer_calback)")
     line = next(n for n, text in enumerate(source.splitlines(), 1) if "timer_calback" in text)
     error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"
@@ -87,7 +87,7 @@ def test_the_root_is_first_the_symptom_second_and_the_line_is_shown(bench: Bench
     assert told.consequence_of == ""
 
 
-def test_the_same_root_at_another_check_is_a_consequence(bench: Bench) -> None:
+def test_the_same_root_cause_at_another_check_is_a_consequence(bench: Bench) -> None:
     source = RIGHT.replace("self.timer_callback)", "self.timer_callback())")
     seen = evidence(bench, source)
     first = diagnose(failed("run.by_hand"), seen)
@@ -118,7 +118,7 @@ def test_a_hidden_check_is_never_named_as_the_cause(bench: Bench) -> None:
     assert diagnose(failed("run.by_hand"), seen).consequence_of == ""
 
 
-def test_a_module_that_was_not_installed_is_told_from_one_that_is_not_there(bench: Bench) -> None:
+def test_an_uninstalled_module_is_distinguished_from_a_missing_one(bench: Bench) -> None:
     error = "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node'"
     printed = TRACEBACK.format(line=5, error=error)
     told = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
@@ -129,19 +129,19 @@ def test_a_module_that_was_not_installed_is_told_from_one_that_is_not_there(benc
     assert "touch my_robot_controller/__init__.py" in told.fix
 
 
-def test_the_text_without_the_f_is_told_from_another_text(bench: Bench) -> None:
+def test_a_text_without_the_f_prefix_is_distinguished_from_another_text(bench: Bench) -> None:
     told = diagnose(failed("run.wrong_text"), evidence(bench, RIGHT))
     assert told.mistakes[0].id == "node.f_prefix"
 
 
 @pytest.mark.parametrize("source", ["def broken(:\n", "\0\0", "x = (\n" * 1000])
-def test_a_source_that_cannot_be_read_leaves_the_symptom(bench: Bench, source: str) -> None:
+def test_an_unreadable_source_leaves_the_symptom(bench: Bench, source: str) -> None:
     told = diagnose(failed("run.no_lines"), evidence(bench, source))
     assert [m.id for m in told.mistakes] == ["run.no_lines"]
     assert told.consequence_of == ""
 
 
-def test_a_node_in_a_module_of_its_own_is_looked_at_there(bench: Bench) -> None:
+def test_a_node_in_a_separate_module_is_examined_there(bench: Bench) -> None:
     own = RIGHT.replace("        self.counter_ += 1\n", "")
     bench.write("my_robot_controller/talker.py", own)
     left = (
@@ -156,7 +156,7 @@ def test_a_node_in_a_module_of_its_own_is_looked_at_there(bench: Bench) -> None:
         assert [m.id for m in told.mistakes] == [symptom], "not looked at: nobody is accused"
 
 
-def test_a_check_of_another_stage_is_left_as_it_is(bench: Bench) -> None:
+def test_a_check_of_another_stage_is_left_unchanged(bench: Bench) -> None:
     seen = Failed("package.setup_cfg_syntax", expected=say("pass"), actual="x")
     told = diagnose(seen, evidence(bench, RIGHT))
     assert told == Diagnosis.of(seen)
@@ -174,7 +174,7 @@ def test_a_diagnosis_adds_next_to_nothing_to_a_verdict(bench: Bench, mistake: st
     assert time.process_time() - begin < MOST_SECONDS
 
 
-def test_what_keeps_nothing_from_working_is_advice(bench: Bench) -> None:
+def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
     for old, new, said in (
         ("'__main__'", "'main'", "if __name__ == '__main__':"),
         ("'__main__'", "'__mian__'", "if __name__ == '__main__':"),

@@ -1,4 +1,4 @@
-"""`grader explain`: an entry by its id, or the mistakes in what a terminal shows."""
+"""`grader explain`: an entry by its id, or the mistakes in a terminal's output."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def explain(*words: str, text: str = "", lang: str = "C") -> subprocess.Complete
     )
 
 
-def test_an_entry_says_why_and_what_to_do_and_where_to_read_on() -> None:
+def test_an_entry_has_the_reason_the_fix_and_a_link() -> None:
     done = explain("setup.missing_comma")
     assert done.returncode == 0
     for said in (
@@ -43,14 +43,14 @@ def test_the_language_comes_from_the_environment_or_the_option() -> None:
     assert "comma" in explain("setup.missing_comma", "--lang", "en", lang="ko_KR.UTF-8").stdout
 
 
-def test_an_unknown_id_is_wrong_usage_and_the_nearest_is_proposed() -> None:
+def test_an_unknown_id_is_a_usage_error_with_a_suggestion() -> None:
     done = explain("setup.mising_comma")
     assert done.returncode == 2
     assert "did you mean 'setup.missing_comma'" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_what_a_terminal_shows_is_explained_root_first() -> None:
+def test_terminal_output_is_explained_root_cause_first() -> None:
     text = "RuntimeError: 'distutils.core.setup()' was never called\nNo executable found\n"
     done = explain("-", text=text)
     assert done.returncode == 0
@@ -58,7 +58,7 @@ def test_what_a_terminal_shows_is_explained_root_first() -> None:
     assert "No executable found" in done.stdout
 
 
-def test_a_text_without_a_known_mistake_is_said_to_have_none() -> None:
+def test_a_text_without_a_known_mistake_is_reported_as_such() -> None:
     done = explain("-", text="Hello time: 0\n")
     assert done.returncode == 1
     assert "no mistake" in done.stdout

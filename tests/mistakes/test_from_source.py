@@ -1,4 +1,4 @@
-"""The mistake behind a symptom is found in the source, however the node is written."""
+"""The mistake behind a symptom is found in the source of differently written nodes."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def line_of(text: str, part: str) -> int:
          "sleeps_in_callback", "sleep"),
     ],
 )  # fmt: skip
-def test_a_mistake_is_found_in_a_node_that_is_written_otherwise(
+def test_a_mistake_is_found_in_a_node_written_differently(
     symptom: str, old: str, new: str, wanted: str, at: str
 ) -> None:
     assert OTHERWISE.count(old) == 1
@@ -108,7 +108,7 @@ def test_a_mistake_is_found_in_a_node_that_is_written_otherwise(
     assert found.where == Where(file=FILE, line=line_of(text, at))
 
 
-def test_a_counter_is_found_where_the_text_is_put_together_before() -> None:
+def test_a_counter_is_found_if_the_text_is_built_earlier() -> None:
     text = OTHERWISE.replace(
         'self.get_logger().info(f"Hello time: {self.n}")',
         'text = f"Hello time: {self.n}"\n        self.get_logger().info(text)',
@@ -119,7 +119,7 @@ def test_a_counter_is_found_where_the_text_is_put_together_before() -> None:
     assert found.where == Where(file=FILE, line=line_of(text, "+= 2"))
 
 
-def test_a_loop_that_is_left_is_not_accused() -> None:
+def test_a_loop_that_ends_is_not_reported() -> None:
     text = OTHERWISE.replace("self.n = self.n + 1", "while True:\n            break")
     assert look("run.stops", text) is None
 
@@ -127,7 +127,7 @@ def test_a_loop_that_is_left_is_not_accused() -> None:
 @pytest.mark.parametrize(
     ("period", "sleep"), [("1", "0.5"), ("1", "seconds"), ("1", ""), ("2", "2.5")]
 )
-def test_a_sleep_that_keeps_no_line_apart_is_not_accused(period: str, sleep: str) -> None:
+def test_a_sleep_that_does_not_separate_lines_is_not_reported(period: str, sleep: str) -> None:
     text = OTHERWISE.replace("self.n = self.n + 1", f"self.n += 1; time.sleep({sleep})")
     assert look("run.wrong_period", text.replace("sec=1)", f"sec={period})")) is None
 
@@ -138,7 +138,7 @@ def test_a_sleep_that_keeps_no_line_apart_is_not_accused(period: str, sleep: str
     ["run.exits_at_once", "run.no_node", "run.constant_counter", "run.wrong_step", "run.twice",
      "run.by_hand", "run.stops", "run.ended_early", "run.print_not_logger", "run.wrong_period"],
 )  # fmt: skip
-def test_a_right_node_is_not_accused(symptom: str, text: str) -> None:
+def test_nothing_is_reported_in_a_right_node(symptom: str, text: str) -> None:
     assert look(symptom, text) is None
 
 
@@ -179,7 +179,7 @@ def test_a_right_node_is_not_accused(symptom: str, text: str) -> None:
          "__init__(self)", "__init__(self, name)", "argument_missing", ""),
     ],
 )  # fmt: skip
-def test_an_exception_is_told_apart_and_the_right_name_proposed(
+def test_an_exception_is_classified_and_the_right_name_suggested(
     error: str, old: str, new: str, wanted: str, close: str
 ) -> None:
     assert OTHERWISE.count(old) == 1
@@ -193,7 +193,7 @@ def test_an_exception_is_told_apart_and_the_right_name_proposed(
     assert found.where.line == at
 
 
-def test_the_second_of_two_calls_of_init_is_the_one_too_many() -> None:
+def test_the_second_of_two_calls_of_init_is_reported() -> None:
     text = OTHERWISE.replace("args=args)\n", "args=args)\n    rclpy.init()\n")
     found = raised("RuntimeError: Context.init() must only be called once", text, None)
     assert found is not None
@@ -201,11 +201,11 @@ def test_the_second_of_two_calls_of_init_is_the_one_too_many() -> None:
     assert found.where == Where(file=FILE, line=line_of(text, "rclpy.init()"))
 
 
-def test_an_exception_of_the_students_own_is_not_guessed_at() -> None:
+def test_an_exception_raised_by_the_student_is_not_diagnosed() -> None:
     assert raised("ValueError: that is not my number", RIGHT, 5) is None
 
 
-def test_the_missing_name_is_told_from_a_misspelt_init() -> None:
+def test_a_missing_node_name_is_distinguished_from_a_misspelt_init() -> None:
     error = "TypeError: Node.__init__() missing 1 required positional argument: 'node_name'"
     nameless = RIGHT.replace("__init__('my_first_node')", "__init__()")
     assert getattr(raised(error, nameless, 13), "kind", "") == "node.super_without_name"
@@ -217,7 +217,7 @@ def test_the_missing_name_is_told_from_a_misspelt_init() -> None:
 
 @settings(max_examples=150, deadline=None)
 @given(st.data())
-def test_whatever_the_source_nothing_breaks(data: st.DataObject) -> None:
+def test_any_source_is_examined_without_an_error(data: st.DataObject) -> None:
     lines = RIGHT.splitlines()
     kept = data.draw(st.lists(st.sampled_from(lines), max_size=40))
     source = read_node("\n".join(kept).encode())
@@ -232,6 +232,6 @@ def test_whatever_the_source_nothing_breaks(data: st.DataObject) -> None:
     assert found is None or found.kind in CATALOGUE
 
 
-def test_a_file_that_is_nobodys_first_node_has_no_facts() -> None:
+def test_an_unparsable_or_huge_file_has_no_facts() -> None:
     assert read_node(b"def broken(:\n") is None
     assert read_node(b"x = 1\n" * MOST_BYTES) is None

@@ -1,4 +1,4 @@
-"""A whole verdict in Korean: the same ids, statuses and points, and no English prose in it."""
+"""A whole verdict in Korean: the same ids, statuses and points, without English prose."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.corpus.model import Package
 from tests.recorded import mark
 from tests.report.samples import report as sample_report
 
-# one of each kind of mistake: handed in, manifest, setup.py, source, build, start, callback, text
+# one mistake of each kind: intake, manifest, setup.py, source, build, start, callback, text
 NAMES = ("only_the_node", "manifest_other_name", "comma_missing", "super_missing", "f_prefix_missing",
          "printed", "called_by_hand", "setup_prints", "colon_missing", "callback_misspelt")  # fmt: skip
 # what programs print word for word, and commands to be typed
@@ -36,8 +36,8 @@ def packages() -> list[Package]:
     return [package for package in BROKEN if package.name in NAMES]
 
 
-def prose(text: str, report: Report) -> list[str]:
-    """Return what reads as English prose in a text, program output and source code aside."""
+def english_prose(text: str, report: Report) -> list[str]:
+    """Return the English prose in a text, ignoring program output and source code."""
     params = [p for check in report.checks for m in check.mistakes for p in m.params.values()]
     printed = sorted((p for p in params if isinstance(p, str) and p), key=len, reverse=True)
     for words in (*printed, *QUOTED):
@@ -46,7 +46,7 @@ def prose(text: str, report: Report) -> list[str]:
     return PROSE.findall(text)
 
 
-def said(report: Report) -> list[str]:
+def texts_of(report: Report) -> list[str]:
     found = [report.message, *report.submission.notes]
     for check in report.checks:
         found += [check.title, check.expected, check.actual, check.rationale, check.fix]
@@ -65,8 +65,8 @@ def test_a_verdict_in_korean_is_the_same_verdict_and_all_korean(
     assert korean.score == package.expect_score
     failed = {check.id: check.mistakes[0].id for check in korean.checks if check.status == "failed"}
     assert failed == dict(package.expect_failed)
-    for text in said(korean):
-        assert prose(text, korean) == [], text
+    for text in texts_of(korean):
+        assert english_prose(text, korean) == [], text
     for check in korean.checks:
         assert re.search("[가-힣]", check.title)
         if check.status == "failed":
@@ -99,7 +99,7 @@ def test_the_language_changes_texts_and_nothing_else(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("lang", ["en", "ko"])
 @pytest.mark.parametrize("width", [40, 80, 120])
-def test_the_marks_stand_below_what_they_mark(lang: str, width: int) -> None:
+def test_the_markers_stand_below_the_marked_text(lang: str, width: int) -> None:
     check = CheckResult(
         id="run.output",
         title="x",

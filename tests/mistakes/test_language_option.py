@@ -1,4 +1,4 @@
-"""`--lang` and the environment decide the language of what `grader grade` and `check` say."""
+"""`--lang` and the environment choose the language of `grader grade` and `check`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import stage
+from tests import processes
 
 KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "LC_MESSAGES": ""}
 ENGLISH = {**KOREAN, "LANG": "C.UTF-8"}
@@ -28,8 +28,8 @@ def test_a_report_says_in_which_language_it_is(
 ) -> None:
     (tmp_path / "anna").mkdir()
     (tmp_path / "anna" / "my_first_node.py").write_text("print('Hello time: 0')\n")
-    done = stage.run(
-        stage.grader("grade", tmp_path / "anna", "--out", tmp_path / "out", *words),
+    done = processes.run(
+        processes.grader("grade", tmp_path / "anna", "--out", tmp_path / "out", *words),
         env=environment,
     )
     assert done.returncode == 1, done.stderr
@@ -41,18 +41,20 @@ def test_a_report_says_in_which_language_it_is(
         assert bool(re.search("[가-힣]", text)) == (lang == "ko"), text
 
 
-def test_wrong_usage_is_told_in_the_readers_language(tmp_path: Path) -> None:
-    done = stage.run(stage.grader("check", tmp_path / "nowhere"), env=KOREAN)
+def test_usage_errors_are_in_the_readers_language(tmp_path: Path) -> None:
+    done = processes.run(processes.grader("check", tmp_path / "nowhere"), env=KOREAN)
     assert done.returncode == 2
     assert "폴더가 없습니다" in done.stderr
     assert "nowhere" in done.stderr
-    done = stage.run(stage.grader("check", ".", "--distro", "jazy", "--lang", "ko"), env=ENGLISH)
+    done = processes.run(
+        processes.grader("check", ".", "--distro", "jazy", "--lang", "ko"), env=ENGLISH
+    )
     assert done.returncode == 2
     assert "'jazzy'" in done.stderr
     assert "쓰려고" in done.stderr
 
 
-def test_a_language_that_is_not_spoken_is_wrong_usage(tmp_path: Path) -> None:
-    done = stage.run(stage.grader("check", tmp_path, "--lang", "tlh"), env=ENGLISH)
+def test_an_unsupported_language_is_a_usage_error(tmp_path: Path) -> None:
+    done = processes.run(processes.grader("check", tmp_path, "--lang", "tlh"), env=ENGLISH)
     assert done.returncode == 2
     assert "tlh" in done.stderr

@@ -1,4 +1,4 @@
-"""Texts that are English and can be said in another language."""
+"""Messages: English texts that can be translated."""
 
 from __future__ import annotations
 
@@ -20,48 +20,48 @@ def german(template: str) -> str:
     return DICTIONARY.get(template, template)
 
 
-def test_a_text_reads_as_english_wherever_a_string_goes() -> None:
+def test_a_message_can_be_used_as_an_english_string() -> None:
     text = say("there is no file {path}", path="setup.py")
     assert text == "there is no file setup.py"
     assert isinstance(text, str)
     assert f"{text}!" == "there is no file setup.py!"
 
 
-def test_what_fills_a_text_is_translated_with_it() -> None:
+def test_values_inside_a_message_are_translated_with_it() -> None:
     text = say("a cat {what}", what=say("in {place}", place=say("red")))
     assert text == "a cat in red"
     assert text.translated(german) == "eine Katze in rot drin"
 
 
-def test_joined_texts_are_translated_each_by_itself_and_empty_ones_left_out() -> None:
+def test_joined_messages_are_translated_separately_and_empty_ones_left_out() -> None:
     text = joined(say("red"), "", "42", say("in {place}", place="X"), by=", ")
     assert text == "red, 42, in X"
     assert text.translated(german) == "rot, 42, in X drin"
 
 
-def test_a_sum_of_texts_can_still_be_translated() -> None:
+def test_a_sum_of_messages_can_be_translated() -> None:
     for text in (say("red") + " 1", "1 " + say("red")):
         assert isinstance(text, Message)
         assert "rot" in text.translated(german)
 
 
 @given(st.text())
-def test_what_a_student_wrote_is_never_taken_for_a_template(name: str) -> None:
+def test_a_students_text_is_never_used_as_a_template(name: str) -> None:
     assert say("a cat {what}", what=name).translated(german) == f"eine Katze {name}"
 
 
 @given(st.text(alphabet=string.ascii_letters + "{} ", max_size=20))
-def test_a_value_with_braces_stays_as_it_is(value: str) -> None:
+def test_a_value_with_braces_stays_unchanged(value: str) -> None:
     assert joined(say("red"), value or "x").translated(german) == f"rot {value or 'x'}"
 
 
-def test_a_missing_value_is_an_error_at_once_and_not_at_the_reader() -> None:
+def test_a_missing_value_is_an_error_when_the_message_is_made() -> None:
     with pytest.raises(KeyError):
         say(msg("there is no {thing}"))
 
 
 @pytest.mark.parametrize("text", [say("in {place}", place="X"), joined(say("red"), "y")])
-def test_a_text_survives_being_copied_and_sent(text: Message) -> None:
+def test_a_message_can_be_copied_and_pickled(text: Message) -> None:
     for again in (copy.deepcopy(text), pickle.loads(pickle.dumps(text))):
         assert again == text
         assert again.translated(german) == text.translated(german)
@@ -84,29 +84,27 @@ def test_a_text_survives_being_copied_and_sent(text: Message) -> None:
         ({"LC_ALL": "POSIX", "LANG": "ko_KR"}, "en"),
     ],
 )
-def test_the_language_is_chosen_as_gnu_gettext_chooses_it(
-    environment: dict[str, str], wanted: str
-) -> None:
+def test_the_language_is_chosen_as_in_gnu_gettext(environment: dict[str, str], wanted: str) -> None:
     assert chosen_language(environment) == wanted
 
 
 @pytest.mark.parametrize(
     ("own", "wanted"), [("ko", "ko"), ("ko_KR.UTF-8", "ko"), ("en", "en"), ("", "en"), ("de", "en")]
 )
-def test_a_place_without_locales_names_the_language_itself(own: str, wanted: str) -> None:
+def test_grader_lang_works_without_locales(own: str, wanted: str) -> None:
     assert chosen_language({"LC_ALL": "C.UTF-8", "GRADER_LANG": own}) == wanted
 
 
-def test_an_own_language_comes_before_the_locale_s() -> None:
+def test_grader_lang_outranks_the_locale() -> None:
     assert chosen_language({"LANG": "ko_KR.UTF-8", "GRADER_LANG": "en"}) == "en"
 
 
-def test_a_language_that_nobody_speaks_is_english() -> None:
+def test_an_unsupported_language_falls_back_to_english() -> None:
     assert Translator("tlh").lang == "en"
     assert Translator("tlh")(say("there is no setup.cfg")) == "there is no setup.cfg"
 
 
-def test_korean_is_spoken() -> None:
+def test_korean_is_available() -> None:
     assert Translator("ko")(say("there is no setup.cfg")) == "setup.cfg가 없습니다"
     assert Translator("ko")("there is no setup.cfg") == "there is no setup.cfg", (
         "not ours: as it is"

@@ -1,4 +1,6 @@
-"""What a terminal shows is recognised. The texts are those that ROS 2, colcon, Python and the shell
+"""Mistakes are recognised in terminal output.
+
+The texts are those that ROS 2, colcon, Python and the shell
 print (recorded on rclpy 9.1.2, ros2cli and colcon-core 0.21.3; the table of beginners' mistakes).
 """
 
@@ -188,7 +190,7 @@ def test_a_mistake_is_recognised_in_what_the_terminal_shows(mistake: str, text: 
     assert first.line in text
 
 
-def test_every_entry_with_a_pattern_is_shown_by_some_text() -> None:
+def test_every_entry_with_a_pattern_matches_some_text() -> None:
     patterns = {kind.id for kind in CATALOGUE.values() if kind.seen}
     assert patterns - {mistake for mistake, texts in SHOWN.items() if texts} == set()
 
@@ -203,16 +205,16 @@ def test_every_entry_with_a_pattern_is_shown_by_some_text() -> None:
         "",
     ],
 )
-def test_in_what_is_right_no_mistake_is_seen(text: str) -> None:
+def test_no_mistake_is_found_in_right_output(text: str) -> None:
     assert seen_in(text) == []
 
 
-def test_the_root_comes_before_its_consequences() -> None:
+def test_the_root_cause_comes_before_its_consequences() -> None:
     text = "No executable found\n'distutils.core.setup()' was never called\n"
     assert [s.kind.id for s in seen_in(text)] == ["build.entry_unreadable", "lab.no_executable"]
 
 
-def test_what_the_text_says_becomes_a_parameter() -> None:
+def test_parts_of_the_text_become_parameters() -> None:
     (seen,) = seen_in("NameError: name 'Nod' is not defined. Did you mean: 'Node'?")
     assert seen.params == {"name": "Nod"}
 
@@ -223,7 +225,7 @@ def test_what_the_text_says_becomes_a_parameter() -> None:
         st.one_of(st.text(max_size=80), st.sampled_from([text for _, text in CASES])), max_size=30
     )
 )
-def test_any_text_is_looked_through(parts: list[str]) -> None:
+def test_any_text_is_searched_without_an_error(parts: list[str]) -> None:
     for seen in seen_in("\n".join(parts)):
         assert seen.kind.id in CATALOGUE
 
@@ -233,7 +235,7 @@ def test_any_text_is_looked_through(parts: list[str]) -> None:
     ["a", "\n", "'", "ModuleNotFoundError: No module named '", "install/", "/src/a/", "a.",
      "AttributeError: module 'a' has no attribute 'b'\n", "python3", "import: ", "TypeError: a"],
 )  # fmt: skip
-def test_a_hostile_text_takes_no_time_worth_speaking_of(part: str) -> None:
+def test_a_hostile_text_takes_little_time(part: str) -> None:
     text = part * (1_000_000 // len(part))
     begin = time.process_time()
     seen_in(text)

@@ -1,4 +1,4 @@
-"""Every text has its Korean: complete, with the same placeholders, compiled."""
+"""Every text has a Korean translation with the same placeholders, and it is compiled."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from grader.base.errors import UsageError
 from grader.base.i18n.translator import LANGUAGES
 from grader.cli import update_translations as update
 from grader.cli.localized import CLICK, CLICK_PLURALS
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 OTHERS = [lang for lang in LANGUAGES if lang != "en"]
-# what is to be typed or written word for word, and what is all placeholders
+# texts to be typed or written literally, and texts of placeholders only
 CODE = (
     "'{entry}': {because}",
     "[develop] script_dir={wanted} and [install] install_scripts={wanted}",
@@ -52,7 +52,7 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
 
 
 def marked() -> Iterator[str]:
-    """Yield every text that the source marks, as Python reads it (Babel reads tokens)."""
+    """Yield every text marked in the source, found in Python's syntax tree (Babel reads tokens)."""
     for path in sorted(path for room in update.FOLDERS for path in (ROOT / room).rglob("*.py")):
         source = path.read_text(encoding="utf-8")
         if update.MARKS not in source:
@@ -64,8 +64,8 @@ def marked() -> Iterator[str]:
                     yield str(first.value)
 
 
-def test_every_text_that_is_marked_is_gathered() -> None:
-    """(Babel does not see one within an f-string, or within another that is marked.)"""
+def test_every_marked_text_is_extracted() -> None:
+    """Babel misses one inside an f-string or inside another marked text."""
     gathered = {template for template, _ in update.templates()}
     assert set(marked()) - gathered == set()
 
@@ -73,7 +73,7 @@ def test_every_text_that_is_marked_is_gathered() -> None:
 @pytest.mark.parametrize(
     "room", ["publish", "cli", "verdict", "mistakes", "batch", "sandbox", "ros", "lab"]
 )
-def test_the_texts_of_every_room_that_students_read_are_gathered(room: str) -> None:
+def test_the_texts_of_every_package_that_students_read_are_extracted(room: str) -> None:
     places = {place for _, place in update.templates()}
     folder = "lab" if room == "lab" else f"grader/{room}"
     assert any(place.startswith(f"{folder}/") for place in places)
@@ -85,8 +85,8 @@ def test_korean_texts_are_korean() -> None:
             assert re.search("[가-힣]", str(message.string)), message.id
 
 
-def test_what_click_says_is_what_click_says() -> None:
-    """A new click may word it otherwise: the translation would be of nothing."""
+def test_the_translated_texts_of_click_are_still_those_of_click() -> None:
+    """A new version of click may change its texts, which would leave them untranslated."""
     folder = Path(click.__file__).parent
     keywords: dict[str, tuple[int, ...] | None] = {"_": None, "ngettext": (1, 2)}
     said = {
@@ -104,7 +104,7 @@ def test_korean_sentences_are_in_the_formal_polite_style() -> None:
 
 
 @pytest.mark.parametrize("lang", OTHERS)
-def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang: str) -> None:
+def test_the_committed_translations_are_what_the_command_writes(lang: str) -> None:
     path = update.po_path(lang)
     catalog = update.collect(lang)
     again = "run python -m grader.cli.update_translations"
@@ -112,7 +112,7 @@ def test_the_catalogue_in_the_repository_is_the_one_that_the_command_writes(lang
     assert path.with_suffix(".mo").read_bytes() == update.mo_bytes(catalog), again
 
 
-def test_there_are_no_texts_left_over() -> None:
+def test_there_are_no_obsolete_translations() -> None:
     known = {template for template, _ in update.templates()}
     assert {m.id for m in update.read("ko") if m.id} == {*known, *CLICK_PLURALS}
 
@@ -134,7 +134,7 @@ def test_a_renamed_text_keeps_its_translation(monkeypatch: pytest.MonkeyPatch) -
         ({"Fix the line.": "Fix the line."}, "'Fix the line.' is still marked"),
     ],
 )
-def test_a_map_of_renamed_texts_that_does_not_fit_the_source_is_refused(
+def test_a_map_of_renamed_texts_that_does_not_match_the_source_is_refused(
     renamed: dict[str, str], reason: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))

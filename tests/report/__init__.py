@@ -1,1 +1,1 @@
-"""The report: its schema, its page on terminals, its files."""
+"""The report: its schema, its terminal page, its files."""

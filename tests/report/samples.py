@@ -1,4 +1,4 @@
-"""Reports built by hand, as the runner would build them."""
+"""Reports built by hand, like those of a verdict."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def check(check_id: str, status: str = "passed", **fields: Any) -> CheckResult:
 
 
 def misspelt_module(**fields: Any) -> CheckResult:
-    """The check that fails for MISTAKES 13: the entry point names a module that is not there."""
+    """Return a failed check: the entry point names a module that does not exist."""
     return check(
         "entry_point.mapping",
         "failed",
@@ -72,7 +72,7 @@ def misspelt_module(**fields: Any) -> CheckResult:
 
 
 def report(*changed: CheckResult, **fields: Any) -> Report:
-    """A report of hello_time in which everything passed but `changed`; `fields` replace parts."""
+    """Return a report of hello_time: all checks pass except `changed`; `fields` replace parts."""
     results = {check_id: check(check_id) for check_id in TITLES}
     results |= {result.id: result for result in changed}
     content: dict[str, Any] = {
@@ -112,7 +112,7 @@ def report(*changed: CheckResult, **fields: Any) -> Report:
 
 
 def failing_report(**fields: Any) -> Report:
-    """A student's report: one mistake, what was skipped for its sake, one advice."""
+    """Return a student's report: one mistake, the checks skipped because of it, one advice."""
     skipped = [
         check(check_id, "skipped", depends=["run.starts"], blocked_by="entry_point.mapping")
         for check_id in TITLES
@@ -132,8 +132,8 @@ def failing_report(**fields: Any) -> Report:
     return report(misspelt_module(), starts, *skipped, advice, **{"evidence": evidence, **fields})
 
 
-def of(path: str | Path, *, distro: str = "jazzy", **fields: Any) -> Report:
-    """A report of the submission at `path`, in which everything passed."""
+def report_at(path: str | Path, *, distro: str = "jazzy", **fields: Any) -> Report:
+    """Return a report of the submission at `path` in which all checks pass."""
     clean = report()
     return report(
         submission=clean.submission.model_copy(update={"path": str(path)}),

@@ -1,4 +1,4 @@
-"""Reports on the disk when things go wrong: killed, no room, no right, planted links."""
+"""Reports on disk in case of kills, a full disk, missing permissions and planted links."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message
 from grader.report.files import report_json, write_matrix, write_report
 from grader.report.model import Report
-from tests.report.samples import of, report
+from tests.report.samples import report, report_at
 
 KILLS = 60
 PADDING = 300_000  # characters, so that a write takes more than one block
 
 
 def suffix(path: str | Path) -> str:
-    """The eight hex digits by which the second of two namesakes is told from the first."""
+    """Return the eight hex digits that distinguish two submissions with the same name."""
     return hashlib.sha256(str(path).encode()).hexdigest()[:8]
 
 
 @pytest.fixture
 def ordinary_user(tmp_path: Path) -> Iterator[None]:
-    """Root can write anywhere: be somebody else for a while."""
+    """Become an ordinary user during the test, because root can write anywhere."""
     if os.geteuid() == 0:
         os.seteuid(65534)
         yield
@@ -47,17 +47,17 @@ def test_a_planted_link_for_the_students_folder_is_not_followed(tmp_path: Path) 
     out = tmp_path / "out"
     out.mkdir()
     (out / "anna").symlink_to(tmp_path / "elsewhere")
-    written = write_report(of("/s/anna"), out, "anna")
+    written = write_report(report_at("/s/anna"), out, "anna")
     assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
 
-def test_a_planted_link_for_the_distros_folder_is_told(tmp_path: Path) -> None:
+def test_a_planted_link_for_the_distros_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "out" / "anna").mkdir(parents=True)
     (tmp_path / "out" / "anna" / "jazzy").symlink_to(tmp_path / "elsewhere")
     with pytest.raises(SurroundingsError, match="link or file is in the place of a folder"):
-        write_report(of("/s/anna"), tmp_path / "out", "anna")
+        write_report(report_at("/s/anna"), tmp_path / "out", "anna")
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
 
@@ -67,32 +67,32 @@ def test_a_planted_report_is_neither_followed_nor_waited_for(tmp_path: Path, tar
     place = tmp_path / "out" / "anna" / "jazzy"
     place.mkdir(parents=True)
     if target == "file":
-        victim.write_text(report_json(of("/s/anna")))
+        victim.write_text(report_json(report_at("/s/anna")))
     if target == "fifo":
         os.mkfifo(place / "report.json")
     else:
         (place / "report.json").symlink_to(victim)
     before = victim.read_text() if target == "file" else None
-    written = write_report(of("/s/anna", message="new"), tmp_path / "out", "anna")
+    written = write_report(report_at("/s/anna", message="new"), tmp_path / "out", "anna")
     assert written.is_file()
     assert not written.is_symlink()
-    assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"  # whose is the other?
+    assert written.parent.parent.name == f"anna-{suffix('/s/anna')}"  # owner unknown
     assert victim.exists() == (target == "file")
     assert before is None or victim.read_text() == before
 
 
-def test_a_link_in_place_of_the_matrix_is_replaced_itself(tmp_path: Path) -> None:
+def test_a_link_in_place_of_the_matrix_is_replaced_and_not_followed(tmp_path: Path) -> None:
     victim = tmp_path / "victim"
     victim.write_text("mine")
-    write_report(of("/s/anna"), tmp_path / "out", "anna")
+    write_report(report_at("/s/anna"), tmp_path / "out", "anna")
     (tmp_path / "out" / "anna" / "matrix.json").symlink_to(victim)
-    written = write_matrix([of("/s/anna")], tmp_path / "out", "anna")
+    written = write_matrix([report_at("/s/anna")], tmp_path / "out", "anna")
     assert not written.is_symlink()
     assert victim.read_text() == "mine"
 
 
 def write_until_killed(out: Path, marked: list[Report]) -> int:
-    """Start a process that writes the reports in turn; return its id once it has written all."""
+    """Start a process that writes the reports in turn; return its id after the first round."""
     reader, writer = os.pipe()
     pid = os.fork()
     if pid == 0:
@@ -109,7 +109,7 @@ def write_until_killed(out: Path, marked: list[Report]) -> int:
     return pid
 
 
-def test_killed_at_any_moment_the_old_or_the_new_report_is_there(tmp_path: Path) -> None:
+def test_after_a_kill_the_old_or_the_new_report_is_complete(tmp_path: Path) -> None:
     whole = {letter * PADDING for letter in "AB"}
     marked = [report(evidence={"build_log": log, "transcript": ""}) for log in sorted(whole)]
     chance = random.Random(17)
@@ -117,20 +117,18 @@ def test_killed_at_any_moment_the_old_or_the_new_report_is_there(tmp_path: Path)
     most_left_over = 0
     for _ in range(KILLS):
         pid = write_until_killed(tmp_path, marked)
-        time.sleep(chance.uniform(0, 0.02))  # any moment will do
+        time.sleep(chance.uniform(0, 0.02))  # kill at a random moment
         os.kill(pid, signal.SIGKILL)
         _, status = os.waitpid(pid, 0)
         assert os.WTERMSIG(status) == signal.SIGKILL
         assert json.loads(file.read_text())["evidence"]["build_log"] in whole
         most_left_over = max(most_left_over, len(list(file.parent.iterdir())) - 1)
-    assert most_left_over == 1  # some were killed in the middle; the next one swept it up
+    assert most_left_over == 1  # left by a kill, removed by the next process
     write_report(report(), tmp_path, "anna")
     assert [path.name for path in file.parent.iterdir()] == ["report.json"]
 
 
-def test_a_folder_that_cannot_be_written_to_is_told_with_a_remedy(
-    tmp_path: Path, ordinary_user: None
-) -> None:
+def test_an_unwritable_folder_is_reported_with_a_fix(tmp_path: Path, ordinary_user: None) -> None:
     for out in (Path("/proc/reports"), Path("/usr/reports")):
         with pytest.raises(SurroundingsError, match=f"below {out}") as told:
             write_report(report(), out, "anna")
@@ -140,19 +138,19 @@ def test_a_folder_that_cannot_be_written_to_is_told_with_a_remedy(
         assert isinstance(told.value.remedy, Message)
 
 
-def test_a_file_in_place_of_the_folder_is_told(tmp_path: Path) -> None:
+def test_a_file_in_place_of_the_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "reports").write_text("mine")
     with pytest.raises(SurroundingsError, match="link or file is in the place of a folder"):
         write_report(report(), tmp_path / "reports", "anna")
     assert (tmp_path / "reports").read_text() == "mine"
 
 
-def test_when_there_is_no_room_the_old_report_stays_and_nothing_is_left(tmp_path: Path) -> None:
+def test_on_a_full_disk_the_old_report_stays_and_nothing_else_is_left(tmp_path: Path) -> None:
     written = write_report(report(message="old"), tmp_path, "anna")
     size, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     former = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     try:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # no file may be longer
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # limits the size of a file
         with pytest.raises(SurroundingsError, match="Free some space") as told:
             write_report(report(message="new" * 9_000), tmp_path, "anna")
     finally:
@@ -164,7 +162,7 @@ def test_when_there_is_no_room_the_old_report_stays_and_nothing_is_left(tmp_path
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT])
-def test_a_disk_that_is_full_when_it_is_synchronised_is_told(
+def test_a_disk_that_is_full_at_fsync_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
 ) -> None:
     def full(fd: int) -> None:

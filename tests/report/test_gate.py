@@ -1,4 +1,4 @@
-"""What goes to a terminal passes the gate: nothing from outside steers it, whatever prints it."""
+"""All terminal output passes the gate: no text from outside controls the terminal."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import pytest
 
 from grader.base.gate import Gate, behind, bytes_of, gate, gated_output
 from grader.base.plain_text import LONGEST_LINE, MOST_LINES, bounded
-from tests.report.stage import ROOT, environment, on_a_terminal
-from tests.report.test_hostile import HOSTILE, unfit
+from tests.report.pseudo_terminal import ROOT, environment, on_a_terminal
+from tests.report.test_hostile import HOSTILE, forbidden_in
 
 WAYS = {
     "print": 0,
@@ -31,9 +31,9 @@ WAYS = {
 
 
 def run(*ways: str, **more: str) -> str:
-    """Return what the ways put out, both streams together."""
+    """Return the output of the given ways, both streams together."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.report.misbehaving", *ways],
+        [sys.executable, "-m", "tests.report.print_hostile", *ways],
         cwd=ROOT,
         env=environment(**more),
         stdout=subprocess.PIPE,
@@ -45,7 +45,7 @@ def run(*ways: str, **more: str) -> str:
 
 
 def by_way(said: str) -> dict[str, str]:
-    """Return what each way has put out; fail if one ended with another status than it must."""
+    """Return the output of each way; fail if one has an unexpected exit status."""
     parts = re.split(r"\n== (\w+) (\d+)\n", said)
     found = dict(zip(parts[1::3], parts[0::3], strict=False))
     statuses = {way: int(status) for way, status in zip(parts[1::3], parts[2::3], strict=True)}
@@ -53,40 +53,40 @@ def by_way(said: str) -> dict[str, str]:
     return found
 
 
-def test_in_a_pipe_there_is_no_control_byte_however_it_is_printed() -> None:
+def test_a_pipe_gets_no_control_bytes_however_text_is_printed() -> None:
     said = run(*WAYS)
     assert "\x1b" not in said
     for way, text in by_way(said).items():
         assert "Score 100 / 100" in text, way
-        assert unfit(text) == set(), way
+        assert forbidden_in(text) == set(), way
 
 
-def test_on_a_terminal_there_are_our_own_styles_and_nothing_else() -> None:
-    terminal = on_a_terminal("misbehaving", *WAYS)
+def test_a_terminal_gets_only_our_own_styles() -> None:
+    terminal = on_a_terminal("print_hostile", *WAYS)
     terminal.expect(pexpect.EOF)
-    ours = {"console": "\x1b[1m", "page": "\x1b[1m"}  # bold, and not the green that is in the text
+    ours = {"console": "\x1b[1m", "page": "\x1b[1m"}  # bold, but not the green from the text
     for way, text in by_way(str(terminal.before).replace("\r\n", "\n")).items():
         assert "Score 100 / 100" in text, way
-        assert unfit(text) == set(), way
+        assert forbidden_in(text) == set(), way
         assert ("\x1b" in text) == (way in ours), way
         assert ours.get(way, "") in text, way
         assert "\x1b[32m" not in text, way
 
 
-def test_an_encoding_without_the_characters_opens_no_way_around() -> None:
+def test_an_encoding_that_lacks_the_characters_does_not_bypass_the_gate() -> None:
     said = run("echo", PYTHONIOENCODING="ascii", LANG="C")
     assert "== echo 0" in said
-    assert unfit(said) == set()
+    assert forbidden_in(said) == set()
 
 
-def test_a_fault_of_ours_has_its_traceback_and_the_status_of_our_own_side() -> None:
+def test_a_grader_fault_has_a_traceback_and_its_own_status() -> None:
     said = run("crash")
     assert "== crash 3" in said
     assert "Traceback (most recent call last)" in said
     assert "please report it" in said
 
 
-def test_an_error_without_end_is_cut() -> None:
+def test_a_very_long_error_is_cut() -> None:
     said = run("long")
     assert len(said) < 20_000
     assert "the end\n" in said
@@ -97,12 +97,12 @@ def test_an_error_without_end_is_cut() -> None:
 def test_nothing_passes_but_visible_text(name: str) -> None:
     out = io.StringIO()
     print("before", HOSTILE[name], "after", file=gate(out))
-    assert unfit(out.getvalue()) == set()
+    assert forbidden_in(out.getvalue()) == set()
     assert out.getvalue().startswith("before ")
     assert out.getvalue().endswith(" after\n")
 
 
-def test_what_may_be_shown_passes_as_it_is() -> None:
+def test_visible_text_passes_unchanged() -> None:
     text = "안녕하세요 … 😀\n\n  two lines\n"
     assert bounded(text) == text
     out = io.StringIO()
@@ -111,13 +111,13 @@ def test_what_may_be_shown_passes_as_it_is() -> None:
     assert out.getvalue() == "a b\nc\n"
 
 
-def test_a_text_without_end_is_cut_in_its_middle() -> None:
+def test_a_very_long_text_is_cut_in_the_middle() -> None:
     lines = bounded("x\n" * 1_000_000).split("\n")
     assert len(lines) <= MOST_LINES + 2
     assert len(bounded("x" * 10_000_000)) < LONGEST_LINE + 100
 
 
-def test_a_gate_stands_for_its_stream() -> None:
+def test_a_gate_behaves_like_its_stream() -> None:
     raw = io.BytesIO()
     file = io.TextIOWrapper(raw, encoding="utf-8")
     made = gate(file)
@@ -128,12 +128,12 @@ def test_a_gate_stands_for_its_stream() -> None:
     assert not made.isatty()
     assert not hasattr(made, "buffer"), "who finds one writes past the gate"
     with pytest.raises((TypeError, AttributeError)):
-        made.write(b"")  # type: ignore[arg-type]  # click finds out so what it is
+        made.write(b"")  # type: ignore[arg-type]  # click detects a text stream by this
     made.close()
     assert not file.closed
 
 
-def test_the_streams_are_back_afterwards() -> None:
+def test_the_streams_are_restored_afterwards() -> None:
     kept = sys.stdout, sys.stderr
     with gated_output():
         assert isinstance(sys.stdout, Gate)

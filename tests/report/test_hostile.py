@@ -1,4 +1,4 @@
-"""Text that a submission decides is shown as text, whatever it holds."""
+"""Text from a submission is shown as plain text, whatever it contains."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ HOSTILE = {
 }
 
 
-def everywhere(text: str) -> Report:
-    """A report with the text in every place that a submission, or anybody, can fill."""
+def report_full_of(text: str) -> Report:
+    """Return a report with the text in every field that anybody can fill."""
     fields: dict[str, Any] = {
         "title": text,
         "rationale": text,
@@ -94,8 +94,8 @@ def pages(marked: Report, width: int = 80) -> list[str]:
     ] + [render_matrix([marked], width=width, styled=styled) for styled in (False, True)]
 
 
-def unfit(page: str) -> set[str]:
-    """The characters that do not belong on a page: neither printable nor of our own styles."""
+def forbidden_in(page: str) -> set[str]:
+    """Return the characters of a page that are neither printable nor part of our styles."""
     text = OUR_STYLES.sub("", page)
     wrong = ("Cc", "Cf", "Cs", "Zl", "Zp")
     return {c for c in text if unicodedata.category(c) in wrong and c not in SURVIVING}
@@ -104,29 +104,29 @@ def unfit(page: str) -> set[str]:
 @pytest.mark.parametrize("name", HOSTILE)
 @pytest.mark.parametrize("width", [40, 80])
 def test_no_control_character_reaches_the_terminal(name: str, width: int) -> None:
-    for page in pages(everywhere(HOSTILE[name]), width):
-        assert unfit(page) == set()
+    for page in pages(report_full_of(HOSTILE[name]), width):
+        assert forbidden_in(page) == set()
 
 
 @given(text=strategies.text(max_size=80))
 @settings(max_examples=40, deadline=None)
-def test_no_text_at_all_brings_one_there(text: str) -> None:
-    marked = everywhere(text.encode("utf-8", "ignore").decode())
-    assert unfit(render_report(marked, verbose=True, styled=True)) == set()
-    assert unfit(render_matrix([marked], width=40)) == set()
+def test_no_text_brings_a_control_character_to_the_terminal(text: str) -> None:
+    marked = report_full_of(text.encode("utf-8", "ignore").decode())
+    assert forbidden_in(render_report(marked, verbose=True, styled=True)) == set()
+    assert forbidden_in(render_matrix([marked], width=40)) == set()
 
 
 def test_a_plain_page_has_no_escape_at_all() -> None:
-    assert "\x1b" not in render_report(everywhere("\x1b[31mred"), verbose=True)
+    assert "\x1b" not in render_report(report_full_of("\x1b[31mred"), verbose=True)
 
 
-def test_our_own_styles_are_colours_and_weights_only() -> None:
-    page = render_report(everywhere("x"), styled=True)
+def test_our_own_styles_are_only_colours_and_weights() -> None:
+    page = render_report(report_full_of("x"), styled=True)
     assert "\x1b[" in page
     assert "\x1b" not in OUR_STYLES.sub("", page)
 
 
-def test_what_cannot_be_seen_is_spelled_out() -> None:
+def test_invisible_characters_are_spelled_out() -> None:
     assert visible("a\x1bb\x9bc\u202ed\u00a0e") == r"a\x1bb\x9bc\u202ed\xa0e"
     assert visible("\ud800") == r"\ud800"
     assert one_line("a\nb\r\nc") == r"a\nb\nc"
@@ -135,14 +135,14 @@ def test_what_cannot_be_seen_is_spelled_out() -> None:
 @pytest.mark.parametrize(
     "markup", ["[bold red]x[/]", "[/]", "[link=http://x]y[/link]", ":smile:", "\\[x]", "[[", "[@"]
 )
-def test_markup_and_emoji_codes_are_text(markup: str) -> None:
-    for page in pages(everywhere(markup)):
+def test_markup_and_emoji_codes_are_plain_text(markup: str) -> None:
+    for page in pages(report_full_of(markup)):
         assert OUR_STYLES.sub("", page).count(markup) >= 5
 
 
 def test_a_program_cannot_write_a_line_that_looks_like_ours() -> None:
     forged = "\n\nScore 100 / 100  (every check passed)\n  report    /tmp/x\nFAIL x: y\n"
-    page = render_report(everywhere(forged), verbose=True)
+    page = render_report(report_full_of(forged), verbose=True)
     assert [line for line in page.splitlines() if line.startswith("Score")] == [
         line for line in page.splitlines() if line.startswith("Score") and "inconclusive" in line
     ]
@@ -150,10 +150,10 @@ def test_a_program_cannot_write_a_line_that_looks_like_ours() -> None:
     assert "  report    /tmp/x" not in page.splitlines()
 
 
-def test_a_megabyte_is_cut_and_takes_no_time() -> None:
+def test_a_megabyte_is_cut_and_takes_little_time() -> None:
     for text in ("x" * 1_000_000, "x\n" * 500_000, "\x1b" * 1_000_000, "Traceback\n" * 100_000):
         begin = time.process_time()
-        page = render_report(everywhere(text), verbose=False)
+        page = render_report(report_full_of(text), verbose=False)
         assert time.process_time() - begin < 5
         assert len(page) < 200_000
         assert "left out" in page
@@ -201,7 +201,7 @@ def test_letters_of_all_scripts_are_kept_and_lines_fit(text: str, width: int) ->
 
 
 @pytest.mark.parametrize("width", [1, 20, 40, 59, 60, 80, 100, 250])
-def test_no_line_is_wider_than_the_page_and_none_than_people_read(width: int) -> None:
+def test_no_line_is_wider_than_the_page_or_the_readable_width(width: int) -> None:
     long = "word " * 100 + "x" * 300
     marked = report(
         check("run.output", "failed", title=long, expected=long, actual=long, rationale=long,

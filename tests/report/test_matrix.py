@@ -1,4 +1,4 @@
-"""The page of several distros: what differs, and why."""
+"""The page of several distros: the differences and their causes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.report.samples import TITLES, check, failing_report, misspelt_module,
 DISTROS = ["humble", "jazzy", "kilted", "lyrical", "rolling"]
 
 
-def on(distro: str, *changed: CheckResult, marked: Report | None = None) -> Report:
+def report_on(distro: str, *changed: CheckResult, marked: Report | None = None) -> Report:
     clean = marked or report(*changed)
     environment = clean.environment.model_copy(update={"distro": distro})
     return clean.model_copy(update={"environment": environment})
@@ -25,7 +25,7 @@ def words(text: str) -> str:
 
 
 def test_rows_are_checks_and_columns_distros() -> None:
-    page = render_matrix([on("humble"), on("jazzy", marked=failing_report())])
+    page = render_matrix([report_on("humble"), report_on("jazzy", marked=failing_report())])
     assert re.search(r"^ +humble +jazzy$", page, re.MULTILINE)
     for check_id in TITLES:
         status = failing_report().check(check_id).status
@@ -34,9 +34,13 @@ def test_rows_are_checks_and_columns_distros() -> None:
     assert re.search(r"^Score +100 / 100 +55 / 100$", page, re.MULTILINE)
 
 
-def test_what_differs_and_why_is_said_beneath() -> None:
+def test_differences_and_their_causes_are_listed_below() -> None:
     late = check("run.interrupt", "failed", actual="it went on for 5 s")
-    reports = [on("humble"), on("jazzy", marked=failing_report()), on("kilted", late)]
+    reports = [
+        report_on("humble"),
+        report_on("jazzy", marked=failing_report()),
+        report_on("kilted", late),
+    ]
     page = words(render_matrix(reports).partition("What differs:")[2])
     assert (
         "entry_point.mapping humble, kilted: passed "
@@ -51,21 +55,21 @@ def test_what_differs_and_why_is_said_beneath() -> None:
     assert misspelt_module().fix in page
 
 
-def test_where_nothing_differs_it_says_so_and_tells_each_mistake_once() -> None:
-    reports = [on(distro, misspelt_module(seconds=n)) for n, distro in enumerate(DISTROS)]
+def test_equal_distros_are_reported_as_equal_and_each_mistake_once() -> None:
+    reports = [report_on(distro, misspelt_module(seconds=n)) for n, distro in enumerate(DISTROS)]
     page = render_matrix(reports)
     assert "The same on every distro." in page
     assert page.count("FAIL entry_point.mapping:") == 1
     assert "(on " not in page
 
 
-def test_other_causes_on_other_distros_are_told_apart() -> None:
+def test_different_causes_on_different_distros_are_distinguished() -> None:
     page = words(
         render_matrix(
             [
-                on("humble", check("run.starts", "failed", actual="no rclpy")),
-                on("jazzy", check("run.starts", "failed", actual="no rclpy")),
-                on("kilted", check("run.starts", "failed", actual="no main")),
+                report_on("humble", check("run.starts", "failed", actual="no rclpy")),
+                report_on("jazzy", check("run.starts", "failed", actual="no rclpy")),
+                report_on("kilted", check("run.starts", "failed", actual="no main")),
             ]
         )
     )
@@ -76,7 +80,7 @@ def test_other_causes_on_other_distros_are_told_apart() -> None:
 
 @pytest.mark.parametrize("width", [40, 60, 80, 120])
 def test_every_distro_has_its_column_on_every_terminal(width: int) -> None:
-    page = render_matrix([on(distro) for distro in DISTROS], width=width)
+    page = render_matrix([report_on(distro) for distro in DISTROS], width=width)
     grid = page.partition("ros2_ws/src/my_robot_controller\n")[2].partition("The same")[0]
     for distro in DISTROS:
         assert re.search(rf"\b{distro}\b", grid)
@@ -85,23 +89,23 @@ def test_every_distro_has_its_column_on_every_terminal(width: int) -> None:
     assert ("\n\n" in grid.partition("Score")[2].rstrip()) == (width < 80)
 
 
-def test_points_that_nobody_knows_have_a_row() -> None:
+def test_unknown_points_have_a_row() -> None:
     late = check("run.period", "inconclusive")
-    page = render_matrix([on("humble"), on("jazzy", late)])
+    page = render_matrix([report_on("humble"), report_on("jazzy", late)])
     assert re.search(r"^inconclusive +0 +4$", page, re.MULTILINE)
 
 
 def test_a_distro_that_could_not_be_marked_is_named_with_its_reason() -> None:
     broken = report(status="error", message="no image for it", checks=[], score=0)
-    page = words(render_matrix([on("humble"), on("rolling", marked=broken)]))
+    page = words(render_matrix([report_on("humble"), report_on("rolling", marked=broken)]))
     assert "Not graded on rolling: no image for it" in page
     assert "rolling: not checked there" in page
 
 
-def test_hidden_checks_are_counted_and_say_nothing() -> None:
+def test_hidden_checks_are_counted_and_not_described() -> None:
     secret = check("secret.id", "failed", title="SECRET", actual="SECRET", visibility="hidden")
     waits = check("run.period", "skipped", blocked_by="secret.id", actual="because of: SECRET")
-    reports = [on("humble", secret, waits), on("jazzy")]
+    reports = [report_on("humble", secret, waits), report_on("jazzy")]
     page = render_matrix(reports)
     assert "secret" not in page.lower()
     assert "1 hidden check: not shown" in page
@@ -109,6 +113,6 @@ def test_hidden_checks_are_counted_and_say_nothing() -> None:
     assert "FAIL secret.id: SECRET" in render_matrix(reports, show_hidden=True)
 
 
-def test_the_path_of_the_matrix_is_told() -> None:
+def test_the_path_of_the_matrix_is_shown() -> None:
     path = Path("reports/anna/matrix.json")
-    assert render_matrix([on("humble")], path=path).splitlines()[-1].endswith(str(path))
+    assert render_matrix([report_on("humble")], path=path).splitlines()[-1].endswith(str(path))

@@ -1,4 +1,4 @@
-"""The page of one report: what stands on it, and that a student can make use of it."""
+"""The page of one report: its content and its usefulness to a student."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.report.samples import COMMAND, TITLES, check, failing_report, misspel
 
 
 def words(text: str) -> str:
-    """The text with its line breaks and indentation taken out."""
+    """Return the text without its line breaks and indentation."""
     return " ".join(text.split())
 
 
@@ -21,7 +21,7 @@ def line_of(text: str, start: str) -> str:
     return next(line for line in text.splitlines() if line.lstrip().startswith(start))
 
 
-def test_the_head_says_who_what_and_where() -> None:
+def test_the_head_names_student_package_and_folder() -> None:
     page = render_report(failing_report())
     assert page.splitlines()[0] == "Your first ROS 2 node: Hello time"
     for said in ("anna", "my_robot_controller", "jazzy", "bubblewrap", "virtual clock"):
@@ -29,7 +29,7 @@ def test_the_head_says_who_what_and_where() -> None:
 
 
 @pytest.mark.parametrize("width", [40, 80, 200])
-def test_every_check_has_its_line_with_mark_and_points(width: int) -> None:
+def test_every_check_has_a_line_with_mark_and_points(width: int) -> None:
     page = render_report(failing_report(), width=width)
     for check_id, (title, most) in TITLES.items():
         result = failing_report().check(check_id)
@@ -45,17 +45,17 @@ def test_the_total_is_a_line_of_its_own() -> None:
     assert line_of(render_report(failing_report()), "Score").startswith("Score 55 / 100 ")
 
 
-def test_points_that_nobody_knows_are_told_and_are_not_zero() -> None:
+def test_unknown_points_are_shown_and_are_not_zero() -> None:
     late = check("run.period", "inconclusive", actual="3 of 10 lines came late")
     page = render_report(report(late, score=96))
     assert line_of(page, "Score").startswith("Score 96 / 100, 4 inconclusive")
     assert re.search(r"^\? +run\.period .* - / 4$", page, re.MULTILINE)
     assert "3 of 10 lines came late" in page
     assert "No points given or taken" in page
-    assert "next" not in page  # nothing is the student's to fix
+    assert "next" not in page  # there is nothing for the student to fix
 
 
-def test_parts_of_points_are_written_as_people_do() -> None:
+def test_fractions_of_points_are_written_naturally() -> None:
     page = render_report(report(check("run.output", "failed", score=2.5), score=92.5))
     assert "Score 92.5 / 100" in page
     assert "2.5 / 10" in page
@@ -63,20 +63,20 @@ def test_parts_of_points_are_written_as_people_do() -> None:
     assert "Score 33.33 / 100" in thirds
 
 
-def test_a_check_that_broke_is_the_graders_fault() -> None:
+def test_a_check_with_an_internal_error_is_the_graders_fault() -> None:
     page = render_report(report(check("run.logger", "error", actual="KeyError: 'x'"), score=97))
     assert "ERR run.logger" in page
     assert "this is a fault of the grader" in words(page)
 
 
 @pytest.mark.parametrize("width", [40, 80, 200])
-def test_a_failed_check_says_all_that_helps(width: int) -> None:
+def test_a_failed_check_has_all_details(width: int) -> None:
     page = render_report(failing_report(), width=width)
     failed = misspelt_module()
     block = page.partition("FAIL entry_point.mapping:")[2].partition("Skipped because")[0]
     for said in (failed.title, failed.rationale, failed.fix):
         assert said in words(block)
-    # a narrow page may break these, which have no blanks to break at
+    # a narrow page may break these, which have no spaces to break at
     assert failed.expected.replace(" ", "") in re.sub(r"\s", "", block)
     assert failed.actual.replace(" ", "") in re.sub(r"\s", "", block)
     assert "setup.py:23" in block
@@ -105,7 +105,7 @@ def test_the_evidence_of_the_stage_that_failed_is_shown_once_with_a_bar() -> Non
     assert page.index("| Summary: 1 package finished") < page.index("FAIL run.starts:")
 
 
-def test_of_a_long_log_the_end_is_shown_and_a_traceback_from_its_start() -> None:
+def test_a_long_log_is_shown_from_its_traceback_to_its_end() -> None:
     failed = check("build.colcon", "failed")
     log = "\n".join(f"line {number}" for number in range(500))
     page = render_report(report(failed, evidence={"build_log": log, "transcript": ""}))
@@ -120,19 +120,19 @@ def test_of_a_long_log_the_end_is_shown_and_a_traceback_from_its_start() -> None
     assert "| ValueError: no" in page
 
 
-def test_a_mistake_in_the_files_alone_shows_no_logs() -> None:
+def test_a_static_mistake_shows_no_logs() -> None:
     failed = check("source.shebang", "failed")
     page = render_report(report(failed, evidence={"build_log": "B", "transcript": "T"}))
     assert "printed" not in page
 
 
-def test_logs_are_shown_for_what_failed_and_not_for_what_nobody_knows() -> None:
+def test_logs_are_shown_for_failed_and_not_for_inconclusive_checks() -> None:
     late = check("run.period", "inconclusive", actual="3 of 10 lines came late")
     page = render_report(report(late, evidence={"build_log": "B", "transcript": "T"}))
     assert "printed" not in page
 
 
-def test_skipped_checks_say_because_of_which() -> None:
+def test_skipped_checks_name_their_cause() -> None:
     page = words(render_report(failing_report()))
     assert (
         "Skipped because entry_point.mapping did not pass: run.starts, run.node_name, run.output, "
@@ -153,7 +153,7 @@ def test_without_blocked_by_the_cause_is_found_through_the_dependencies() -> Non
     assert "Skipped because build.colcon did not pass: run.starts, run.output" in page
 
 
-def test_dependencies_in_a_circle_end() -> None:
+def test_circular_dependencies_are_handled() -> None:
     page = render_report(
         report(
             check("run.starts", "skipped", depends=["run.output"], actual="never asked"),
@@ -163,12 +163,12 @@ def test_dependencies_in_a_circle_end() -> None:
     assert "Skipped never asked: run.starts, run.output" in page
 
 
-def test_advice_of_passed_checks_is_there_and_costs_nothing() -> None:
+def test_advice_of_passed_checks_is_shown_and_costs_nothing() -> None:
     page = words(render_report(failing_report()))
     assert "no points are lost) source.exec_bit: The bit is not needed by ros2 run" in page
 
 
-def test_the_end_says_what_to_do_next_and_where_all_is() -> None:
+def test_the_end_says_what_to_do_next_and_where_the_files_are() -> None:
     path = Path("reports/anna/jazzy/report.json")
     end = render_report(failing_report(), path=path).splitlines()[-4:]
     assert "Fix entry_point.mapping (in setup.py, line 23)" in end[0]
@@ -177,7 +177,7 @@ def test_the_end_says_what_to_do_next_and_where_all_is() -> None:
 
 
 @pytest.mark.parametrize("width", [40, 80])
-def test_commands_paths_and_patches_can_be_copied_whole(width: int) -> None:
+def test_commands_paths_and_patches_are_not_wrapped(width: int) -> None:
     path = Path("/home/anna/a rather long folder name/reports/anna/jazzy/report.json")
     lines = [line.strip() for line in render_report(failing_report(), width=width, path=path)
              .splitlines()]  # fmt: skip
@@ -185,7 +185,7 @@ def test_commands_paths_and_patches_can_be_copied_whole(width: int) -> None:
     assert any(line.endswith(str(path)) for line in lines)
 
 
-def test_a_grader_that_failed_says_so_and_not_that_the_student_did() -> None:
+def test_a_grader_failure_is_not_shown_as_the_students() -> None:
     page = render_report(
         report(status="error", message="no sandbox\nInstall bubblewrap.", checks=[], score=0)
     )
@@ -221,7 +221,7 @@ def test_verbose_adds_versions_limits_times_ticks_and_all_evidence() -> None:
     assert page.count("ModuleNotFoundError") == 1
 
 
-def test_hidden_checks_are_counted_and_say_nothing() -> None:
+def test_hidden_checks_are_counted_and_not_described() -> None:
     secret = check(
         "secret.id",
         "failed",
@@ -252,7 +252,7 @@ def test_hidden_checks_are_counted_and_say_nothing() -> None:
 
 
 @pytest.mark.parametrize("status", ["passed", "failed", "skipped", "inconclusive", "error"])
-def test_the_page_depends_on_its_arguments_alone(
+def test_the_page_depends_only_on_its_arguments(
     status: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     marked = report(check("run.output", status, expected="a", actual="b"))

@@ -1,4 +1,4 @@
-"""`report.schema.json`: what other people's programs rely on."""
+"""`report.schema.json`, the contract with other programs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SCHEMA = json.loads(PATH.read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 STATUSES = ["passed", "failed", "skipped", "inconclusive", "error"]
 
-# The fields of the published form, as README and docs promise them
+# The fields of the published format, as documented in README and docs
 CONTRACT: dict[str, set[str]] = {
     "": {"schema", "assignment", "submission", "environment", "status", "message", "score",
          "max_score", "lang", "attempts", "checks", "observed", "evidence", "timing", "started"},
@@ -46,19 +46,19 @@ def dumped() -> dict[str, Any]:
     return content
 
 
-def test_it_is_a_schema_of_draft_2020_12_with_an_id() -> None:
+def test_it_is_a_draft_2020_12_schema_with_an_id() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     assert SCHEMA["$schema"] == "https://json-schema.org/draft/2020-12/schema"
     assert SCHEMA["$id"]
 
 
-def test_it_is_what_the_model_says_today() -> None:
+def test_the_schema_matches_the_model() -> None:
     assert PATH.read_text(encoding="utf-8") == schema_text(), (
         "the model has changed: run python -m grader.report.schema"
     )
 
 
-def test_the_command_writes_it(tmp_path: Any) -> None:
+def test_the_command_writes_the_schema(tmp_path: Any) -> None:
     code = (
         "import pathlib, runpy, sys; import grader.report.schema as s\n"
         "real = pathlib.Path.with_name\n"
@@ -71,7 +71,7 @@ def test_the_command_writes_it(tmp_path: Any) -> None:
 
 
 @pytest.mark.parametrize("part", CONTRACT)
-def test_every_field_of_the_contract_is_there_and_required(part: str) -> None:
+def test_every_documented_field_exists_and_is_required(part: str) -> None:
     definition = SCHEMA["$defs"][part] if part else SCHEMA
     assert CONTRACT[part] <= set(definition["required"])
     assert set(definition["required"]) == set(definition["properties"])
@@ -88,7 +88,7 @@ def test_reports_with_each_status_are_valid(status: str) -> None:
     VALIDATOR.validate(json.loads(report_json(report(check("run.output", status)))))
 
 
-def test_a_report_of_a_grader_that_failed_is_valid() -> None:
+def test_a_report_of_a_grader_failure_is_valid() -> None:
     failed = report(status="error", message="no sandbox", checks=[], score=0, max_score=0)
     VALIDATOR.validate(json.loads(report_json(failed)))
 
@@ -97,7 +97,7 @@ def test_a_whole_failing_report_is_valid() -> None:
     VALIDATOR.validate(dumped())
 
 
-def test_fields_of_the_future_are_accepted_everywhere() -> None:
+def test_unknown_fields_are_accepted_everywhere() -> None:
     def extend(value: Any) -> Any:
         if isinstance(value, list):
             return [extend(item) for item in value]
@@ -106,7 +106,7 @@ def test_fields_of_the_future_are_accepted_everywhere() -> None:
         return value
 
     content = extend(dumped())
-    # maps, whose keys are names and not fields
+    # maps: their keys are data, not fields
     del content["environment"]["limits"]["from_2031"]
     for result in content["checks"]:
         for mistake in result["mistakes"]:
@@ -164,7 +164,7 @@ def with_mistakes_as_names(content: dict[str, Any]) -> None:
         with_mistakes_as_names,
     ],
 )
-def test_what_is_no_report_is_refused(spoil: Callable[[dict[str, Any]], None]) -> None:
+def test_an_invalid_report_is_refused(spoil: Callable[[dict[str, Any]], None]) -> None:
     content = copy.deepcopy(dumped())
     VALIDATOR.validate(content)
     spoil(content)

@@ -1,4 +1,4 @@
-"""The page on real pseudo-terminals and in pipes: what is coloured, what is plain, how wide."""
+"""The page on real pseudo-terminals and in pipes: colours and width."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ import pytest
 from rich.cells import cell_len
 
 from grader.report.terminal import print_report, render_report
+from tests.report.pseudo_terminal import ROOT, STYLES, on_a_terminal, piped
 from tests.report.samples import COMMAND, failing_report
-from tests.report.stage import ROOT, STYLES, on_a_terminal, piped
 
 
 def shown(columns: int = 80, env: dict[str, str] | None = None) -> str:
-    """All that `showing` writes on a terminal."""
-    terminal = on_a_terminal("showing", columns=columns, **(env or {}))
+    """Return all that `print_pages` writes on a terminal."""
+    terminal = on_a_terminal("print_pages", columns=columns, **(env or {}))
     terminal.expect(pexpect.EOF)
     terminal.close()
     assert terminal.exitstatus == 0
     return str(terminal.before).replace("\r\n", "\n")
 
 
-def test_on_a_terminal_there_are_colours_and_the_same_words() -> None:
+def test_a_terminal_gets_colours_and_the_same_words() -> None:
     page = shown()
     assert "\x1b[1;31mFAIL" in page
     assert "\x1b[32mpass" in page
     assert "\x1b" not in STYLES.sub("", page)
     plain = [line.rstrip() for line in STYLES.sub("", page).splitlines()]
-    assert plain == piped("showing").stdout.splitlines()
+    assert plain == piped("print_pages").stdout.splitlines()
 
 
-def test_in_a_pipe_there_are_none() -> None:
-    output = piped("showing")
+def test_a_pipe_gets_no_colours() -> None:
+    output = piped("print_pages")
     assert output.stdout.isascii()
     assert "\x1b" not in output.stdout
     assert output.stderr == ""
@@ -44,13 +44,13 @@ def test_in_a_pipe_there_are_none() -> None:
 @pytest.mark.parametrize(
     "env", [{"NO_COLOR": "1"}, {"TERM": "dumb"}, {"TERM": "unknown"}, {"TERM": ""}]
 )
-def test_who_wants_no_colours_gets_none_on_a_terminal_either(env: dict[str, str]) -> None:
+def test_colours_can_be_turned_off_on_a_terminal(env: dict[str, str]) -> None:
     page = shown(env=env)
     assert "\x1b" not in page
     assert "FAIL" in page
 
 
-def test_an_empty_no_color_says_nothing() -> None:
+def test_an_empty_no_color_is_ignored() -> None:
     assert "\x1b[" in shown(env={"NO_COLOR": ""})
 
 
@@ -64,14 +64,14 @@ def test_the_page_is_as_wide_as_the_terminal(columns: int) -> None:
     assert columns * 0.8 < max(widths) <= columns or 80 < max(widths) <= 100 < columns
 
 
-def test_columns_tells_the_width_of_a_pipe() -> None:
-    narrow = piped("showing", COLUMNS="40").stdout
+def test_columns_sets_the_width_in_a_pipe() -> None:
+    narrow = piped("print_pages", COLUMNS="40").stdout
     assert STYLES.sub("", shown(40)).split() == narrow.split()
-    assert piped("showing", COLUMNS="wide").stdout == piped("showing").stdout
+    assert piped("print_pages", COLUMNS="wide").stdout == piped("print_pages").stdout
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
-def test_every_encoding_takes_every_report(encoding: str) -> None:
+def test_every_report_can_be_printed_in_every_encoding(encoding: str) -> None:
     raw = io.BytesIO()
     file = io.TextIOWrapper(raw, encoding=encoding)
     clean = failing_report()

@@ -1,4 +1,4 @@
-"""What a `ros2` command finds around it in these tests: an ament workspace and a student's home."""
+"""The surroundings of a `ros2` command in these tests: an ament workspace and a student's home."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Finished:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """A scratch folder `root` with a home, a prefix with the command, and a workspace."""
+    """A temporary folder `root` with a home, a prefix with the command, and a workspace."""
 
     root: Path
     distro: str = "jazzy"
@@ -91,7 +91,7 @@ class Surroundings:
     def build(self) -> None:
         (self.root / "home").mkdir()
         site = self.prefix / "lib" / "site"
-        # As the builder of a prefix does: copied, under the name of its own
+        # As in a real prefix: copied, under its own name
         shutil.copytree(PACKAGE, site / "wheels_ros2", ignore=shutil.ignore_patterns("__pycache__"))
         write_script(
             self.prefix / "bin" / "ros2",
@@ -151,7 +151,7 @@ def add_marker(prefix: Path, package: str) -> Path:
 
 
 def files(folder: Path) -> dict[str, dict[str, object]]:
-    """Describe what a folder holds in the way in which the recordings do."""
+    """Describe the content of a folder in the format of the recordings."""
     return {_name(path, folder): _describe(path) for path in sorted(folder.rglob("*"))}
 
 
@@ -188,13 +188,13 @@ def _setup_arguments(text: str) -> dict[str, str]:
 
 
 def without_places(traceback: str) -> str:
-    """Leave out what differs between Pythons and places: ^^^^ marks, file names, line numbers."""
+    """Remove what differs between Pythons and folders: ^^^^ marks, file names, line numbers."""
     text = re.sub(r'File "[^"]*", line \d+', 'File "…"', traceback)
     return re.sub(r"^ *[\^~]+\r?\n", "", text, flags=re.MULTILINE)
 
 
 def running(process: int) -> bool:
-    """Tell whether a process lives, zombies not counted."""
+    """Return whether a process is running; a zombie is not."""
     try:
         return stat_fields(process)[0] != "Z"
     except FileNotFoundError:
@@ -202,5 +202,5 @@ def running(process: int) -> bool:
 
 
 def umask_of_a_student() -> int:
-    """Set the umask that the recordings were made with, and return the former one."""
+    """Set the umask of the recordings and return the former one."""
     return os.umask(0o022)

@@ -184,7 +184,9 @@ def test_help_of_the_pkg_verbs(jazzy: Surroundings, verb: str, usage: str) -> No
 
 @pytest.mark.parametrize("command", ["daemon", "extension_points", "extensions"])
 @pytest.mark.parametrize("rest", [[], ["status"], ["-h"]])
-def test_what_needs_a_full_ros_says_so(jazzy: Surroundings, command: str, rest: list[str]) -> None:
+def test_commands_that_need_a_full_ros_say_so(
+    jazzy: Surroundings, command: str, rest: list[str]
+) -> None:
     done = jazzy.ros2(command, *rest)
     assert (done.status, done.stdout) == (1, "")
     assert re.fullmatch(rf"ros2 {command}: not in this prefix .*\n", done.stderr)
@@ -223,8 +225,8 @@ def test_usage_errors(jazzy: Surroundings, arguments: list[str], error: str) -> 
     assert done.stderr.splitlines()[-1] == error
 
 
-def test_the_package_stands_alone() -> None:
-    """It is copied into prefixes: nothing of the grader may be imported, nor anything third."""
+def test_the_package_imports_nothing_else() -> None:
+    """It is copied into prefixes, so it must not import the grader or third-party packages."""
     for path in PACKAGE.rglob("*.py"):
         imported = re.findall(r"^ *(?:from|import) ([\w.]+)", path.read_text(), re.MULTILINE)
         assert not {name.partition(".")[0] for name in imported} & {"grader", "lab", "yaml"}, path

@@ -27,12 +27,12 @@ try:
 except (KeyboardInterrupt, ExternalShutdownException):
     pass
 """
-# a domain of its own for each test process; the grader's sandboxes take 1 to 100
+# a separate domain for each test process; the grader's sandboxes use 1 to 100
 DOMAIN = str(215 + int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")) % 15)
 
 
 class Graph:
-    """Nodes that are running, and a shell with the prefix sourced that may look at them."""
+    """Running nodes, and `ros2` commands in a shell with the prefix sourced."""
 
     def __init__(self, prefix: Path, folder: Path) -> None:
         self.folder = folder
@@ -75,7 +75,7 @@ def graph(jazzy_prefix: Path, tmp_path: Path) -> Iterator[Graph]:
 
 
 def until(look: Callable[[], tuple[int, str, str]], wanted: str) -> tuple[int, str, str]:
-    """Look again until something is discovered: lost announcements are repeated after 3 s."""
+    """Repeat until discovery is complete: lost announcements are repeated after 3 s."""
     answer = look()
     for _ in range(10):
         if wanted in answer[1]:
@@ -99,7 +99,7 @@ def test_nodes_are_sorted_and_have_their_namespace(graph: Graph) -> None:
     assert until(lambda: graph.ros2("node list -c --spin-time 4"), "2\n") == (0, "2\n", "")
 
 
-def test_two_nodes_of_one_name_are_warned_of(graph: Graph) -> None:
+def test_two_nodes_with_one_name_give_a_warning(graph: Graph) -> None:
     graph.start("twin")
     graph.start("twin")
     status, stdout, stderr = until(lambda: graph.ros2("node list"), "/twin\n/twin\n")
@@ -110,7 +110,7 @@ def test_two_nodes_of_one_name_are_warned_of(graph: Graph) -> None:
     )
 
 
-def test_an_empty_graph_lists_no_nodes_and_the_topics_of_every_node(graph: Graph) -> None:
+def test_an_empty_graph_lists_no_nodes_and_the_default_topics(graph: Graph) -> None:
     assert graph.ros2("node list --spin-time 0.1") == (0, "", "")
     assert graph.ros2("topic list --spin-time 0.1") == (0, "/parameter_events\n/rosout\n", "")
 

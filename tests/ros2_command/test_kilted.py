@@ -1,4 +1,4 @@
-"""What ros2cli 0.38 (kilted) does otherwise."""
+"""What ros2cli 0.38 (kilted) does differently."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ import pexpect
 import pytest
 
 from grader.sandbox.processes import children_of
-from tests.stage import wait_until_asleep
+from tests.processes import wait_until_asleep
 
 from .surroundings import Surroundings, files
 
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
-# Tells of each SIGINT and SIGTERM, and ends at SIGTERM
+# Prints each SIGINT and SIGTERM, and ends at SIGTERM
 LISTENER = f"""\
 #!{sys.executable}
 import os, signal, sys
@@ -63,7 +63,7 @@ def test_signals_to_ros2_alone_are_forwarded(started: subprocess.Popen[str]) -> 
     ]
 
 
-def test_a_node_that_sigint_ends_gives_254(kilted: Surroundings) -> None:
+def test_a_node_ended_by_sigint_gives_status_254(kilted: Surroundings) -> None:
     terminal: pexpect.spawn[str] = pexpect.spawn(
         str(kilted.prefix / "bin" / "ros2"),
         ["run", "my_robot_controller", "hang"],
@@ -101,7 +101,7 @@ def test_ctrl_c_on_the_terminal_reaches_the_node_and_is_forwarded_too(kilted: Su
     said += terminal.before or ""
     terminal.wait()
     assert terminal.exitstatus == 5
-    # The two merge into one where the second comes before the node has run
+    # The two merge into one if the second comes before the node is scheduled
     assert said.count("heard SIGINT") in (1, 2)
 
 
@@ -121,7 +121,7 @@ def test_a_new_package_is_checked_with_xmllint_too(kilted: Surroundings) -> None
     assert files(folder)["test/test_xmllint.py"]["mode"] == "0o644"
 
 
-def test_setup_py_asks_for_pytest_as_an_extra(kilted: Surroundings) -> None:
+def test_setup_py_has_pytest_as_an_extra(kilted: Surroundings) -> None:
     kilted.ros2(*CREATE)
     setup = files(kilted.root / "my_robot_controller")["setup.py"]["setup_arguments"]
     assert isinstance(setup, dict)
@@ -140,12 +140,12 @@ def test_git_names_the_maintainer(kilted: Surroundings, distro: str, maintainer:
     assert f"maintainer: ['{maintainer}']\n" in done.stdout
 
 
-def test_the_login_name_does_without_git_settings(kilted: Surroundings) -> None:
+def test_the_login_name_is_used_without_git_settings(kilted: Surroundings) -> None:
     done = kilted.ros2(*CREATE)
     assert "maintainer: ['student <student@todo.todo>']\n" in done.stdout
 
 
-def test_the_prefix_says_its_distro_where_the_environment_does_not(kilted: Surroundings) -> None:
+def test_the_prefix_names_its_distro_if_the_environment_does_not(kilted: Surroundings) -> None:
     (kilted.prefix / "lib" / "site" / "wheels_ros2" / "distro").write_text("kilted\n")
     kilted.ros2(*CREATE, environment={"ROS_DISTRO": ""})
     assert (kilted.root / "my_robot_controller" / "test" / "test_xmllint.py").exists()

@@ -41,7 +41,7 @@ def test_executables_of_all_packages(jazzy: Surroundings) -> None:
     assert len(done.stdout.splitlines()) == 6
 
 
-def test_executables_without_exec_bit_or_in_hidden_folders_do_not_count(
+def test_files_without_exec_bit_or_in_hidden_folders_are_not_executables(
     jazzy: Surroundings,
 ) -> None:
     (jazzy.executables / "hang").chmod(0o644)
@@ -83,7 +83,7 @@ def test_xml_says_what_is_missing(jazzy: Surroundings, arguments: list[str], mes
     assert (done.status, done.stdout, done.stderr) == (1, "", message + "\n")
 
 
-def test_forgotten_build_type_makes_an_ament_cmake_package(jazzy: Surroundings) -> None:
+def test_without_a_build_type_an_ament_cmake_package_is_made(jazzy: Surroundings) -> None:
     done = jazzy.ros2("pkg", "create", "my_robot_controller")
     assert done.status == 0
     assert "build type: ament_cmake\n" in done.stdout
@@ -147,12 +147,12 @@ def test_a_python_library_is_a_package_inside(jazzy: Surroundings) -> None:
     assert "creating folder ./p1/p1/lib\ncreating ./p1/p1/lib/__init__.py\n" in done.stdout
 
 
-def test_the_generated_python_is_python(jazzy: Surroundings) -> None:
+def test_the_generated_python_is_valid(jazzy: Surroundings) -> None:
     jazzy.ros2("pkg", "create", "--build-type", "ament_python", "p1", "--node-name", "n")
     assert compileall.compile_dir(jazzy.root / "p1", quiet=1)
 
 
-def test_node_and_library_of_one_name(jazzy: Surroundings) -> None:
+def test_node_and_library_with_the_same_name(jazzy: Surroundings) -> None:
     done = jazzy.ros2(
         *("pkg", "create", "--build-type", "ament_python", "p1"),
         *("--node-name", "same", "--library-name", "same"),
@@ -173,7 +173,7 @@ def test_package_format_2(jazzy: Surroundings) -> None:
 
 
 @pytest.mark.parametrize("identifier", LICENSES)
-def test_every_listed_licence_has_its_text(jazzy: Surroundings, identifier: str) -> None:
+def test_every_listed_licence_has_a_text(jazzy: Surroundings, identifier: str) -> None:
     done = jazzy.ros2("pkg", "create", "p1", "--license", identifier)
     assert "WARNING" not in done.stdout
     path: Path = jazzy.root / "p1" / "LICENSE"

@@ -1,4 +1,4 @@
-"""Every recording of the real ros2cli 0.32.2, replayed against ours."""
+"""Every recording of the real ros2cli 0.32.2, replayed against our command."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import pexpect
 import pytest
 
 from grader.sandbox.processes import children_of
-from tests.stage import wait_until_asleep
+from tests.processes import wait_until_asleep
 
 from .surroundings import Surroundings, files, running, without_places
 
@@ -28,10 +28,10 @@ OUTPUT = [case["name"] for case in CASES if "stdout" in case]
 TYPED = [case["name"] for case in CASES if "after" in case]
 SIGNALLED = [case["name"] for case in CASES if "ros2_alive" in case]
 
-# "create again" is recorded in the folder of "create first", the others each in their own
+# "create again" is recorded in the folder of "create first", the others in separate ones
 BEFORE = {"create again": "create first"}
 FOLDERS = {"create first": "twice", "create again": "twice"}
-# Written in our own words, so their sizes are ours too
+# These files have our own wording, so their sizes differ
 OWN_TEXT = re.compile(r"/test/test_\w+\.py$")
 
 
@@ -102,15 +102,15 @@ def test_ctrl_c_on_the_terminal_ends_as_recorded(jazzy: Surroundings, name: str)
     if executable == "wait":
         assert after == case["after"]
     else:
-        # recorded is the last part of the traceback of Python 3.12
+        # the recording has the last part of the traceback of Python 3.12
         recorded = without_places(case["after"].partition("\r\n")[2])
         assert without_places(after).endswith(recorded)
-        if sys.version_info[:2] == (3, 12):  # 3.10 has no ^^^^ yet, 3.13 mixes them with ~~~~
+        if sys.version_info[:2] == (3, 12):  # 3.10 has no ^^^^, 3.13 mixes them with ~~~~
             assert jazzy.normalised(after).endswith(case["after"])
 
 
 @pytest.mark.parametrize("name", SIGNALLED)
-def test_a_signal_to_ros2_alone_does_as_recorded(jazzy: Surroundings, name: str) -> None:
+def test_a_signal_to_ros2_alone_ends_as_recorded(jazzy: Surroundings, name: str) -> None:
     case = BY_NAME[name]
     number = signal.SIGINT if "SIGINT" in name else signal.SIGTERM
     # A shell stays on the terminal, as a student's does: the end of the terminal's first process
@@ -131,7 +131,7 @@ def test_a_signal_to_ros2_alone_does_as_recorded(jazzy: Surroundings, name: str)
 
 
 def _let_handle(process: int, number: int) -> None:
-    """Wait until a process has no such signal pending any more."""
+    """Wait until this signal is no longer pending for the process."""
     while _pending(process) & 1 << (number - 1):
         os.sched_yield()
 

@@ -30,7 +30,7 @@ def test_only_the_exact_name_is_found(jazzy: Surroundings) -> None:
     assert (done.status, done.stderr) == (1, "No executable found\n")
 
 
-def test_two_of_one_name_are_listed_and_none_is_run(jazzy: Surroundings) -> None:
+def test_two_executables_with_one_name_are_listed_and_none_is_run(jazzy: Surroundings) -> None:
     first = write_script(jazzy.executables / "a" / "twin", SAY_WHERE)
     second = write_script(jazzy.executables / "b" / "twin", SAY_WHERE)
     done = jazzy.ros2("run", "my_robot_controller", "twin")
@@ -38,7 +38,7 @@ def test_two_of_one_name_are_listed_and_none_is_run(jazzy: Surroundings) -> None
     assert done.stderr == f"Multiple executables found:\n- {first}\n- {second}\n"
 
 
-def test_a_dangling_marker_is_no_package(jazzy: Surroundings) -> None:
+def test_a_dangling_marker_is_not_a_package(jazzy: Surroundings) -> None:
     marker = add_marker(jazzy.overlay, "moved_away")
     marker.unlink()
     marker.symlink_to(jazzy.root / "nowhere")
@@ -76,7 +76,7 @@ def test_without_a_sourced_environment_it_names_the_variable(jazzy: Surroundings
     )
 
 
-def test_prefixes_that_do_not_exist_are_passed_over(jazzy: Surroundings) -> None:
+def test_missing_prefixes_are_skipped(jazzy: Surroundings) -> None:
     path = f"/nowhere:{jazzy.environment['AMENT_PREFIX_PATH']}:"
     done = jazzy.ros2("run", "my_robot_controller", "zero", environment={"AMENT_PREFIX_PATH": path})
     assert (done.status, done.stdout) == (0, "[]\n")
@@ -137,14 +137,14 @@ options:
     )
 
 
-def test_the_child_is_not_kept_waiting(jazzy: Surroundings) -> None:
+def test_ros2_run_adds_little_time(jazzy: Surroundings) -> None:
     jazzy.add_executable("true", "#!/bin/true\n")
     jazzy.ros2("run", "my_robot_controller", "true")  # compiles the modules
     assert min(_processor_seconds(jazzy) for _ in range(5)) < 0.060
 
 
 def _processor_seconds(jazzy: Surroundings) -> float:
-    """Return the processor time of a `ros2 run` from start to end, `true` in it included."""
+    """Return the processor time of a whole `ros2 run`, including the `true` that it runs."""
     ros2 = str(jazzy.prefix / "bin" / "ros2")
     arguments = [ros2, "run", "my_robot_controller", "true"]
     process = os.posix_spawn(ros2, arguments, jazzy.environment)

@@ -1,4 +1,4 @@
-"""An instructor's own assignment, another package with another text: it is validated alike."""
+"""Validating an instructor's own assignment with another package and text."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from tests import stage
+from tests import processes
 from tests.test_another_course import write_assignment, write_solution
 
 MUTANTS = """\
@@ -45,7 +45,7 @@ def keys(tmp_path: Path) -> Path:
 
 
 def validate(*words: str | Path) -> tuple[int, str, str]:
-    done = stage.run(stage.grader("validate", *words))
+    done = processes.run(processes.grader("validate", *words))
     assert "Traceback" not in done.stderr
     return done.returncode, done.stdout, done.stderr
 
@@ -60,7 +60,7 @@ def matrix_of(course: Path, keys: Path, *words: str) -> dict[str, Any]:
     return matrix
 
 
-def test_the_files_of_another_package_decide_as_many_mutants(course: Path, keys: Path) -> None:
+def test_static_checks_decide_as_many_mutants_of_another_package(course: Path, keys: Path) -> None:
     matrix = matrix_of(course, keys, "--static")
     assert matrix["assignment"] == "ticking"
     assert matrix["figures"]["failed_where_they_must"] >= 100
@@ -82,16 +82,14 @@ def test_an_f_string_has_mutants_of_its_own(course: Path, keys: Path) -> None:
     assert row["mistakes"]["run.output"] == "node.f_prefix"
 
 
-def test_what_no_check_of_the_assignment_sees_is_no_mutant(course: Path, keys: Path) -> None:
+def test_changes_that_no_check_covers_are_not_mutants(course: Path, keys: Path) -> None:
     course.write_text(course.read_text().replace(SHEBANG, ""))
     status, _, errors = validate(course, "--keys", keys, "--static", "--only", "first line lost")
     assert status == 2
     assert "no mutant's name matches 'first line lost'" in errors
 
 
-def test_a_mutant_of_a_check_that_is_not_asked_is_told_with_its_line(
-    course: Path, keys: Path
-) -> None:
+def test_a_mutant_of_an_unused_check_is_reported_with_its_line(course: Path, keys: Path) -> None:
     course.write_text(course.read_text().replace(SHEBANG, ""))
     (keys / "mutants.yaml").write_text(MUTANTS.replace("package.marker\n", "source.shebang\n"))
     status, _, errors = validate(course, "--keys", keys, "--static")
@@ -113,7 +111,7 @@ def test_a_mutant_of_a_check_that_is_not_asked_is_told_with_its_line(
         ("setup.py", b"print()\n", "setup.py does not call setup()"),
     ],
 )
-def test_a_solution_that_no_mutant_can_be_made_of_is_told(
+def test_a_solution_without_possible_mutants_is_reported(
     file: str, text: bytes | None, says: str, course: Path, keys: Path
 ) -> None:
     path = keys / "solution/turtle_counter" / file
@@ -125,7 +123,9 @@ def test_a_solution_that_no_mutant_can_be_made_of_is_told(
     assert says in errors
 
 
-def test_a_missing_solution_is_told_with_where_it_belongs(course: Path, tmp_path: Path) -> None:
+def test_a_missing_solution_is_reported_with_its_expected_path(
+    course: Path, tmp_path: Path
+) -> None:
     status, _, errors = validate(course, "--keys", tmp_path)
     assert status == 2
     assert f"{tmp_path}/solution/turtle_counter" in errors

@@ -1,4 +1,4 @@
-"""Automatic mutants: always the same, all different, and one of each kind of mistake."""
+"""Automatic mutants: reproducible, all different, and at least one of each kind of mistake."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code
 from grader.validate.tree import digest, read_tree
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
 SOLUTION = read_tree(KEYS / "hello_time/solution/my_robot_controller")
@@ -24,7 +24,7 @@ def node_of(name: str) -> str:
     return MUTANTS[name].of(SOLUTION)[NODE].data.decode()
 
 
-def test_there_are_enough_and_they_are_the_same_each_time() -> None:
+def test_there_are_enough_mutants_and_they_are_reproducible() -> None:
     again = list(generate(SOLUTION, ASSIGNMENT))
     assert again == list(MUTANTS.values())
     assert len({digest(mutant.of(SOLUTION)) for mutant in again}) >= 120
@@ -62,14 +62,14 @@ def test_an_operator_changes_the_one_place_that_it_names(name: str, line: str) -
     assert changed == [line]
 
 
-def test_a_node_that_python_cannot_read_must_fail_at_the_source() -> None:
+def test_a_node_with_a_syntax_error_must_fail_at_the_source() -> None:
     for mutant in MUTANTS.values():
         if mutant.families == ("source.node_file",):
             with pytest.raises((SyntaxError, ValueError)):
                 compile(ast.parse(node_of(mutant.name)), "<node>", "exec")
 
 
-def test_an_f_string_is_changed_as_a_whole_and_inside_where_its_parts_stand() -> None:
+def test_an_f_string_is_changed_as_a_whole_and_in_its_parts() -> None:
     source = "text = f'[{self.n}] ticks'\n"
     made = {name: text for name, text, _ in in_source.mutants_of(Code(source), ASSIGNMENT)}
     assert made["f lost f'[{self.n}] ticks'"] == "text = '[{self.n}] ticks'\n"
@@ -78,7 +78,7 @@ def test_an_f_string_is_changed_as_a_whole_and_inside_where_its_parts_stand() ->
     assert made["misspell self.n"] == "text = f'[{self.nn}] ticks'\n"
 
 
-def test_places_are_found_in_lines_with_letters_of_several_bytes() -> None:
+def test_places_are_found_in_lines_with_multibyte_letters() -> None:
     code = Code("a = 'é'; b = 'ü'\nc = 3\n")
     first, second, third = (node for node in code.tree.body if isinstance(node, ast.Assign))
     assert code.of(second.value) == "'ü'"

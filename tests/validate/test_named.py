@@ -1,4 +1,4 @@
-"""mutants.yaml: what it may say, and errors with file and line for all else."""
+"""mutants.yaml: its format, and errors with file and line."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_survivors_are_explained_by_name(tmp_path: Path) -> None:
         (["drop x", "no_bit"], 3, "an automatic mutant has the same name"),
     ],
 )
-def test_names_that_do_not_fit_the_automatic_mutants_are_told_with_their_line(
+def test_unknown_names_of_automatic_mutants_are_reported_with_their_line(
     automatic: list[str], line: int, says: str, tmp_path: Path
 ) -> None:
     written = read(tmp_path, GOOD + "equivalent:\n  - {mutant: drop x, why: nobody reads it}\n")
@@ -111,7 +111,7 @@ def test_names_that_do_not_fit_the_automatic_mutants_are_told_with_their_line(
         (GOOD + "equivalent:\n" + 2 * "  - {mutant: x, why: y}\n", 10, "twice"),
     ],
 )
-def test_a_fault_is_told_with_file_and_line(
+def test_an_error_is_reported_with_file_and_line(
     text: str, line: int, says: str, tmp_path: Path
 ) -> None:
     with pytest.raises(AssignmentError) as caught:

@@ -1,4 +1,4 @@
-"""The edits that make a mutant: each does what its name says, and none that does not fit passes."""
+"""The edits that make a mutant: each does what its name says, or raises an error."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def files(folder: Path) -> dict[str, str]:
     }
 
 
-def test_a_tree_goes_to_disk_and_back(tmp_path: Path) -> None:
+def test_a_tree_is_written_and_read_back(tmp_path: Path) -> None:
     write_tree(TREE, tmp_path / "out")
     assert files(tmp_path / "out") == {
         "a.py": "#!x\none two\n",
@@ -52,7 +52,7 @@ def test_a_tree_goes_to_disk_and_back(tmp_path: Path) -> None:
     assert read_tree(tmp_path / "out") == TREE
 
 
-def test_scripts_are_executable_where_the_disk_keeps_no_modes(tmp_path: Path) -> None:
+def test_scripts_are_executable_if_the_disk_keeps_no_modes(tmp_path: Path) -> None:
     (tmp_path / "node.py").write_text("#!/usr/bin/env python3\n")
     (tmp_path / "setup.py").write_text("pass\n")
     (tmp_path / "node.py").chmod(0o644)
@@ -85,7 +85,7 @@ def test_each_edit_does_what_its_name_says() -> None:
     assert TREE["a.py"].data == b"#!x\none two\n"
 
 
-def test_a_file_that_is_written_again_keeps_its_mode() -> None:
+def test_a_rewritten_file_keeps_its_mode() -> None:
     assert Write("a.py", b"x").apply(TREE)["a.py"] == Entry(b"x", 0o755)
     assert Write("a.py", b"x", 0o640).apply(TREE)["a.py"] == Entry(b"x", 0o640)
 
@@ -117,6 +117,6 @@ def test_a_link_is_a_link_on_disk(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "edit", [Chmod("a.py", 0o644), Link("a.py", "x"), Delete("a.py"), Write("a.py", b"y")]
 )
-def test_packages_that_differ_in_anything_have_other_digests(edit: Edit) -> None:
+def test_packages_that_differ_have_different_digests(edit: Edit) -> None:
     assert digest(apply_all((edit,), TREE)) != digest(TREE)
     assert digest(dict(reversed(list(TREE.items())))) == digest(TREE)

@@ -1,4 +1,4 @@
-"""`grader validate`: every mutant fails where it must, and an assignment that does not is told of."""
+"""`grader validate`: mutants fail the expected checks, and deviations are reported."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import pytest
 
 from grader.course.find import KEYS
 from grader.sandbox.processes import adopt_orphans
-from tests import stage
+from tests import processes
 
 HELLO = KEYS / "hello_time"
-QUICK = 20.0  # seconds of one core in which the files of all mutants are looked at
+QUICK = 20.0  # seconds of one core for the static checks of all mutants
 CHECKED = """\
 schema: 1
 mutants:
@@ -28,12 +28,12 @@ mutants:
 
 
 def validate(*words: str | Path, timeout: float = 120) -> tuple[int, str, str]:
-    done = stage.run(stage.grader("validate", *words), timeout=timeout)
+    done = processes.run(processes.grader("validate", *words), timeout=timeout)
     return done.returncode, done.stdout, done.stderr
 
 
 def processor_seconds() -> float:
-    """Return what our children took: what else the machine does has no part in it."""
+    """Return the processor time of our children, which excludes other load."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
@@ -45,7 +45,9 @@ def keys(folder: Path, mutants: str) -> Path:
     return folder / "keys"
 
 
-def test_all_mutants_of_the_files_fail_where_and_why_they_must(tmp_path: Path) -> None:
+def test_all_static_mutants_fail_the_expected_checks_for_the_expected_reason(
+    tmp_path: Path,
+) -> None:
     before = processor_seconds()
     status, shown, errors = validate("hello_time", "--static", "--json", tmp_path / "m.json")
     assert processor_seconds() - before < QUICK
@@ -63,7 +65,7 @@ def test_all_mutants_of_the_files_fail_where_and_why_they_must(tmp_path: Path) -
         pytest.param("period_half", marks=pytest.mark.full),
     ],
 )
-def test_a_mutant_that_has_to_be_run_fails_where_and_why_it_must(name: str, tmp_path: Path) -> None:
+def test_a_mutant_that_must_run_fails_the_expected_check(name: str, tmp_path: Path) -> None:
     status, shown, errors = validate("hello_time", "--only", name, "--json", tmp_path / "m.json")
     assert status == 0, shown[-2000:] + errors
     (row,) = json.loads((tmp_path / "m.json").read_text())["rows"]
@@ -73,7 +75,7 @@ def test_a_mutant_that_has_to_be_run_fails_where_and_why_it_must(name: str, tmp_
     assert "100 of 100" in shown
 
 
-def test_a_mutant_that_survives_is_told(tmp_path: Path) -> None:
+def test_a_surviving_mutant_is_reported(tmp_path: Path) -> None:
     harmless = CHECKED + "      - {write: README.md, text: hello}\n"
     found = keys(tmp_path, harmless)
     status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine")
@@ -82,7 +84,7 @@ def test_a_mutant_that_survives_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.full
-def test_a_mutant_that_fails_elsewhere_is_told(tmp_path: Path) -> None:
+def test_a_mutant_that_fails_another_check_is_reported(tmp_path: Path) -> None:
     other = CHECKED + "      - {delete: resource/my_robot_controller}\n"
     found = keys(tmp_path, other)
     status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine")
@@ -91,7 +93,7 @@ def test_a_mutant_that_fails_elsewhere_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.full
-def test_another_mistake_than_the_named_one_is_told(tmp_path: Path) -> None:
+def test_another_mistake_than_the_named_one_is_reported(tmp_path: Path) -> None:
     mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
     wrong = CHECKED.replace("source.not_executable", "source.crlf") + mode
     found = keys(tmp_path, wrong)
@@ -100,7 +102,7 @@ def test_another_mistake_than_the_named_one_is_told(tmp_path: Path) -> None:
     assert "mine: the first mistake is source.not_executable, not source.crlf" in shown
 
 
-def test_a_solution_that_does_not_get_full_marks_is_told(tmp_path: Path) -> None:
+def test_a_solution_without_full_marks_is_reported(tmp_path: Path) -> None:
     mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
     found = keys(tmp_path, CHECKED + mode)
     package = found / "solution/my_robot_controller"
@@ -112,7 +114,7 @@ def test_a_solution_that_does_not_get_full_marks_is_told(tmp_path: Path) -> None
 
 
 @pytest.mark.full
-def test_a_right_mutant_needs_to_be_right(tmp_path: Path) -> None:
+def test_a_mutant_declared_right_must_get_full_marks(tmp_path: Path) -> None:
     text = "schema: 1\nequivalent:\n  - {mutant: drop rclpy.spin(node), why: I thought so}\n"
     found = keys(tmp_path, text)
     status, shown, _ = validate("hello_time", "--keys", found, "--only", "drop rclpy.spin*")
@@ -128,7 +130,7 @@ def test_a_right_mutant_needs_to_be_right(tmp_path: Path) -> None:
         (CHECKED + "      - {erase: setup.py}\n", "mutants.yaml:7"),
     ],
 )
-def test_a_fault_in_mutants_yaml_is_wrong_usage(text: str, says: str, tmp_path: Path) -> None:
+def test_an_error_in_mutants_yaml_is_a_usage_error(text: str, says: str, tmp_path: Path) -> None:
     status, _, errors = validate("hello_time", "--keys", keys(tmp_path, text), "--static")
     assert status == 2
     assert says in errors
@@ -139,29 +141,29 @@ def test_a_fault_in_mutants_yaml_is_wrong_usage(text: str, says: str, tmp_path: 
     "words",
     [("hello_tiem",), ("hello_time", "--only", "nobody"), ("hello_time", "--keys", "/none")],
 )
-def test_wrong_words_are_wrong_usage(words: tuple[str, ...]) -> None:
+def test_invalid_arguments_are_usage_errors(words: tuple[str, ...]) -> None:
     status, _, errors = validate(*words)
     assert status == 2
     assert "Traceback" not in errors
 
 
-def test_ctrl_c_ends_it_and_all_that_it_started() -> None:
+def test_ctrl_c_ends_validate_and_all_its_processes() -> None:
     adopt_orphans()
-    before = set(stage.descendants())
-    command = stage.grader("validate", "hello_time", "--only", "text_*")
-    process = subprocess.Popen(command, cwd=stage.ROOT, stderr=subprocess.PIPE, text=True)
+    before = set(processes.descendants())
+    command = processes.grader("validate", "hello_time", "--only", "text_*")
+    process = subprocess.Popen(command, cwd=processes.ROOT, stderr=subprocess.PIPE, text=True)
     assert process.stderr is not None
     assert "to be run" in process.stderr.readline()
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "Traceback" not in errors
-    assert set(stage.descendants()) <= before
+    assert set(processes.descendants()) <= before
 
 
 @pytest.mark.full
-def test_what_is_left_out_of_the_node_fails_or_is_explained(tmp_path: Path) -> None:
-    """(The whole matrix takes minutes: `make bench` has it.)"""
+def test_each_mutant_of_the_node_fails_or_is_explained(tmp_path: Path) -> None:
+    """The whole matrix takes minutes and is part of `make bench`."""
     file = tmp_path / "m.json"
     status, shown, errors = validate("hello_time", "--only", "drop*", "--json", file, timeout=600)
     assert status == 0, shown[-4000:] + errors[-1000:]

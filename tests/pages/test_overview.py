@@ -1,4 +1,4 @@
-"""What the overview counts: worked out by hand for small classes."""
+"""The counts of the overview, calculated by hand for small classes."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 from grader.batch.model import GradebookEntry
 from grader.publish.pages import overview
 from grader.report.model import Mistake, Timing
+from tests.pages.classes import entry, result
 from tests.report.samples import check, report
-from tests.site.classes import entry, result
 
 TEXT = [Mistake(id="run.wrong_text")]
 
@@ -23,7 +23,7 @@ def graded(number: int, final: float) -> GradebookEntry:
     return entry(number, report(), score=final, final=final)
 
 
-def test_points_are_counted_from_the_left_end_of_a_bar_and_full_marks_in_the_last() -> None:
+def test_a_bar_includes_its_left_end_and_the_last_bar_full_marks() -> None:
     finals = [0, 9.99, 10, 55, 90, 100]
     found = overview.scores(result([graded(n, final) for n, final in enumerate(finals)]))
     assert found is not None
@@ -32,13 +32,13 @@ def test_points_are_counted_from_the_left_end_of_a_bar_and_full_marks_in_the_las
     assert (found.lowest, found.highest, found.median) == (0, 100, 32.5)
 
 
-def test_points_beyond_the_ends_are_not_lost() -> None:
+def test_points_outside_the_range_are_counted() -> None:
     found = overview.scores(result([graded(1, 104), graded(2, -3)]))
     assert found is not None
     assert (found.bins[0].count, found.bins[-1].count) == (1, 1)
 
 
-def test_who_has_no_points_is_not_in_the_histogram() -> None:
+def test_students_without_points_are_not_in_the_histogram() -> None:
     missing = entry(2, None, status="missing", final=0)
     waiting = entry(3, None, status="ungradable")
     found = overview.scores(result([graded(1, 50), missing, waiting]))
@@ -53,7 +53,7 @@ def test_an_assignment_without_points_has_no_histogram() -> None:
     assert found.bins == ()
 
 
-def test_the_rate_is_of_those_of_whom_it_is_known() -> None:
+def test_the_rate_covers_students_with_a_known_result() -> None:
     reports = [
         report(failed("run.output")),
         report(),
@@ -69,7 +69,7 @@ def test_the_rate_is_of_those_of_whom_it_is_known() -> None:
     assert not first.clean
 
 
-def test_the_check_that_failed_most_often_is_first() -> None:
+def test_the_most_failed_check_is_first() -> None:
     entries = [
         entry(1, report(failed("run.output"), failed("run.logger"))),
         entry(2, report(failed("run.logger"))),
@@ -102,7 +102,7 @@ def test_the_more_frequent_mistake_is_first() -> None:
     assert [tally.id for tally in found] == ["run.wrong_text", "a.rare"]
 
 
-def test_hidden_checks_are_in_no_count_unless_they_are_shown() -> None:
+def test_hidden_checks_are_not_counted_unless_shown() -> None:
     secret = failed("run.output", visibility="hidden")
     later = check("run.logger", "inconclusive", visibility="after_due_date")
     one = result([entry(1, report(secret, later))])
@@ -114,7 +114,7 @@ def test_hidden_checks_are_in_no_count_unless_they_are_shown() -> None:
     assert not ids & {"run.output", "run.logger"}
 
 
-def test_the_slowest_are_first_and_only_those_with_a_verdict() -> None:
+def test_the_slowest_submissions_with_a_verdict_are_first() -> None:
     entries = [entry(n, report(timing=Timing(total=n % 7 + n / 100))) for n in range(12)]
     entries.append(entry(99, None, status="missing"))
     found = [one.report.timing.total for one in overview.slowest(result(entries)) if one.report]

@@ -1,4 +1,4 @@
-"""The pages can be read by everybody: by ear, by keyboard, in the dark, on a phone, on paper."""
+"""Accessibility of the pages: screen readers, keyboard, dark mode, phones, paper."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from playwright.sync_api import expect
 from grader.batch.model import Student
 from grader.publish.pages import write_site
 from grader.report.model import Evidence, Report
+from tests.pages import classes
+from tests.pages.axe import violations
+from tests.pages.browser import Open
 from tests.report.samples import failing_report
-from tests.site import classes
-from tests.site.axe import violations
-from tests.site.browser import Open
 
-pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+pytestmark = pytest.mark.full  # `make test` has no Chromium
 
 # one page of each kind in a class of `classes.mixed`
 KINDS = {
@@ -36,7 +36,7 @@ WIDTH = "document.documentElement.scrollWidth"
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing_on_any_kind_of_page(
+def test_axe_finds_no_violation_on_any_kind_of_page(
     scheme: str, visit: Open, site: Path, axe_source: str
 ) -> None:
     witness = visit(color_scheme=scheme)
@@ -47,7 +47,7 @@ def test_axe_finds_nothing_on_any_kind_of_page(
         assert violations(page, axe_source) == [], kind
 
 
-def test_axe_finds_nothing_after_search_and_sort_on_a_narrow_screen(
+def test_axe_finds_no_violation_after_search_and_sort_on_a_narrow_screen(
     visit: Open, site: Path, axe_source: str
 ) -> None:
     page = visit(viewport={"width": 320, "height": 640}).open(site / "index.html")
@@ -56,8 +56,8 @@ def test_axe_finds_nothing_after_search_and_sort_on_a_narrow_screen(
     assert violations(page, axe_source) == []
 
 
-def test_axe_does_find_what_is_wrong(visit: Open, site: Path, axe_source: str) -> None:
-    """So that nothing found says something."""
+def test_axe_finds_a_planted_violation(visit: Open, site: Path, axe_source: str) -> None:
+    """This shows that axe works in these tests."""
     page = visit().open(site / "students/1001.html")
     page.evaluate(
         "document.querySelector('caption').closest('.scroll').removeAttribute('tabindex')"
@@ -70,7 +70,7 @@ def test_axe_does_find_what_is_wrong(visit: Open, site: Path, axe_source: str) -
 
 @pytest.mark.parametrize("width", [320, 640, 1280])
 def test_a_page_is_never_wider_than_the_screen(width: int, visit: Open, site: Path) -> None:
-    """320 is a phone, and 1280 at a zoom of 400 % (WCAG 1.4.10); 640 is 1280 at 200 %."""
+    """320 is a phone, or 1280 at a zoom of 400 % (WCAG 1.4.10); 640 is 1280 at 200 %."""
     witness = visit(viewport={"width": width, "height": 800}, device_scale_factor=1280 / width)
     for kind, path in KINDS.items():
         page = witness.open(site / path)
@@ -79,7 +79,7 @@ def test_a_page_is_never_wider_than_the_screen(width: int, visit: Open, site: Pa
         assert page.evaluate(WIDTH) == width, kind
 
 
-def test_dark_is_dark_and_light_is_light(visit: Open, site: Path) -> None:
+def test_the_dark_and_light_schemes_are_followed(visit: Open, site: Path) -> None:
     def brightness(scheme: str) -> int:
         page = visit(color_scheme=scheme).open(site / "index.html")
         colour = page.evaluate("getComputedStyle(document.body).backgroundColor")
@@ -89,7 +89,7 @@ def test_dark_is_dark_and_light_is_light(visit: Open, site: Path) -> None:
     assert brightness("dark") < 3 * 40
 
 
-def test_the_first_tab_skips_to_the_content_and_focus_can_be_seen(visit: Open, site: Path) -> None:
+def test_the_first_tab_skips_to_the_content_and_focus_is_visible(visit: Open, site: Path) -> None:
     page = visit().open(site / "students/1001.html")
     page.keyboard.press("Tab")
     skip = page.get_by_role("link", name="Skip to the content")
@@ -100,7 +100,7 @@ def test_the_first_tab_skips_to_the_content_and_focus_can_be_seen(visit: Open, s
     expect(page.locator("main")).to_be_focused()
 
 
-def test_a_long_transcript_is_scrolled_by_keyboard(visit: Open, tmp_path: Path) -> None:
+def test_a_long_transcript_can_be_scrolled_by_keyboard(visit: Open, tmp_path: Path) -> None:
     text = "\n".join(f"line {number} " + "x" * 300 for number in range(500))
     report = failing_report(evidence=Evidence(transcript=text))
     write_site(classes.result([classes.entry(1, report)]), tmp_path)
@@ -113,14 +113,14 @@ def test_a_long_transcript_is_scrolled_by_keyboard(visit: Open, tmp_path: Path) 
     assert page.evaluate(f"{WIDTH} === innerWidth")
 
 
-def test_no_state_is_told_by_colour_alone(visit: Open, site: Path) -> None:
+def test_no_state_is_shown_by_colour_alone(visit: Open, site: Path) -> None:
     page = visit().open(site / "students/1011.html")
     for state in page.locator(".state").all():
         words = state.inner_text()
         assert words.split()[-1] in ("passed", "failed", "skipped", "inconclusive"), words
 
 
-def test_a_page_asks_nobody_and_works_without_a_network(visit: Open, site: Path) -> None:
+def test_a_page_makes_no_request_and_works_offline(visit: Open, site: Path) -> None:
     witness = visit(offline=True)
     for path in KINDS.values():
         witness.open(site / path)
@@ -128,7 +128,7 @@ def test_a_page_asks_nobody_and_works_without_a_network(visit: Open, site: Path)
         assert witness.complaints == []
 
 
-def test_it_prints_all_that_is_folded_or_scrolled_and_nothing_to_click(
+def test_folded_and_scrolled_content_is_printed_and_controls_are_not(
     visit: Open, site: Path
 ) -> None:
     page = visit().open(site / "students/1001.html")
@@ -143,14 +143,14 @@ def test_it_prints_all_that_is_folded_or_scrolled_and_nothing_to_click(
     assert page.evaluate(links)
 
 
-def test_it_can_be_made_a_pdf_on_white_paper_also_in_the_dark(visit: Open, site: Path) -> None:
+def test_a_pdf_has_a_white_background_in_the_dark_scheme(visit: Open, site: Path) -> None:
     page = visit(color_scheme="dark").open(site / "index.html")
     page.emulate_media(media="print")
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     assert page.pdf().startswith(b"%PDF-")
 
 
-def test_names_of_every_script_are_shown_as_they_are(
+def test_names_in_every_script_are_shown_unchanged(
     reports: tuple[Report, ...], visit: Open, tmp_path: Path
 ) -> None:
     names = ["محمد علي", "李小龍", "Nguyễn Thị Ánh", "O'Brien & Søn <3"]

@@ -1,4 +1,4 @@
-"""Programs put on a pseudo-terminal or into a pipe."""
+"""Running a program of this package on a pseudo-terminal or in a pipe."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pexpect
 
 ROOT = Path(__file__).resolve().parents[2]
 STYLES = re.compile(r"\x1b\[[0-9;]*m")
-SECONDS = 30  # for a program to answer; it takes less than one
+SECONDS = 30  # for a program to answer, which takes less than one
 
 
 def environment(**more: str) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Every text of a student is hostile: shown as it is, it does nothing."""
+"""Hostile texts of students are shown literally and do nothing."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ import pytest
 from grader.batch.model import ClassResult, GradebookEntry, Override, Student
 from grader.publish.pages import write_site
 from grader.publish.pages.names import page_names
+from tests.pages import classes
+from tests.pages.browser import Open
 from tests.report.samples import failing_report
-from tests.site import classes
-from tests.site.browser import Open
 
-pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+pytestmark = pytest.mark.full  # `make test` has no Chromium
 
 PAYLOADS = [
     "<script>alert(1); window.ran = 1</script>",
@@ -37,7 +37,7 @@ PAYLOADS = [
 ]  # fmt: skip
 DIRECTIVES = ["script-src-elem", "script-src-attr", "style-src-elem", "style-src-attr", "img-src",
               "frame-src"]  # fmt: skip
-# adds what a hostile text would be as markup; returns what the policy has stopped of it
+# adds hostile markup to the page; returns the directives of the policy that blocked it
 INJECTED = """address => new Promise(done => {
     const seen = new Set();
     document.addEventListener("securitypolicyviolation", event => {
@@ -56,11 +56,11 @@ INJECTED = """address => new Promise(done => {
 
 
 def hostile_class(texts: list[str]) -> ClassResult:
-    """A class of students each of whom chose one of the texts for all that anybody could choose."""
+    """Return a class in which each student has one of the texts in every field they control."""
     entries = []
     for text in texts:
-        # a report is read from JSON, which can hold no lone surrogate
-        bad = classes.poisoned(failing_report(), text.encode(errors="replace").decode())
+        # a report is read from JSON, which cannot contain a lone surrogate
+        bad = classes.with_every_text(failing_report(), text.encode(errors="replace").decode())
         student = Student(text, text, text, text, text, text)
         override = Override(text, text, 5, text, text)
         graded = GradebookEntry(student, "graded", bad, 50, final=50, notes=(text,), problem=text)
@@ -88,7 +88,7 @@ def hostile_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
-def test_nothing_of_it_runs_loads_or_becomes_markup(visit: Open, hostile_site: Path) -> None:
+def test_hostile_text_does_not_run_load_or_become_markup(visit: Open, hostile_site: Path) -> None:
     index = hostile_site / "index.html"
     pages = [index, *sorted((hostile_site / "students").iterdir())]
     assert len(pages) == 1 + 2 * len(PAYLOADS)
@@ -107,8 +107,8 @@ def test_nothing_of_it_runs_loads_or_becomes_markup(visit: Open, hostile_site: P
             assert address.startswith(hostile_site.as_uri()), (path, address)
 
 
-def test_it_does_not_make_a_page_wide_or_heavy(visit: Open, hostile_site: Path) -> None:
-    """One word of a hundred thousand letters, twenty thousand empty lines."""
+def test_hostile_text_does_not_make_a_page_wide_or_large(visit: Open, hostile_site: Path) -> None:
+    """A word of a hundred thousand letters, and twenty thousand empty lines."""
     witness = visit(viewport={"width": 320, "height": 640})
     for path in sorted(hostile_site.rglob("*.html")):
         assert path.stat().st_size < 500_000, path
@@ -116,7 +116,7 @@ def test_it_does_not_make_a_page_wide_or_heavy(visit: Open, hostile_site: Path) 
         assert page.evaluate("document.documentElement.scrollWidth") == 320, path
 
 
-def test_it_is_shown_letter_by_letter(visit: Open, tmp_path: Path) -> None:
+def test_hostile_text_is_shown_literally(visit: Open, tmp_path: Path) -> None:
     text = PAYLOADS[1]
     write_site(hostile_class([text]), tmp_path)
     page = visit().open(tmp_path / "students" / page_names([text, f"{text}!"])[text])
@@ -126,13 +126,13 @@ def test_it_is_shown_letter_by_letter(visit: Open, tmp_path: Path) -> None:
     assert page.locator(".fields dd").first.inner_text() == text
 
 
-def test_what_cannot_be_seen_is_spelled_out(visit: Open, tmp_path: Path) -> None:
+def test_invisible_characters_are_spelled_out(visit: Open, tmp_path: Path) -> None:
     index = write_site(hostile_class(["a\u202eb\x1bc\x00d"]), tmp_path)
     assert visit().open(index).locator("h1").inner_text() == r"a\u202eb\x1bc\x00d"
 
 
-def test_even_markup_that_got_in_would_not_run(visit: Open, hostile_site: Path) -> None:
-    """The second wall: the policy stops what escaping would have let through."""
+def test_injected_markup_would_not_run(visit: Open, hostile_site: Path) -> None:
+    """The second defence: the policy blocks what escaping would have missed."""
     for path in (hostile_site / "index.html", next((hostile_site / "students").iterdir())):
         with socket.create_server(("127.0.0.1", 0)) as server:
             page = visit().open(path)
@@ -140,5 +140,5 @@ def test_even_markup_that_got_in_would_not_run(visit: Open, hostile_site: Path) 
             assert set(blocked) == set(DIRECTIVES)
             assert page.evaluate("window.ran") is None
             server.setblocking(False)
-            with pytest.raises(BlockingIOError):  # nobody has come
+            with pytest.raises(BlockingIOError):  # no request has arrived
                 server.accept()

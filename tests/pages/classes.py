@@ -1,4 +1,4 @@
-"""Classes to make pages of: built from real reports, small or large, friendly or hostile."""
+"""Results of classes for the tests of outputs: from real reports, small, large or hostile."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.corpus.right import RIGHT
 from tests.recorded import mark
 
 DUE = datetime(2026, 11, 20, 22, 0, tzinfo=timezone.utc)
-# of the corpus: right, wrong text, cannot be started, cannot be built, too fast, on the wall clock
+# of the corpus: right, wrong text, does not start, does not build, too fast, on the wall clock
 REAL = (
     "solution",
     "text_capital",
@@ -27,7 +27,7 @@ REAL = (
 )
 FIRST = ("Ann", "Bela", "Chidi", "Dörte", "Émile", "Farah", "Goran", "Hana", "Ines", "José")
 LAST = ("Lee", "Nagy", "Okafor", "Weiß", "Zola", "Aziz", "Ilić", "Mori", "Costa", "Núñez")
-# texts of a program are data, also where a value of the model is one of a few words
+# fields with fixed values, which are not texts of a student
 FIXED = {"status", "visibility", "origin", "modes", "ros", "sandbox", "clock", "lang"}
 
 
@@ -76,7 +76,7 @@ def marked(name: str, folder: Path) -> Report:
 
 
 def mixed(reports: Sequence[Report], count: int) -> ClassResult:
-    """A class of `count` with something of everything: late, missing, ungradable, corrected…"""
+    """Return a class with every kind of student: late, missing, ungradable, corrected, …"""
     entries = [_of_kind(number, reports[number % len(reports)]) for number in range(count)]
     keys = [e.student.key for e in entries if e.report is not None]
     pair = (keys[0], keys[len(reports)])
@@ -123,14 +123,14 @@ def _with(report: Report, changed: CheckResult) -> Report:
     return report.model_copy(update={"checks": checks})
 
 
-def poisoned(report: Report, text: str) -> Report:
-    """Return the report with `text` in the place of every text that is not one of a fixed few."""
-    return Report.model_validate(_poison(report.model_dump(by_alias=True), text))
+def with_every_text(report: Report, text: str) -> Report:
+    """Return the report with `text` in place of every text that has no fixed values."""
+    return Report.model_validate(_replace_texts(report.model_dump(by_alias=True), text))
 
 
-def _poison(part: Any, text: str, name: str = "") -> Any:
+def _replace_texts(part: Any, text: str, name: str = "") -> Any:
     if isinstance(part, Mapping):
-        return {key: _poison(value, text, key) for key, value in part.items()}
+        return {key: _replace_texts(value, text, key) for key, value in part.items()}
     if isinstance(part, list):
-        return [_poison(value, text, name) for value in part]
+        return [_replace_texts(value, text, name) for value in part]
     return text if isinstance(part, str) and name not in FIXED else part

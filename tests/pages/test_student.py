@@ -1,4 +1,4 @@
-"""What a student's page says of the points and of the checks."""
+"""The texts of a student's page about points and checks."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from datetime import datetime, timezone
 from grader.batch.model import Override
 from grader.batch.words import duration, instant
 from grader.publish.pages.student import student_view
+from tests.pages.classes import entry
 from tests.report.samples import check, failing_report, report
-from tests.site.classes import entry
 
 AT = datetime(2026, 11, 20, 22, 30, tzinfo=timezone.utc)
 
@@ -33,7 +33,7 @@ def test_late_without_a_penalty_says_so() -> None:
     assert "no points taken" in calculation(late_seconds=60.0)
 
 
-def test_a_correction_names_its_reason_its_author_and_what_it_was_before() -> None:
+def test_a_correction_shows_its_reason_author_and_the_earlier_points() -> None:
     override = Override("1001", "run.output", 10, "shown in the laboratory", by="M. C.", at=AT)
     said = calculation(overrides=(override,), score=70.0, final=70.0)
     assert "run.output gives 10 instead of 0, because: shown in the laboratory" in said
@@ -56,13 +56,13 @@ def test_points_that_wait_for_the_instructor_are_said_to_wait() -> None:
     assert "Nothing goes into the gradebook yet." in calculation(final=None)
 
 
-def test_open_points_are_told_with_the_total() -> None:
+def test_undecided_points_are_shown_with_the_total() -> None:
     doubtful = report(check("run.period", "inconclusive"))
     said = student_view(entry(1, doubtful), show_hidden=True).calculation
     assert "4 points could be neither given nor taken." in said
 
 
-def test_a_fault_of_the_grader_is_not_told_as_the_students() -> None:
+def test_a_grader_failure_is_not_shown_as_the_students_fault() -> None:
     fault = report(status="error", checks=[], score=0, message="no sandbox")
     view = student_view(entry(1, fault, status="ungradable", final=None), show_hidden=True)
     assert "the fault is in the grader" in view.calculation[0]
@@ -76,7 +76,7 @@ def test_a_skipped_check_names_its_cause() -> None:
     assert not skipped.needs_block
 
 
-def test_a_failed_check_leads_to_the_text_that_shows_it() -> None:
+def test_a_failed_check_links_to_its_evidence() -> None:
     view = student_view(entry(1, failing_report()), show_hidden=True)
     failed = next(v for v in view.checks if v.check.status == "failed")
     assert failed.log == "transcript"
@@ -84,7 +84,7 @@ def test_a_failed_check_leads_to_the_text_that_shows_it() -> None:
     assert labels == ["Expected", "Found", "Where", "Why", "Fix", "Change", "Mistake"]
 
 
-def test_no_word_of_a_hidden_check_is_shown_where_it_is_to_stay_hidden() -> None:
+def test_no_text_of_a_hidden_check_is_shown_to_students() -> None:
     secret = check(
         "run.output", "failed", visibility="hidden", actual="the secret", fix="the secret fix"
     )
@@ -98,12 +98,12 @@ def test_no_word_of_a_hidden_check_is_shown_where_it_is_to_stay_hidden() -> None
     assert logger.because == ("a hidden check",)
 
 
-def test_durations_have_their_two_greatest_units() -> None:
+def test_durations_have_their_two_largest_units() -> None:
     said = [duration(seconds) for seconds in (4.24, 60, 600.9, 7_800, 86_400, 277_300)]
     assert said == ["4.2 s", "1 min", "10 min", "2 h 10 min", "1 d", "3 d 5 h"]
 
 
-def test_instants_are_told_in_utc() -> None:
+def test_times_are_shown_in_utc() -> None:
     east = datetime.fromisoformat("2026-11-21T00:30:00+02:00")
     assert instant(east) == "2026-11-20 22:30 UTC"
     assert instant(None) == ""

@@ -1,4 +1,4 @@
-"""What the tests of fixes stand on: packages of the corpus, fixed in memory and by real tools."""
+"""Helpers for the tests of fixes: corpus packages, fixed in memory and with real tools."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A program that prints the page of the failing report, as `grader grade` does."""
+"""A program that prints the page of a failing report, as `grader grade` does."""
 
 from __future__ import annotations
 

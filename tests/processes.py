@@ -1,4 +1,4 @@
-"""Stages on which a command is put for a test: as an ordinary user, or as root of a container."""
+"""Running commands in tests, also as an ordinary user or as a container's root."""
 
 from __future__ import annotations
 
@@ -45,12 +45,12 @@ def run(
 
 
 def _readable_by_all() -> list[str]:
-    """Return the bwrap words for a view of this machine in which our Python is open to all.
+    """Return the bwrap command for a view of this machine in which all users can read our Python.
 
-    (A root user's Python may lie in /root, which is closed to the others.)
+    Root's Python may be in /root, which other users cannot read.
     """
     words = ["bwrap", "--dev-bind", "/", "/"]
-    # only what lies in root's home is hidden by the new one, and comes back piece by piece
+    # the new /root hides only root's home, of which the needed folders are mounted again
     needed = {base_interpreter().parent.parent, Path(sys.prefix), cache_root()}
     inside = sorted(str(path) for path in needed if str(path).startswith("/root/"))
     words += ["--perms", "0755", "--tmpfs", "/root"]
@@ -63,7 +63,7 @@ def _readable_by_all() -> list[str]:
 
 
 def as_user(command: Sequence[str]) -> list[str]:
-    """Return the command as an ordinary user runs it; the test itself may be run by root."""
+    """Return a command that runs this one as an ordinary user, even if root runs the test."""
     if os.geteuid() != 0:
         return list(command)
     become = ["setpriv", f"--reuid={USER}", f"--regid={USER}", "--clear-groups"]
@@ -73,12 +73,12 @@ def as_user(command: Sequence[str]) -> list[str]:
 
 
 def as_root_of_a_container(command: Sequence[str]) -> list[str]:
-    """Return the command as root of a throwaway container runs it: /opt is the container's own."""
+    """Return a command that runs this one like a container's root, with an empty /opt."""
     return [*_readable_by_all(), "--tmpfs", "/opt", "--cap-add", "ALL", "--", *command]
 
 
 def alive(mark: str) -> list[str]:
-    """Return the command lines of the processes on this machine that have `mark` in theirs."""
+    """Return the command lines of this machine's processes that contain `mark`."""
     found = []
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit() and int(entry.name) != os.getpid():
@@ -96,15 +96,15 @@ def alive(mark: str) -> list[str]:
 def wait_until_asleep(pid: int) -> None:
     """Wait until a process' first thread sleeps in the kernel, where every signal wakes it.
 
-    (Python looks for signals before it calls sleep, pause or read, and none of them returns for a
-    signal that comes between the two: on a busy machine Ctrl+C is lost there, about once in 300.)
+    Python checks for signals before it calls sleep, pause or read, and none of them returns for a
+    signal that comes in between: on a busy machine Ctrl+C is lost there about once in 300 times.
     """
     while stat_fields(pid)[0] != "S":
         os.sched_yield()
 
 
 def descendants() -> dict[int, str]:
-    """Return the running processes below this one, with their command lines."""
+    """Return the running descendants of this process with their command lines."""
     parents: dict[int, int] = {}
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
@@ -126,7 +126,7 @@ def descendants() -> dict[int, str]:
 
 
 def wait_until_gone(before: Collection[int]) -> None:
-    """Wait until nothing runs below this process that did not before; fail if it stays."""
+    """Wait until this process has no descendants other than `before`; fail if one stays."""
     deadline = time.monotonic() + GONE_SECONDS
     while left := {pid: line for pid, line in descendants().items() if pid not in before}:
         assert time.monotonic() < deadline, left
@@ -134,7 +134,7 @@ def wait_until_gone(before: Collection[int]) -> None:
 
 
 def ends_as_bwrap_starts(folder: Path, name: str) -> dict[str, str]:
-    """Return the environment in which bwrap begins by sending this signal to who started it."""
+    """Return an environment in which bwrap first sends this signal to its parent."""
     program = folder / "bin" / "bwrap"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nkill -{name} $PPID\nexec "{shutil.which("bwrap")}" "$@"\n')

@@ -1,4 +1,4 @@
-"""The folder: what is in it, who may read it, how long it takes."""
+"""The folder of pages: its content, its permissions, the time to write it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ import pytest
 from grader.base.errors import SurroundingsError
 from grader.publish.pages import write_site
 from grader.report.model import Report
+from tests.pages import classes
 from tests.report.samples import failing_report, report
-from tests.site import classes
 
 
 class Links(html.parser.HTMLParser):
-    """Collects every address that a page names, and every id."""
+    """Collects every link and every id of a page."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -52,7 +52,7 @@ def test_every_link_leads_to_a_page_or_place_in_the_folder(site: Path) -> None:
             assert not part or part in pages[target].ids, (page, address)
 
 
-def test_every_student_is_reached_by_going_to_the_next(site: Path) -> None:
+def test_the_next_links_reach_every_student(site: Path) -> None:
     page = site / "students/1000.html"
     seen = [page.name]
     while found := re.search(r'rel="next" href="([^"]+)"', page.read_text(encoding="utf-8")):
@@ -61,7 +61,7 @@ def test_every_student_is_reached_by_going_to_the_next(site: Path) -> None:
     assert seen == [f"{key}.html" for key in range(1000, 1040)]
 
 
-def test_only_pages_are_in_the_folder_and_only_their_owner_reads_them(site: Path) -> None:
+def test_the_folder_has_only_pages_readable_by_their_owner_only(site: Path) -> None:
     for path in (site / "students", *site.rglob("*")):
         mode = stat.S_IMODE(path.stat().st_mode)
         assert mode == (0o700 if path.is_dir() else 0o600), path
@@ -76,7 +76,7 @@ def test_the_same_class_gives_the_same_bytes(site: Path, tmp_path: Path) -> None
     assert contents(tmp_path / "a") == contents(tmp_path / "b")
 
 
-def test_it_returns_the_page_to_open(tmp_path: Path) -> None:
+def test_the_path_of_the_start_page_is_returned(tmp_path: Path) -> None:
     out = tmp_path / "not" / "there" / "yet"
     assert write_site(classes.mixed([report()], 3), out) == out / "index.html"
     assert (out / "index.html").is_file()
@@ -93,7 +93,7 @@ def test_a_class_of_two_hundred_takes_under_five_seconds_and_a_megabyte(
     assert len(list((tmp_path / "site/students").iterdir())) == 200
 
 
-def test_the_overview_stays_small_where_everybody_fails_everything(tmp_path: Path) -> None:
+def test_the_overview_stays_small_if_everybody_fails_everything(tmp_path: Path) -> None:
     bad = report()
     fault = [{"id": f"mistake.{n}"} for n in range(3)]
     checks = [
@@ -109,7 +109,7 @@ def test_the_overview_stays_small_where_everybody_fails_everything(tmp_path: Pat
     assert index.stat().st_size < 1_000_000
 
 
-def test_who_left_the_class_has_no_page_any_more_and_what_is_not_ours_stays(tmp_path: Path) -> None:
+def test_pages_of_former_students_are_removed_and_other_files_stay(tmp_path: Path) -> None:
     write_site(classes.mixed([report()], 5), tmp_path)
     own = tmp_path / "students" / "notes.html"
     own.write_text("<!doctype html>\n<html>the instructor's own notes")
@@ -118,12 +118,12 @@ def test_who_left_the_class_has_no_page_any_more_and_what_is_not_ours_stays(tmp_
     assert names == {"1000.html", "1001.html", "1002.html", "notes.html"}
 
 
-def test_an_empty_class_has_a_page_too(tmp_path: Path) -> None:
+def test_an_empty_class_has_a_page(tmp_path: Path) -> None:
     index = write_site(classes.result([]), tmp_path)
     assert "0 students" in index.read_text(encoding="utf-8")
 
 
-def test_a_link_in_the_place_of_the_pages_is_not_followed(tmp_path: Path) -> None:
+def test_a_link_in_place_of_the_pages_is_not_followed(tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     out = tmp_path / "site"
@@ -134,7 +134,7 @@ def test_a_link_in_the_place_of_the_pages_is_not_followed(tmp_path: Path) -> Non
     assert not list(elsewhere.iterdir())
 
 
-def test_a_file_in_the_place_of_the_folder_is_told_and_not_a_traceback(tmp_path: Path) -> None:
+def test_a_file_in_place_of_the_folder_is_reported_without_a_traceback(tmp_path: Path) -> None:
     (tmp_path / "site").write_text("in the way")
     with pytest.raises(SurroundingsError, match="page of the class"):
         write_site(classes.mixed([report()], 3), tmp_path / "site")

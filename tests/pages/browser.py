@@ -1,4 +1,4 @@
-"""Chromium from Debian's packages, with nothing of it that goes out by itself."""
+"""Chromium from Debian's packages, without its own network requests."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FLAGS = (
 
 @contextmanager
 def browser() -> Iterator[Browser]:
-    """Start Chromium without a window; its profile is a new folder that goes with it."""
+    """Start headless Chromium with a temporary profile."""
     path = installed("chromium", "chromium")
     with sync_playwright() as playwright:
         started = playwright.chromium.launch(
@@ -37,8 +37,8 @@ def browser() -> Iterator[Browser]:
 
 
 @dataclass
-class Witness:
-    """What the page that is open did: the addresses it asked for, complaints, windows."""
+class PageRecord:
+    """Records what the open page did: requested addresses, console errors, windows."""
 
     page: Page
     requests: list[str] = field(default_factory=list)
@@ -46,25 +46,25 @@ class Witness:
     dialogs: list[str] = field(default_factory=list)
 
     def open(self, path: Path, part: str = "") -> Page:
-        """Open a page and forget what the one before did."""
+        """Open a page and discard the records of the one before."""
         for kept in (self.requests, self.complaints, self.dialogs):
             kept.clear()
         self.page.goto(path.as_uri() + part)
         return self.page
 
 
-Open = Callable[..., Witness]
+Open = Callable[..., PageRecord]
 
 
 @contextmanager
 def opening(started: Browser) -> Iterator[Open]:
-    """Give a function that opens a new page in a context of its own (options as new_context)."""
+    """Yield a function that opens a page in a separate context (options as new_context)."""
     contexts = []
 
-    def new(**options: Any) -> Witness:
+    def new(**options: Any) -> PageRecord:
         context = started.new_context(**options)
         contexts.append(context)
-        witness = Witness(context.new_page())
+        witness = PageRecord(context.new_page())
         page = witness.page
         context.on("request", lambda request: witness.requests.append(request.url))
         page.on("console", lambda message: witness.complaints.append(message.text))

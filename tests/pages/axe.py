@@ -18,7 +18,7 @@ def axe_source() -> str:
 
 
 def violations(page: Page, source: str) -> list[str]:
-    """Return what axe finds on the page with all of its rules, experimental ones too."""
+    """Return axe's findings on the page with all rules, including experimental ones."""
     page.evaluate(source)
     found: dict[str, Any] = page.evaluate(
         """async () => await axe.run(document, {

@@ -1,6 +1,6 @@
-"""A command of this project that prints a hostile text, in each of the ways that it is told.
+"""A program that prints a hostile text in each of the given ways.
 
-After each it says on standard output which it was, and the exit status.
+After each way it prints that way and the exit status.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ HOSTILE = "\x1b[2J\x1b[1;1H\x1b]0;owned\x07\x1b[32mScore 100 / 100\x1b[0m\r\b\x9
 @click.command()
 @click.argument("way")
 def command(way: str) -> None:
-    """Print it."""
+    """Print the hostile text in one way."""
     match way:
         case "print":
             print(HOSTILE)
@@ -62,6 +62,6 @@ def command(way: str) -> None:
 
 if __name__ == "__main__":
     for word in sys.argv[1:]:
-        status = run(command, "misbehaving", [word])
+        status = run(command, "print_hostile", [word])
         sys.stderr.flush()
         print(f"\n== {word} {status}", flush=True)

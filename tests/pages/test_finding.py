@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.site.browser import Open
+from tests.pages.browser import Open
 
-pytestmark = pytest.mark.full  # Chromium is not there for `make test`
+pytestmark = pytest.mark.full  # `make test` has no Chromium
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def page(visit: Open, site: Path) -> Page:
 
 
 def column(page: Page, number: int) -> list[str]:
-    """The texts of a column of the students' table, of the rows that are shown."""
+    """Return the texts of a column of the students' table, of visible rows only."""
     cells = page.locator(f"#all tbody tr:not([hidden]) > :nth-child({number})")
     return [text.strip() for text in cells.all_inner_texts()]
 
@@ -61,12 +61,12 @@ def test_search_finds_states_failed_checks_and_mistakes(page: Page) -> None:
     assert set(column(page, 6)) == {"entry_point.mapping"}
 
 
-def test_a_search_for_nobody_says_so(page: Page) -> None:
+def test_a_search_without_matches_says_so(page: Page) -> None:
     search(page, "nobody at all")
     expect(page.get_by_role("status")).to_have_text("0 of 40 students shown")
 
 
-def test_who_failed_a_check_is_one_press_away(page: Page) -> None:
+def test_one_click_shows_who_failed_a_check(page: Page) -> None:
     page.get_by_role("button", name="who failed run.output").press("Enter")
     expect(page.get_by_label("Find students")).to_be_focused()
     assert set(column(page, 6)) == {"run.output"}
@@ -84,7 +84,7 @@ def test_every_column_has_a_button_that_sorts_it(page: Page) -> None:
         assert page.locator("#all thead th[aria-sort]").count() == 1
 
 
-def test_points_are_sorted_as_numbers_and_who_has_none_comes_last(page: Page) -> None:
+def test_points_are_sorted_as_numbers_with_missing_ones_last(page: Page) -> None:
     button = page.locator("#all thead").get_by_role("button", name="Points")
     button.click()
     assert points(page) == sorted(points(page))
@@ -103,19 +103,19 @@ def test_names_are_sorted_with_their_accents_where_readers_expect_them(page: Pag
     ]  # fmt: skip
 
 
-def test_lateness_is_sorted_by_its_length(page: Page) -> None:
+def test_lateness_is_sorted_by_duration(page: Page) -> None:
     page.locator("#all thead").get_by_role("button", name="Late").click()
     assert column(page, 7)[:3] == ["2 h 10 min", "2 h 10 min", ""]
 
 
-def test_a_sorted_table_keeps_its_search(page: Page) -> None:
+def test_a_sorted_table_keeps_the_search(page: Page) -> None:
     search(page, "lee")
     before = column(page, 1)
     page.locator("#all thead").get_by_role("button", name="Points").click()
     assert sorted(column(page, 1)) == sorted(before)
 
 
-def test_without_scripts_everything_can_be_read_and_nothing_is_there_that_does_not_work(
+def test_without_scripts_everything_is_readable_and_no_control_is_shown(
     visit: Open, site: Path
 ) -> None:
     page = visit(java_script_enabled=False).open(site / "index.html")

@@ -20,20 +20,20 @@ def wall(*instants: float, period: float | None = 1.0) -> Observed:
     return Observed(clock="wall", ticks=ticks, period=period)
 
 
-def test_a_tick_at_its_instant_is_on_time_and_a_millisecond_before_or_after_is_not() -> None:
+def test_only_a_tick_at_its_exact_instant_is_on_time() -> None:
     line = timeline(virtual(0.999, 2.0, 3.001, due=(1.0, 2.0, 3.0)))
     assert line is not None
     assert [dot.on_time for dot in line.dots] == [False, True, False]
     assert line.missed == (1.0, 3.0)
 
 
-def test_a_tick_stands_right_below_the_instant_at_which_it_was_due() -> None:
+def test_a_tick_is_drawn_below_its_due_instant() -> None:
     line = timeline(virtual(1.0, 2.0, due=(1.0, 2.0)))
     assert line is not None
     assert [dot.x for dot in line.dots] == [x for x, _ in line.due]
 
 
-def test_due_instants_go_on_by_the_period_to_the_last_line() -> None:
+def test_due_instants_continue_by_the_period_to_the_last_line() -> None:
     line = timeline(virtual(0.5, 1.0, 1.5, 2.0, 2.5, 3.0, due=(1.0,)))
     assert line is not None
     assert [at for _, at in line.due] == [1.0, 2.0, 3.0]
@@ -53,14 +53,14 @@ def test_without_due_instants_in_the_report_the_period_alone_gives_them() -> Non
     assert [at for _, at in line.due] == [1.0, 2.0]
 
 
-def test_an_old_report_has_lines_and_no_due_instants() -> None:
+def test_an_old_report_has_lines_but_no_due_instants() -> None:
     line = timeline(virtual(1.0, 2.0, period=None))
     assert line is not None
     assert not line.due
     assert [dot.off for dot in line.dots] == [None, None]
 
 
-def test_on_the_wall_clock_seconds_are_counted_from_the_first_line() -> None:
+def test_wall_clock_seconds_are_counted_from_the_first_line() -> None:
     line = timeline(wall(0, 1.01, 2.03))
     assert line is not None
     assert [dot.at for dot in line.dots] == pytest.approx([0, 1.01, 2.03], abs=1e-5)
@@ -85,10 +85,10 @@ def test_lines_at_one_instant_share_one_label() -> None:
     strategies.floats(0, 1e6),
     strategies.booleans(),
 )
-def test_whatever_instants_a_node_claims_the_plot_stays_small_and_in_its_frame(
+def test_the_plot_stays_small_and_in_its_frame_whatever_instants_a_node_claims(
     instants: list[float], period: float, on_the_wall: bool
 ) -> None:
-    """The stamps of log records are the student's own text."""
+    """The student controls the time stamps of log records."""
     made = wall if on_the_wall else virtual
     line = timeline(made(*instants, period=period))
     assert line is not None

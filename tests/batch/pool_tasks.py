@@ -1,4 +1,4 @@
-"""Work for a pool: packages of the corpus as tasks, and workers that are watched."""
+"""Packages of the corpus as tasks for a pool, and the ids of its workers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
-from tests.stage import ROOT
+from tests.processes import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
 JOB = Job(ASSIGNMENT, "jazzy", "bubblewrap", Limits())
@@ -22,7 +22,7 @@ CORPUS: dict[str, Package] = {package.name: package for package in (*RIGHT, *BRO
 
 
 def package(name: str, folder: Path, *, called: str = "") -> Path:
-    """Write a package of the corpus as `folder/<called>/my_robot_controller`."""
+    """Write a package of the corpus to `folder/<called>/my_robot_controller`."""
     place = folder / (called or name)
     place.mkdir(parents=True)
     write(CORPUS[name], place).rename(place / "my_robot_controller")
@@ -30,7 +30,7 @@ def package(name: str, folder: Path, *, called: str = "") -> Path:
 
 
 def tasks(folder: Path, names: Sequence[str]) -> Iterator[Task]:
-    """Yield a task a name; the student is called as the package and its number."""
+    """Yield a task for each name; the student's name is the package's and its number."""
     for number, name in enumerate(names):
         student = f"{name}-{number}"
         place = package(name, folder, called=student)
@@ -39,7 +39,7 @@ def tasks(folder: Path, names: Sequence[str]) -> Iterator[Task]:
 
 
 def workers_of(parent: int) -> list[int]:
-    """Return the ids of the worker processes that a process has started."""
+    """Return the process ids of the workers that a process has started."""
     found = []
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
@@ -55,5 +55,5 @@ def workers_of(parent: int) -> list[int]:
 
 
 def own_workers() -> list[int]:
-    """Return the ids of this process' workers."""
+    """Return the process ids of this process' workers."""
     return workers_of(os.getpid())

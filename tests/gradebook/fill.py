@@ -1,4 +1,4 @@
-"""A teacher's file read and filled in, in one step."""
+"""Read and fill in an instructor's file in one step."""
 
 from __future__ import annotations
 

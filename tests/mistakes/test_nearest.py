@@ -1,4 +1,4 @@
-"""Did you mean: the nearest name, and where two texts differ."""
+"""Suggestions of the nearest name, and marks where two texts differ."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from grader.base.nearest import compared, marks, meant, nearest, with_difference
         ("mein", "main", " ^"),
     ],
 )
-def test_the_difference_is_marked_where_it_is(found: str, wanted: str, line: str) -> None:
+def test_the_difference_is_marked_at_its_place(found: str, wanted: str, line: str) -> None:
     marked = marks(found, wanted)
-    if found == "my_frist_node":  # which of the two swapped letters is wrong is anybody's guess
+    if found == "my_frist_node":  # either of the two swapped letters may be the wrong one
         assert marked.strip() in ("^", "^^", "^ ^")
         assert marked.index("^") in (4, 5)
     else:
@@ -44,12 +44,12 @@ def test_the_difference_is_marked_where_it_is(found: str, wanted: str, line: str
         ),
     ],
 )
-def test_where_marks_would_say_nothing_there_are_none(found: str, wanted: str) -> None:
+def test_marks_that_would_not_help_are_left_out(found: str, wanted: str) -> None:
     assert marks(found, wanted) == ""
     assert compared(found, wanted) == ""
 
 
-def test_what_was_found_stands_above_the_marks_and_what_was_meant_below() -> None:
+def test_the_found_text_is_above_the_marks_and_the_expected_below() -> None:
     assert compared("tset_node", "test_node").split("\n")[::2] == ["tset_node", "test_node"]
     assert with_difference("mein", "mein", "main") == "mein\n ^\nmain"
     assert with_difference("it is mein", "mein", "main") == "it is mein\nmein\n ^\nmain"
@@ -63,7 +63,7 @@ def test_marks_never_reach_beyond_the_text(found: str, wanted: str) -> None:
     assert set(line) <= {" ", "^"}
 
 
-def test_capitals_do_not_keep_a_name_from_being_near() -> None:
+def test_a_name_is_near_regardless_of_case() -> None:
     assert nearest("Timer_Callback", ["timer_callback", "main"]) == "timer_callback"
     assert nearest("xyz", ["timer_callback"]) == ""
     assert meant("") == ""

@@ -1,7 +1,7 @@
-"""A program that works as the runner does, one event for each line on its standard input.
+"""A program that emits the events of a verdict, one for each line on its standard input.
 
-`python -m tests.report.working [WORD…]`; the words: `fail` raises in the middle, `hidden` asks a
-hidden check, `print` prints while the line lives.
+`python -m tests.report.emit_events [WORD…]`: `fail` raises in the middle, `hidden` runs a hidden
+check, `print` prints while the live line is shown.
 """
 
 from __future__ import annotations

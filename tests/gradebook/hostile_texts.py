@@ -1,4 +1,4 @@
-"""Texts that are meant to break a reader, and classes made of them."""
+"""Hostile texts, and classes made of them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import dataclasses
 from hypothesis import strategies as st
 
 from grader.batch.model import ClassResult, GradebookEntry, Override, Student
+from tests.pages import classes
 from tests.report import samples
-from tests.site import classes
 
 NASTY = (
     "=1+1",
@@ -58,7 +58,7 @@ texts = st.one_of(
 
 def hostile_entry(text: str, *, number: int = 1) -> GradebookEntry:
     """An entry in which every text, of the student and of the report, is `text`."""
-    poisoned = classes.poisoned(samples.failing_report(), text.replace("\ud800", "?"))
+    poisoned = classes.with_every_text(samples.failing_report(), text.replace("\ud800", "?"))
     entry = classes.entry(
         number,
         poisoned,

@@ -1,4 +1,4 @@
-"""The tutorial's ten steps, typed word by word; the commands are those of the lesson itself."""
+"""The tutorial's ten steps, typed literally; the commands are read from the lesson."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from lab.guide.lesson import read_lesson
-from tests import stage
+from tests import processes
 from tests.lab.screen import Lab
 
 PACKAGE = "~/ros2_ws/src/my_robot_controller"
@@ -46,7 +46,7 @@ if __name__ == '__main__':
 
 def commands(distro: str) -> dict[int, list[str]]:
     """Return the lesson's commands, by step."""
-    lesson = read_lesson(stage.ROOT / "lab/course/hello_time/lesson.md", distro=distro)
+    lesson = read_lesson(processes.ROOT / "lab/course/hello_time/lesson.md", distro=distro)
     return {
         step.number: [
             line
@@ -58,7 +58,7 @@ def commands(distro: str) -> dict[int, list[str]]:
 
 
 def follow(lab: Lab, distro: str = "jazzy") -> None:
-    """Follow the ten steps; AssertionError (or pexpect's TIMEOUT) where the lab falls short."""
+    """Follow the ten steps; raise AssertionError or pexpect's TIMEOUT if the lab fails."""
     steps = commands(distro)
     for number in (1, 2, 3):
         for line in steps[number]:
@@ -80,9 +80,9 @@ def follow(lab: Lab, distro: str = "jazzy") -> None:
 
 
 def run_and_stop(lab: Lab, lines: list[str], distro: str = "jazzy") -> None:
-    """Source and run, count along, and press Ctrl+C.
+    """Source and run, check the count, and press Ctrl+C.
 
-    (From kilted on, `ros2 run` hands the node a second Ctrl+C, which may cut its clean-up short.)
+    From kilted on, `ros2 run` sends the node a second Ctrl+C, which may cut its clean-up short.
     """
     *first, run = lines
     for line in first:
@@ -95,5 +95,5 @@ def run_and_stop(lab: Lab, lines: list[str], distro: str = "jazzy") -> None:
 
 
 def owners(workspace: Path) -> set[int]:
-    """Return the user ids that own what is in a workspace, and the workspace."""
+    """Return the user ids that own a workspace and its content."""
     return {path.lstat().st_uid for path in (workspace, *workspace.rglob("*"))}

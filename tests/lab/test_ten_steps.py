@@ -1,4 +1,4 @@
-"""The whole exercise, done in the lab by hand."""
+"""The whole exercise, typed in the lab."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import os
 from pathlib import Path
 
 from grader.ros.prefix import Ros
-from tests import stage
-from tests.lab import walk
+from tests import processes
+from tests.lab import ten_steps
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab
 from tests.lab.workspaces import open_to_all
 
 
-def test_the_ten_steps_work_word_by_word_and_a_second_visit_finds_them(
+def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
     kind: Kind, tmp_path: Path
 ) -> None:
     workspace = tmp_path / "ros2_ws"
     with Lab(kind, workspace) as lab:
-        walk.follow(lab)
+        ten_steps.follow(lab)
         said = lab.type("check")
         assert lab.status() == 0, said
         assert "100 / 100" in said
@@ -31,24 +31,26 @@ def test_the_ten_steps_work_word_by_word_and_a_second_visit_finds_them(
         assert (workspace / "src" / "my_robot_controller" / "setup.cfg").is_file()
         assert "lab.no_executable" in lab.type("echo No executable found | explain -")
         assert lab.leave() == 0
-    student = os.geteuid() or 1000  # root's lab is the machine's first ordinary user's
-    assert walk.owners(workspace) == {student}
+    student = os.geteuid() or 1000  # root's lab runs as the machine's first ordinary user
+    assert ten_steps.owners(workspace) == {student}
     with Lab(kind, workspace) as lab:
-        walk.run_and_stop(lab, walk.commands("jazzy")[9])
+        ten_steps.run_and_stop(lab, ten_steps.commands("jazzy")[9])
         assert lab.leave() == 0
 
 
-def test_an_ordinary_user_does_the_same_and_owns_the_files(ros_jazzy: Ros) -> None:
+def test_an_ordinary_user_can_do_the_steps_and_owns_the_files(ros_jazzy: Ros) -> None:
     with open_to_all() as folder:
         workspace = folder / "ros2_ws"
         with Lab(Kind("bubblewrap"), workspace, user=True) as lab:
-            walk.follow(lab)
+            ten_steps.follow(lab)
             assert lab.leave() == 0
-        assert walk.owners(workspace) == {stage.USER if os.geteuid() == 0 else os.geteuid()}
+        assert ten_steps.owners(workspace) == {
+            processes.USER if os.geteuid() == 0 else os.geteuid()
+        }
 
 
-def test_another_distro_is_another_lab_with_its_own_commands(
+def test_another_distro_has_another_lab_with_its_own_commands(
     ros_kilted: Ros, tmp_path: Path
 ) -> None:
     with Lab(Kind("bubblewrap"), tmp_path / "ros2_ws", distro="kilted") as lab:
-        walk.follow(lab, "kilted")
+        ten_steps.follow(lab, "kilted")

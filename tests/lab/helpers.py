@@ -1,4 +1,4 @@
-"""What the tests of a visit do alike."""
+"""Helpers for tests with an open lab."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from grader.sandbox.processes import stat_fields
-from tests import stage
+from tests import processes
 from tests.lab.kinds import Kind
 from tests.lab.screen import Lab, command, environment
 
@@ -22,7 +22,7 @@ def run(
     """Run a command in the lab without a terminal."""
     return subprocess.run(
         command("--sandbox", kind.sandbox, "--workspace", workspace, *words),
-        cwd=stage.ROOT,
+        cwd=processes.ROOT,
         env=environment(**kind.env),
         input=stdin,
         capture_output=True,
@@ -33,22 +33,22 @@ def run(
 
 
 def start(lab: Lab, mark: str) -> None:
-    """Start a command in the foreground, and wait until it has the terminal."""
+    """Start a command in the foreground and wait until it has the terminal."""
     lab.screen.sendline(f"sh -c 'echo up; exec {mark}'")
     lab.screen.expect("\nup")
 
 
 def alive(mark: str) -> list[str]:
-    """Return the running programs with this command line, in whichever lab."""
-    return [line for line in stage.alive(mark) if line.startswith(mark)]
+    """Return the running programs with this command line, in any lab."""
+    return [line for line in processes.alive(mark) if line.startswith(mark)]
 
 
 def has_the_terminal(mark: str) -> bool:
-    """Whether a program with this command line sleeps in the foreground of its terminal."""
+    """Return whether a program with this command line sleeps in its terminal's foreground."""
     for entry in Path("/proc").iterdir():
         with contextlib.suppress(OSError, ValueError):
             line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
-            # proc(5): after the name come state, parent, group, session, terminal, its group
+            # proc(5): after the name come state, parent, group, session, terminal, foreground group
             state, _, group, _, _, foreground = stat_fields(int(entry.name))[:6]
             if line.startswith(mark) and state == "S" and group == foreground:
                 return True
@@ -56,7 +56,7 @@ def has_the_terminal(mark: str) -> bool:
 
 
 def until(condition: Callable[[], bool]) -> None:
-    """Wait for something that comes about outside of this process; fail if it does not."""
+    """Wait until a condition outside this process holds; fail after SLOW seconds."""
     deadline = time.monotonic() + SLOW
     while not condition():
         assert time.monotonic() < deadline

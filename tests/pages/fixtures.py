@@ -1,7 +1,7 @@
-"""Fixtures that the tests of the page and of the feedback share: one browser, real reports.
+"""Fixtures shared by the tests of the pages and of the feedback: one browser, real reports.
 
-A plugin of tests/conftest.py: a session's fixture that is imported into two conftest.py is two
-fixtures, and a process in which tests of both run would start two browsers, which Playwright refuses.
+tests/conftest.py loads this as a plugin: a session fixture imported into two conftest.py files
+would be two fixtures, and a process would start two browsers, which Playwright refuses.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser
 
 from grader.report.model import Report
-from tests.site import browser, classes
+from tests.pages import browser, classes
 
 
 @pytest.fixture(scope="session")
@@ -30,6 +30,6 @@ def chromium() -> Iterator[Browser]:
 
 @pytest.fixture
 def visit(chromium: Browser) -> Iterator[browser.Open]:
-    """Opens pages, each in a context of its own, and witnesses what they do."""
+    """A function that opens a page in a separate context and records what it does."""
     with browser.opening(chromium) as new:
         yield new

@@ -1,6 +1,6 @@
-"""The real command on a class, with workers that read the score from the node instead of marking.
+"""Run the real command on a class with workers that read the score from the node's source.
 
-Everything else is real: the command line, the sandbox that is proven, intake, ledger, outputs.
+Everything else is real: the command line, the sandbox and its proof, intake, ledger, outputs.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from pathlib import Path
 
 from grader.batch.work import Answer, Task
 from grader.report.model import Report
+from tests.processes import ROOT
 from tests.report.samples import check, report
-from tests.stage import ROOT
 
 SCORE = re.compile(rb"# score: ([\d.]+)")
 COMMAND = """
@@ -34,19 +34,19 @@ sys.exit(main(sys.argv[2:]))
 
 @dataclass(frozen=True)
 class Run:
-    """How a run of the command went; `out` is where it wrote."""
+    """The result of a run of the command; `out` is its output folder."""
 
     status: int
     said: str
     out: Path
 
     def rows(self, name: str = "gradebook.csv") -> list[dict[str, str]]:
-        """Return the rows of a CSV file that was written."""
+        """Return the rows of a CSV file in the output folder."""
         text = (self.out / name).read_bytes().decode("utf-8-sig")
         return list(csv.DictReader(io.StringIO(text, newline="")))
 
     def column(self, name: str, of: str, by: str) -> dict[str, str]:
-        """Return one column of a CSV file by another one."""
+        """Return a column of a CSV file as a dict keyed by another column."""
         return {row[by]: row[of] for row in self.rows(name)}
 
     def finals(self) -> dict[str, str]:
@@ -55,14 +55,14 @@ class Run:
 
     @property
     def marked(self) -> int:
-        """How many submissions were marked."""
+        """Return how many submissions were marked."""
         found = re.search(r"^(\d+) to mark", self.said, re.MULTILINE)
         return int(found[1]) if found else 0
 
 
 def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
     """Run `grader grade-all`."""
-    stub = [sys.executable, "-m", "tests.batch.cheap"]
+    stub = [sys.executable, "-m", "tests.batch.stub_run"]
     command = [sys.executable, "-c", COMMAND, json.dumps(stub), "grade-all", path, "--out", out]
     done = subprocess.run(
         [str(word) for word in (*command, "--sandbox", "bubblewrap", "--quiet", *words)],
@@ -78,7 +78,7 @@ def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
 
 
 def verdict(task: Task) -> Report:
-    """Return the report of a package whose node names its score: `# score: 85`."""
+    """Return the report of a package whose node states its score: `# score: 85`."""
     found = [SCORE.search(file.data) for file in task.submission.files]
     score = next(float(match[1]) for match in found if match)
     one = check("run.output", "passed" if score == 100 else "failed", score=score, max_score=100)
@@ -89,7 +89,7 @@ def verdict(task: Task) -> Report:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Answer as a worker does, until the input ends."""
+    """Answer tasks as a worker does, until the input ends."""
     del argv
     sys.stdin.readline()
     for line in iter(sys.stdin.readline, ""):

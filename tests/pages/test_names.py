@@ -1,4 +1,4 @@
-"""Whatever a student's key is, the page has a safe name of its own."""
+"""Each student's page has a safe and unique name, whatever the student's key is."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ KEYS = ["../../etc/passwd", "a/b", "a\\b", "", ".", "..", ".hidden", "-rf", "con
 
 
 @given(strategies.lists(strategies.text(max_size=80), unique=True, max_size=30))
-def test_names_are_safe_and_nobody_shares_one_even_where_case_does_not_count(
+def test_names_are_safe_and_unique_even_if_case_is_ignored(
     keys: list[str],
 ) -> None:
     names = page_names(keys)
@@ -25,13 +25,13 @@ def test_names_are_safe_and_nobody_shares_one_even_where_case_does_not_count(
 
 
 @pytest.mark.parametrize("key", KEYS)
-def test_a_key_that_is_no_file_name_gets_one(key: str) -> None:
+def test_a_key_that_is_not_a_file_name_gets_one(key: str) -> None:
     name = page_names([key])[key]
     assert re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*\.html", name)
     assert name.removesuffix(".html").lower() not in ("con", "nul")
 
 
-def test_a_plain_key_is_its_own_name() -> None:
+def test_a_plain_key_is_used_as_the_name() -> None:
     assert page_names(["1041"]) == {"1041": "1041.html"}
 
 
@@ -40,7 +40,7 @@ def test_keys_that_differ_only_in_case_get_different_names() -> None:
     assert names["Ann"].lower() != names["ann"].lower()
 
 
-def test_nobody_can_take_another_ones_page_by_a_chosen_key() -> None:
+def test_no_key_can_take_another_students_page() -> None:
     theirs = page_names(["a b"])["a b"]
     chosen = theirs.removesuffix(".html")
     names = page_names(["a b", chosen])

@@ -1,4 +1,4 @@
-"""What instructors download, made anew for each test: archives, good and hostile."""
+"""Archives that students submit and instructors download, valid and hostile."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ UNIX, WINDOWS = 3, 0  # zip: "version made by" (APPNOTE 4.4.2)
 
 
 def package(node: str = "print('hello')\n", *, below: str = "") -> dict[str, bytes]:
-    """Return a small package's files by path, each below a folder."""
+    """Return the files of a small package by path, below the given folder."""
     start = f"{below}/" if below else ""
     files = {
         "package.xml": f"<package format='3'>\n  <name>{PACKAGE}</name>\n</package>\n",
@@ -39,7 +39,7 @@ def mode_of(path: str) -> int:
 
 
 def write(root: Path, files: Mapping[str, bytes]) -> Path:
-    """Write files into a folder, with the modes that the course asks for."""
+    """Write files into a folder, with the modes that the course requires."""
     for path, data in files.items():
         (root / path).parent.mkdir(parents=True, exist_ok=True)
         (root / path).write_bytes(data)
@@ -48,7 +48,7 @@ def write(root: Path, files: Mapping[str, bytes]) -> Path:
 
 
 def zipped(files: Mapping[str, bytes], *, system: int = UNIX, comment: bytes = b"") -> bytes:
-    """Return a zip as one system or the other makes it."""
+    """Return a zip as the given operating system makes it."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.comment = comment
@@ -62,7 +62,7 @@ def zipped(files: Mapping[str, bytes], *, system: int = UNIX, comment: bytes = b
 
 
 def tarred(files: Mapping[str, bytes], mode: str = "w") -> bytes:
-    """Return a tar; `mode` as tarfile has it: w, w:gz, w:xz, w:bz2."""
+    """Return a tar; `mode` is that of tarfile: w, w:gz, w:xz, w:bz2."""
     stream = io.BytesIO()
     with tarfile.open(fileobj=stream, mode=mode) as archive:  # type: ignore[call-overload]
         for path, data in files.items():
@@ -77,7 +77,7 @@ def add_file(archive: tarfile.TarFile, path: str, data: bytes = b"") -> None:
 
 
 def tar_with(*odd: tarfile.TarInfo, files: Mapping[str, bytes] | None = None) -> bytes:
-    """Return a tar of a good package and of some members that are not as they should be."""
+    """Return a tar of a valid package and of the given odd members."""
     stream = io.BytesIO()
     with tarfile.open(fileobj=stream, mode="w", format=tarfile.PAX_FORMAT) as archive:
         for path, data in (files if files is not None else package()).items():
@@ -98,7 +98,7 @@ def take(path: Path, *, modes_kept: bool = True) -> Submission:
 
 
 def hand_in(folder: Path, data: bytes, name: str = "jane.zip") -> Submission:
-    """Write one archive into a folder and take it in."""
+    """Write an archive into a folder and run intake on it."""
     (folder / name).write_bytes(data)
     return take(folder / name)
 
@@ -112,7 +112,7 @@ def everything_below(root: Path) -> set[str]:
 
 
 def zip_of(entries: Iterable[tuple[zipfile.ZipInfo, bytes]]) -> bytes:
-    """Return a zip of members that are made by hand, duplicates and all."""
+    """Return a zip of the given members, including duplicates."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
         for info, data in entries:
@@ -121,7 +121,7 @@ def zip_of(entries: Iterable[tuple[zipfile.ZipInfo, bytes]]) -> bytes:
 
 
 def git(folder: Path, *words: str, at: str = "2026-03-04T10:20:30+01:00") -> str:
-    """Run git in a folder, as somebody of its own, at an instant of its own."""
+    """Run git in a folder with a fixed identity and time."""
     who = {"GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null", "HOME": "/nowhere"}
     for role in ("AUTHOR", "COMMITTER"):
         who |= {f"GIT_{role}_NAME": "A", f"GIT_{role}_EMAIL": "a@b", f"GIT_{role}_DATE": at}
@@ -133,7 +133,7 @@ def git(folder: Path, *words: str, at: str = "2026-03-04T10:20:30+01:00") -> str
 
 
 def repository(folder: Path, *, at: str = "2026-03-04T10:20:30+01:00") -> Path:
-    """Make a repository with a package in it, committed at an instant of the student's choice."""
+    """Create a repository with a package in it, committed at the given time."""
     write(folder, package())
     git(folder, "init", "-q", "-b", "main")
     git(folder, "add", "-A")

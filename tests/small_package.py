@@ -1,4 +1,4 @@
-"""Small packages on disk, handed in."""
+"""Small packages on disk, and their intake."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ XML = "<package format='3'>\n  <name>{}</name>\n</package>\n"
 
 
 def make(root: Path, name: str = PACKAGE) -> Path:
-    """Make a small package in the folder `root`."""
+    """Write a small package to the folder `root`."""
     (root / PACKAGE).mkdir(parents=True)
     (root / "resource").mkdir()
     (root / "resource" / name).touch()

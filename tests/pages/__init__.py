@@ -1,0 +1,1 @@
+"""The pages of a class, some tested in a real browser."""

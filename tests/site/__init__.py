@@ -1,1 +1,0 @@
-"""The page of a class, looked at in a real browser."""
