@@ -88,7 +88,7 @@ def start() -> DockerClient:
     except SurroundingsError as error:
         if "DOCKER_HOST" in os.environ or os.geteuid() != 0:
             raise
-        said = error
+        output = error
     say("starting dockerd")
     log = cache_root() / "tests-dockerd.log"
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -104,7 +104,7 @@ def start() -> DockerClient:
         except SurroundingsError:
             time.sleep(0.2)  # poll its socket, since nothing signals that it is ready
     raise SurroundingsError(
-        f"no Docker daemon can run here: {said.message}\n{log.read_text(errors='replace')[-1500:]}",
+        f"no Docker daemon can run here: {output.message}\n{log.read_text(errors='replace')[-1500:]}",
         remedy=f"Where that is known, {WITHOUT}=1 leaves the tests out that need it.",
     )
 

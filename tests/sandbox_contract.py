@@ -24,13 +24,13 @@ def shell(sandbox: Sandbox, script: str, *, seconds: float = 20) -> tuple[int | 
 
 def test_only_the_workspace_and_scratch_folders_are_writable(sandbox: Sandbox) -> None:
     places = "/ /usr /usr/bin /etc /opt/ros/jazzy /opt /proc/sys/kernel /home /run /var"
-    status, said = shell(
+    status, output = shell(
         sandbox, f'for p in {places}; do touch "$p/x" 2> /dev/null && echo "wrote $p"; done; true'
     )
-    assert (status, said) == (0, "")
-    status, said = shell(sandbox, "touch ~/ros2_ws/a ~/b /tmp/c /dev/shm/d && ls ~ ~/ros2_ws")
+    assert (status, output) == (0, "")
+    status, output = shell(sandbox, "touch ~/ros2_ws/a ~/b /tmp/c /dev/shm/d && ls ~ ~/ros2_ws")
     assert status == 0
-    assert "a" in said
+    assert "a" in output
 
 
 def test_files_of_the_host_are_not_visible(sandbox: Sandbox, tmp_path: Path) -> None:
@@ -41,10 +41,10 @@ def test_files_of_the_host_are_not_visible(sandbox: Sandbox, tmp_path: Path) -> 
 
 
 def test_the_network_is_loopback_only(sandbox: Sandbox) -> None:
-    status, said = shell(sandbox, "tail -n +3 /proc/net/dev | cut -d: -f1; cat /proc/net/route")
+    status, output = shell(sandbox, "tail -n +3 /proc/net/dev | cut -d: -f1; cat /proc/net/route")
     assert status == 0
-    assert said.split()[0] == "lo"
-    assert len(said.strip().splitlines()) == 2  # lo, and the header of an empty routing table
+    assert output.split()[0] == "lo"
+    assert len(output.strip().splitlines()) == 2  # lo, and the header of an empty routing table
     status, _ = shell(
         sandbox, "exec 3<>/dev/tcp/127.0.0.1/9", seconds=10
     )  # refused at once, so loopback is up
@@ -55,8 +55,8 @@ def test_the_environment_has_only_listed_variables(
     sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SECRET_TOKEN", "abc")
-    _, said = shell(sandbox, "env")
-    names = {line.partition("=")[0] for line in said.splitlines()}
+    _, output = shell(sandbox, "env")
+    names = {line.partition("=")[0] for line in output.splitlines()}
     assert names - {"PWD", "SHLVL", "_"} == set(sandbox.environment("student"))
 
 
@@ -64,8 +64,8 @@ def test_nothing_of_a_command_remains_for_the_next(sandbox: Sandbox) -> None:
     mark = f"sleep 98{secrets.randbelow(10**6)}"
     status, _ = shell(sandbox, f"setsid {mark} > /dev/null 2>&1 < /dev/null & echo started")
     assert status == 0
-    _, said = shell(sandbox, "cat /proc/[0-9]*/cmdline | tr '\\0' ' '")
-    assert mark not in said
+    _, output = shell(sandbox, "cat /proc/[0-9]*/cmdline | tr '\\0' ' '")
+    assert mark not in output
     assert processes.alive(mark) == []
 
 
@@ -94,8 +94,8 @@ def test_as_root_the_commands_are_two_other_users(sandbox: Sandbox) -> None:
 
 
 def test_no_privilege_is_left(sandbox: Sandbox) -> None:
-    _, said = shell(sandbox, "grep -E 'CapEff|CapPrm|NoNewPrivs' /proc/self/status")
-    values = dict(line.split(":\t") for line in said.strip().splitlines())
+    _, output = shell(sandbox, "grep -E 'CapEff|CapPrm|NoNewPrivs' /proc/self/status")
+    values = dict(line.split(":\t") for line in output.strip().splitlines())
     assert int(values["CapEff"], 16) == int(values["CapPrm"], 16) == 0
     assert values["NoNewPrivs"] == "1"
 
@@ -191,10 +191,10 @@ def test_the_time_limit_ends_a_command(sandbox: Sandbox) -> None:
 
 def test_the_workspace_has_a_size_limit(make_sandbox: Make) -> None:
     with make_sandbox(Limits(workspace=20 * MEGABYTE)) as small:
-        status, said = shell(small, "head -c 30000000 /dev/zero > big; ls -l big | cut -d' ' -f5")
+        status, output = shell(small, "head -c 30000000 /dev/zero > big; ls -l big | cut -d' ' -f5")
         assert status == 0
-        assert "No space left" in said
-        status, said = shell(small, "head -c 5000000 /dev/zero > /tmp/big")
+        assert "No space left" in output
+        status, output = shell(small, "head -c 5000000 /dev/zero > /tmp/big")
         assert status != 0
 
 
@@ -202,15 +202,15 @@ def test_a_file_has_a_size_limit(make_sandbox: Make) -> None:
     with make_sandbox(Limits(file_size=1 * MEGABYTE)) as small:
         status, _ = shell(small, "head -c 2000000 /dev/zero > big; stat -c %s big; exit 3")
         assert status == 3
-        _, said = shell(small, "stat -c %s big")
-        assert int(said) == 1 * MEGABYTE
+        _, output = shell(small, "stat -c %s big")
+        assert int(output) == 1 * MEGABYTE
 
 
 def test_memory_is_limited_across_all_processes(make_sandbox: Make) -> None:
     hog = "x = bytearray(120_000_000); x[::4096] = b'1' * len(x[::4096]); print('had', 'it')"
     with make_sandbox(Limits(memory=80 * MEGABYTE)) as small:
-        _, said = shell(small, f'/usr/bin/env python3 -S -c "{hog}"; /usr/bin/python3 -c "{hog}"')
-        assert "had it" not in said
+        _, output = shell(small, f'/usr/bin/env python3 -S -c "{hog}"; /usr/bin/python3 -c "{hog}"')
+        assert "had it" not in output
         if small.held_by()["memory"] == "cgroup":
             assert small.resource_limit_hit() == "memory"
 
@@ -218,8 +218,8 @@ def test_memory_is_limited_across_all_processes(make_sandbox: Make) -> None:
 def test_processes_are_limited_across_the_whole_submission(make_sandbox: Make) -> None:
     bomb = "for i in $(seq 400); do sleep 50 & done; echo started all"
     with make_sandbox(Limits(processes=60)) as small:
-        _, said = shell(small, bomb, seconds=4)
-        assert "started all" not in said or "Resource temporarily unavailable" in said
+        _, output = shell(small, bomb, seconds=4)
+        assert "started all" not in output or "Resource temporarily unavailable" in output
         if small.held_by()["processes"] == "cgroup":
             assert small.resource_limit_hit() == "processes"
 

@@ -72,12 +72,12 @@ def test_defaults_are_filled_in(tmp_path: Path) -> None:
 
 
 def test_a_misspelt_key_is_reported_once_with_its_line_and_a_suggestion(tmp_path: Path) -> None:
-    said = refused(tmp_path, changed("period:", "perid:"))
-    assert said == "assignment.yaml:11: unknown key 'perid' (did you mean 'period'?)"
-    said = refused(tmp_path, changed("package: my", "pakcage: my"))
-    assert said == "assignment.yaml:4: unknown key 'pakcage' (did you mean 'package'?)"
-    said = refused(tmp_path, changed("found, points", "found, point"))
-    assert said == "assignment.yaml:15: unknown key 'point' (did you mean 'points'?)"
+    output = refused(tmp_path, changed("period:", "perid:"))
+    assert output == "assignment.yaml:11: unknown key 'perid' (did you mean 'period'?)"
+    output = refused(tmp_path, changed("package: my", "pakcage: my"))
+    assert output == "assignment.yaml:4: unknown key 'pakcage' (did you mean 'package'?)"
+    output = refused(tmp_path, changed("found, points", "found, point"))
+    assert output == "assignment.yaml:15: unknown key 'point' (did you mean 'points'?)"
 
 
 def test_all_errors_are_reported_at_once_in_line_order(tmp_path: Path) -> None:
@@ -134,16 +134,16 @@ def test_all_errors_are_reported_at_once_in_line_order(tmp_path: Path) -> None:
 def test_a_wrong_value_is_reported_with_its_line(
     tmp_path: Path, old: str, new: str, line: int, words: str
 ) -> None:
-    said = refused(tmp_path, changed(old, new))
+    output = refused(tmp_path, changed(old, new))
     assert any(
-        row.startswith(f"assignment.yaml:{line}: ") and words in row for row in said.splitlines()
-    ), said
+        row.startswith(f"assignment.yaml:{line}: ") and words in row for row in output.splitlines()
+    ), output
 
 
 def test_a_missing_key_is_reported_at_its_parent(tmp_path: Path) -> None:
     assert refused(tmp_path, changed("title: ", "# ")) == "assignment.yaml:1: missing key 'title'"
-    said = refused(tmp_path, changed("{id: run.output, points: 10}", "{id: run.output}"))
-    assert said == "assignment.yaml:16: missing key 'points'"
+    output = refused(tmp_path, changed("{id: run.output, points: 10}", "{id: run.output}"))
+    assert output == "assignment.yaml:16: missing key 'points'"
 
 
 def test_checks_must_be_a_non_empty_list(tmp_path: Path) -> None:
@@ -208,7 +208,7 @@ def test_hidden_checks_are_merged_and_marked_hidden(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("hidden", "said"),
+    ("hidden", "output"),
     [
         ("checks: []\n", "assignment.yaml:17: hidden_checks is 1, but hidden.yaml has 0"),
         (
@@ -223,9 +223,9 @@ def test_hidden_checks_are_merged_and_marked_hidden(tmp_path: Path) -> None:
     ],
 )
 def test_wrong_hidden_checks_are_reported_with_their_file(
-    tmp_path: Path, hidden: str, said: str
+    tmp_path: Path, hidden: str, output: str
 ) -> None:
-    assert refused(tmp_path, GOOD + "hidden_checks: 1\n", hidden) == said
+    assert refused(tmp_path, GOOD + "hidden_checks: 1\n", hidden) == output
 
 
 def test_a_students_machine_has_no_hidden_checks_and_needs_none(tmp_path: Path) -> None:

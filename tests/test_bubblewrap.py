@@ -119,10 +119,10 @@ def test_an_ordinary_user_gets_the_same_sandbox(ros_jazzy: Ros) -> None:
     )
     done = processes.run(processes.as_user([sys.executable, "-c", code]))
     assert done.returncode == 0, done.stderr
-    said, probe, bomb, held = json.loads(done.stdout)
-    assert said.split()[:2] == ["1000", "1"]
-    assert "Read-only file system" in said
-    assert said.split()[-2:] == ["a", "3"]
+    output, probe, bomb, held = json.loads(done.stdout)
+    assert output.split()[:2] == ["1000", "1"]
+    assert "Read-only file system" in output
+    assert output.split()[-2:] == ["a", "3"]
     assert probe.strip() == "1001"
     assert "all" not in bomb.split() or "Resource temporarily unavailable" in bomb
     assert held["processes"] in ("rlimit", "cgroup")

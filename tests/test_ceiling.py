@@ -81,10 +81,6 @@ def new_session(*, works: bool = True) -> Session:
     return Session(cast("Sandbox", NoSandbox(works=works)), ASSIGNMENT)
 
 
-def ignore(event: Event) -> None:
-    del event
-
-
 def run_with_missing_ticks() -> Run:
     """Return a run with missing ticks, which requires a second run."""
     return Run("", Watch(clock="virtual", events=[LONG], missing=[1]), started=True)
@@ -96,7 +92,7 @@ def test_runs_at_their_time_limit_are_repeated_within_the_ceiling(
     clock = Clock(monkeypatch, ProbeError("no answer"))
     opened, begin = new_session(), clock.now
     with pytest.raises(Unobserved, match="no answer"):
-        opened.run(ignore)
+        opened.run(unheard)
     assert clock.runs == 2
     assert clock.proofs == [opened.sandbox], "what failed may be ros2 itself"
     assert clock.now - begin <= LIMITS.verdict_seconds
@@ -109,7 +105,7 @@ def test_a_build_at_its_limit_leaves_time_for_a_second_run(
     clock = Clock(monkeypatch, first, second)
     opened, begin = new_session(), clock.now
     clock.now += LIMITS.build_seconds
-    assert opened.run(ignore) is first
+    assert opened.run(unheard) is first
     assert clock.runs == 2
     assert clock.now - begin <= LIMITS.verdict_seconds
 
@@ -118,7 +114,7 @@ def test_quick_grader_faults_are_tried_three_times(monkeypatch: pytest.MonkeyPat
     clock = Clock(monkeypatch, ProbeError("it has ended"))
     clock.seconds = 1.0
     with pytest.raises(Unobserved, match="it has ended"):
-        new_session().run(ignore)
+        new_session().run(unheard)
     assert clock.runs == 3
 
 
@@ -156,11 +152,11 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
         begin = time.monotonic()
         until = begin + 12  # of which ending the node may take ten
         if met:
-            run = observe(opened, ASSIGNMENT, link, ignore, until=until)
+            run = observe(opened, ASSIGNMENT, link, unheard, until=until)
             assert (run.resource, run.started) == (met, False)
         else:
             with pytest.raises(ProbeError, match="no answer"):
-                observe(opened, ASSIGNMENT, link, ignore, until=until)
+                observe(opened, ASSIGNMENT, link, unheard, until=until)
         assert time.monotonic() - begin < 12
         link.close()
 

@@ -44,7 +44,7 @@ def test_version() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "output"),
     [
         (["grade", "/no/such/path"], "/no/such/path"),
         (["grade"], "PATH"),
@@ -60,11 +60,11 @@ def test_version() -> None:
     ],
 )
 def test_a_usage_error_has_status_2_with_a_message_and_no_traceback(
-    words: list[str], said: str
+    words: list[str], output: str
 ) -> None:
     done = processes.run(processes.grader(*words))
     assert done.returncode == 2
-    assert said in done.stderr
+    assert output in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
 
@@ -118,9 +118,9 @@ def test_a_signal_ends_everything(tmp_path: Path, number: signal.Signals, status
         if "colcon" in line:
             break
     process.send_signal(number)
-    _, said = process.communicate(timeout=30)
+    _, output = process.communicate(timeout=30)
     assert process.returncode == status
-    assert "Traceback" not in said
+    assert "Traceback" not in output
     assert processes.alive(mark) == []
     assert not list((tmp_path / "o").rglob("report.json"))
 

@@ -60,12 +60,12 @@ def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, .
 def test_usage_errors_are_reported_in_the_readers_language(
     words: tuple[str, ...], wrong: str
 ) -> None:
-    status, told = run("grader", *words, env=KOREAN)
+    status, text = run("grader", *words, env=KOREAN)
     assert status == 2
-    last = told.splitlines()[-1]
+    last = text.splitlines()[-1]
     assert wrong in last
     assert last.startswith("오류: ")
-    assert not PROSE.search(told), told
+    assert not PROSE.search(text), text
 
 
 @pytest.mark.parametrize(

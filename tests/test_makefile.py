@@ -41,17 +41,17 @@ def make(*words: str, cwd: Path = processes.ROOT) -> tuple[int, str, str]:
 
 
 def test_help_is_the_default_and_names_every_target() -> None:
-    status, said, _ = make()
+    status, output, _ = make()
     assert status == 0
     for target in ("setup", "grade", "grade-all", "check", "fix", "validate", "test", "bench"):
-        assert f"make {target} " in said
-    assert make("help")[1] == said
+        assert f"make {target} " in output
+    assert make("help")[1] == output
 
 
 def test_grade_without_a_student_says_how() -> None:
-    status, _, said = make("grade")
+    status, _, output = make("grade")
     assert status == 2
-    assert "make grade STUDENT=path/to/package" in said
+    assert "make grade STUDENT=path/to/package" in output
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -82,9 +82,9 @@ def test_every_other_variable_is_passed_as_data(variable: str, tmp_path: Path) -
 @pytest.mark.parametrize("variable", ["KEYS", "ASSIGNMENT", "SANDBOX"])
 def test_the_variables_of_make_validate_are_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
-    status, _, said = make("validate", f"{variable}={hostile}")
+    status, _, output = make("validate", f"{variable}={hostile}")
     assert status == 2
-    assert "Traceback" not in said
+    assert "Traceback" not in output
     assert not (tmp_path / "HACKED").exists()
 
 
@@ -92,9 +92,9 @@ def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None
     course = weather.write_course(tmp_path, "winds")
     package = weather.write_package(tmp_path, Replace(weather.SETUP, weather.ENTRY, ""))
     words = ("fix", f"PACKAGE={package}", f"GRADER_COURSE={course}")
-    status, _, said = make(*words)
+    status, _, output = make(*words)
     assert status == 2
-    assert "readings, winds" in said
+    assert "readings, winds" in output
     _, shown, _ = make(*words, "ASSIGNMENT=winds")
     assert weather.ENTRY in shown
 
@@ -105,8 +105,8 @@ def test_a_package_can_be_fixed_through_make(tmp_path: Path) -> None:
     status, shown, _ = make("fix", f"PACKAGE={package}")
     assert "+++ b/setup.cfg" in shown
     assert not (package / "setup.cfg").exists()
-    status, _, said = make("fix", f"PACKAGE={package}", "APPLY=1")
-    assert status == 0, said
+    status, _, output = make("fix", f"PACKAGE={package}", "APPLY=1")
+    assert status == 0, output
     assert (package / "setup.cfg").exists()
 
 
@@ -120,17 +120,17 @@ def test_a_package_can_be_fixed_through_make(tmp_path: Path) -> None:
 def test_the_variables_of_a_class_are_passed_as_data(variable: str, tmp_path: Path) -> None:
     hostile = f"$(shell touch {tmp_path}/HACKED);`touch {tmp_path}/HACKED`"
     words = {"SUBMISSIONS": f"{tmp_path}/none", "OUT": f"{tmp_path}/out", variable: hostile}
-    status, _, said = make("grade-all", *(f"{name}={value}" for name, value in words.items()))
+    status, _, output = make("grade-all", *(f"{name}={value}" for name, value in words.items()))
     assert status == 2
-    assert "Traceback" not in said
+    assert "Traceback" not in output
     assert not (tmp_path / "HACKED").exists()
 
 
 @pytest.mark.parametrize("words", [("LC_ALL=", "LANG=ko_KR.UTF-8"), ("GRADER_LANG=ko",)])
 def test_the_language_is_a_variable(words: tuple[str, ...], tmp_path: Path) -> None:
-    status, _, said = make("grade", f"STUDENT={tmp_path / 'missing'}", *words)
+    status, _, output = make("grade", f"STUDENT={tmp_path / 'missing'}", *words)
     assert status == 2
-    assert "폴더가 없습니다" in said
+    assert "폴더가 없습니다" in output
 
 
 def test_the_column_and_accept_variables_reach_the_command(tmp_path: Path) -> None:
@@ -148,25 +148,25 @@ def test_the_column_and_accept_variables_reach_the_command(tmp_path: Path) -> No
 
 
 def test_grade_all_without_a_class_says_how() -> None:
-    status, _, said = make("grade-all")
+    status, _, output = make("grade-all")
     assert status == 2
-    assert "make grade-all SUBMISSIONS=path/to/downloads" in said
+    assert "make grade-all SUBMISSIONS=path/to/downloads" in output
 
 
 @pytest.mark.prefix
 def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
     solution(tmp_path / "the class")
     folder, out = tmp_path / "the class", tmp_path / "out put"
-    status, said, err = make(
+    status, output, err = make(
         "grade-all", f"SUBMISSIONS={folder}", f"OUT={out}", "SANDBOX=bubblewrap"
     )
     assert status == 0, err
-    assert "100 / 100" in said
-    status, said, err = make(
+    assert "100 / 100" in output
+    status, output, err = make(
         *("grade-all", f"SUBMISSIONS={folder}", f"OUT={out}", "SANDBOX=bubblewrap", "REGRADE=1")
     )
     assert status == 0, err
-    assert "Marked again: 1, 1 of them with the same result." in said
+    assert "Marked again: 1, 1 of them with the same result." in output
 
 
 def test_an_environment_variable_works(tmp_path: Path) -> None:

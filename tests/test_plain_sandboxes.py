@@ -53,19 +53,19 @@ def test_account_runs_student_and_probe_as_two_other_users(ros_jazzy: Ros) -> No
     command = processes.as_root_of_a_container([sys.executable, "-c", ACCOUNT, mark])
     done = processes.run(command, env={"SECRET_TOKEN": "abc"})
     assert done.returncode == 0, done.stderr
-    said = json.loads(done.stdout)
-    student, probe = said["uids"]
+    output = json.loads(done.stdout)
+    student, probe = output["uids"]
     assert student != probe
     assert "0" not in (student, probe)
-    assert said["here"].split()[1:] == ["a"]
-    assert "Permission denied" in said["probe_cannot"]
-    assert "Operation not permitted" in said["student_cannot"]
-    assert "CapEff:\t0000000000000000" in said["student_cannot"]
-    assert said["ros"].strip() == "rclpy"
-    assert "SECRET_TOKEN" not in said["env"]
-    assert "all" not in said["bomb"].split() or "unavailable" in said["bomb"]
+    assert output["here"].split()[1:] == ["a"]
+    assert "Permission denied" in output["probe_cannot"]
+    assert "Operation not permitted" in output["student_cannot"]
+    assert "CapEff:\t0000000000000000" in output["student_cannot"]
+    assert output["ros"].strip() == "rclpy"
+    assert "SECRET_TOKEN" not in output["env"]
+    assert "all" not in output["bomb"].split() or "unavailable" in output["bomb"]
     assert processes.alive(mark) == []
-    assert not Path(said["folder"]).exists()
+    assert not Path(output["folder"]).exists()
 
 
 TWO_ACCOUNTS = """
@@ -122,8 +122,8 @@ def test_without_a_sandbox_the_environment_has_only_listed_variables(
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", "/own")
     with NoSandbox(ros_jazzy, Limits()) as opened:
-        said = opened.run(["env"], seconds=10).output.decode()
-        assert "PYTHONPATH" not in said
+        output = opened.run(["env"], seconds=10).output.decode()
+        assert "PYTHONPATH" not in output
         ros = opened.run(
             ["bash", "-c", f'. "{opened.ros_path}/setup.bash"; ros2 pkg prefix rclpy'], seconds=10
         )

@@ -64,8 +64,8 @@ def test_sourcing_twice_changes_nothing(jazzy_prefix: Path) -> None:
 def test_setup_bash_works_in_every_folder(name: str, jazzy_prefix: Path, tmp_path: Path) -> None:
     prefix = tmp_path / name
     prefix.symlink_to(jazzy_prefix)
-    said = sourced(prefix, 'printf "%s\\0" "$AMENT_PREFIX_PATH" "$PATH"; ros2 pkg prefix rclpy')
-    found = said.split("\0")
+    output = sourced(prefix, 'printf "%s\\0" "$AMENT_PREFIX_PATH" "$PATH"; ros2 pkg prefix rclpy')
+    found = output.split("\0")
     assert found == [str(prefix), f"{prefix}/bin:/usr/bin:/bin", f"{prefix}\n"]
 
 
@@ -75,8 +75,8 @@ def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_p
         "import os, rclpy; rclpy.init(); print(rclpy.create_node('a').get_name(), "
         "'_ROS_WHEELS_BOOTSTRAP_COMPLETE' in os.environ)"
     )
-    said = sourced(jazzy_prefix, f'HOME="{tmp_path}" exec python3 -c "{code}"')
-    assert said.split() == ["a", "False"]
+    output = sourced(jazzy_prefix, f'HOME="{tmp_path}" exec python3 -c "{code}"')
+    assert output.split() == ["a", "False"]
 
 
 def test_the_prefix_has_the_distros_versions(ros_jazzy: Ros, ros_kilted: Ros) -> None:
@@ -189,8 +189,8 @@ def test_a_prefix_killed_half_way_does_not_exist_and_is_made_again(tmp_path: Pat
     assert not folder.exists()
     assert list(folder.parent.glob(".jazzy.making-*"))
     with maker(folder) as second:
-        said = second.communicate("\n")[0]
-    assert said.splitlines() == ["making", "made"]
+        output = second.communicate("\n")[0]
+    assert output.splitlines() == ["making", "made"]
     assert (folder / "last").is_file()
     assert list(folder.parent.glob(".jazzy.making-*")) == []
 
@@ -249,10 +249,10 @@ def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
         )
         for _ in range(2)
     ]
-    said = [process.communicate() for process in pair]
+    output = [process.communicate() for process in pair]
     assert [process.returncode for process in pair] == [0, 0]
-    assert said[0][0] == said[1][0]
-    assert sum("unpacking" in err for _, err in said) == 1
-    made = Path(said[0][0].strip())
+    assert output[0][0] == output[1][0]
+    assert sum("unpacking" in err for _, err in output) == 1
+    made = Path(output[0][0].strip())
     assert json.loads((made / "wheels-prefix.json").read_text())["rclpy"] == "7.1.6"
     assert [p.name for p in made.parent.iterdir() if "making" in p.name] == []

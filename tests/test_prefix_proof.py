@@ -156,7 +156,7 @@ def test_the_real_prefix_passes_its_proof(ros_jazzy: Ros, surroundings: str) -> 
 
 
 @pytest.mark.parametrize(
-    ("program", "text", "said"),
+    ("program", "text", "output"),
     [
         ("colcon", "#!/no/such/python\n", "colcon build --help does not run: status 12[67]"),
         ("colcon", "#!/bin/sh\necho out of order\nexit 1\n", "status 1\nout of order"),
@@ -165,13 +165,13 @@ def test_the_real_prefix_passes_its_proof(ros_jazzy: Ros, surroundings: str) -> 
     ],
 )
 def test_a_prefix_with_a_failing_program_does_not_pass(
-    program: str, text: str, said: str, tmp_path: Path, surroundings: str
+    program: str, text: str, output: str, tmp_path: Path, surroundings: str
 ) -> None:
     folder = small_prefix(tmp_path / "some 'path' $ü")
     (folder / "bin" / program).unlink()
     (folder / "bin" / program).write_text(text)
     (folder / "bin" / program).chmod(0o755)
-    with pytest.raises(BrokenRosError, match=said) as caught:
+    with pytest.raises(BrokenRosError, match=output) as caught:
         prove_ros(Ros(JAZZY, "wheels", folder, base_interpreter(), {}))
     assert "GRADER_CACHE" in caught.value.remedy
 

@@ -26,8 +26,8 @@ def overlay(jazzy_prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Pat
         if (processes.ROOT / name).is_file():
             (project / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(processes.ROOT / name, project / name)
-    said = bash(jazzy_prefix, workspace, f"'{sys.executable}' -m colcon build 2>&1")
-    assert "Summary: 1 package finished" in said, said
+    output = bash(jazzy_prefix, workspace, f"'{sys.executable}' -m colcon build 2>&1")
+    assert "Summary: 1 package finished" in output, output
     return workspace
 
 
@@ -44,10 +44,10 @@ def bash(prefix: Path, workspace: Path, script: str) -> str:
 def test_the_command_runs_under_the_python_of_colcon(overlay: Path, jazzy_prefix: Path) -> None:
     script = overlay / "install/ros2_teaching_lab/lib/ros2_teaching_lab/grader"
     assert script.read_text().splitlines()[0] == f"#!{sys.executable}"
-    said = bash(
+    output = bash(
         jazzy_prefix, overlay, ". install/local_setup.bash; ros2 run ros2_teaching_lab grader -V"
     )
-    assert grader.__version__ in said
+    assert grader.__version__ in output
 
 
 def test_run_time_data_files_are_installed(overlay: Path, jazzy_prefix: Path) -> None:
@@ -55,14 +55,14 @@ def test_run_time_data_files_are_installed(overlay: Path, jazzy_prefix: Path) ->
     share = overlay / "install/ros2_teaching_lab/share/ros2_teaching_lab"
     assert (share / "course/hello_time/assignment.yaml").is_file()
     solution = processes.ROOT / "grader/keys/hello_time/solution/my_robot_controller"
-    said = bash(
+    output = bash(
         jazzy_prefix,
         overlay,
         f". install/local_setup.bash; ros2 run ros2_teaching_lab grader grade '{solution}' "
         "--out out; echo status $?",
     )
-    assert "status 0" in said, said
-    assert "100 / 100" in said
+    assert "status 0" in output, output
+    assert "100 / 100" in output
 
 
 def test_a_student_does_not_get_the_keys() -> None:

@@ -19,7 +19,7 @@ from grader.sandbox.limits import Limits
 from tests.batch.pool_tasks import ASSIGNMENT
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.hostile import HOSTILE
-from tests.test_ceiling import Clock, ignore, new_session
+from tests.test_ceiling import Clock, new_session
 
 LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
 
@@ -60,12 +60,12 @@ def test_every_status_of_colcon_counts_for_the_submission(
 
 
 @pytest.mark.parametrize(
-    ("ours", "said"), [("lay_out", "could not be laid out"), ("listing", "could not be listed")]
+    ("ours", "output"), [("lay_out", "could not be laid out"), ("listing", "could not be listed")]
 )
 def test_a_failing_command_of_the_grader_is_a_surroundings_error(
-    submission: Submission, ours: str, said: str
+    submission: Submission, ours: str, output: str
 ) -> None:
-    with pytest.raises(SurroundingsError, match=said):
+    with pytest.raises(SurroundingsError, match=output):
         build_status(submission, **{ours: 2})
 
 
@@ -104,7 +104,7 @@ def test_a_node_that_ends_at_once_is_judged_only_if_the_sandbox_still_works(
     clock.seconds = 1.0
     opened = new_session(works=works)
     if works:
-        assert opened.run(ignore) is run
+        assert opened.run(unheard) is run
         assert clock.runs == 1
     else:
         with pytest.raises(Unobserved, match="no longer starts commands"):

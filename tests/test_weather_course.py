@@ -244,9 +244,9 @@ def test_a_mistake_is_explained_with_the_lessons_texts(
     mistake = MISTAKES[name]
     result = result_of(mistake, weather.assignment(tmp_path), tmp_path, lang)
     assert result.mistakes[0].id == mistake.named
-    said = texts(result)
-    assert mistake.says in said
-    assert not OURS.search(said), said
+    output = texts(result)
+    assert mistake.says in output
+    assert not OURS.search(output), output
 
 
 # the commands
@@ -275,8 +275,8 @@ def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None
     assert f"{weather.FULL_MARKS} / {weather.FULL_MARKS}" in graded.stdout
     checked = processes.run(processes.grader("check", package), env=env(course))
     assert checked.returncode == 0, checked.stdout + checked.stderr
-    for said in (graded, checked):
-        assert not OURS.search(said.stdout), said.stdout
+    for output in (graded, checked):
+        assert not OURS.search(output.stdout), output.stdout
 
 
 @pytest.mark.prefix
@@ -309,9 +309,9 @@ def explained(*words: str, **more: str) -> str:
 
 
 def test_explain_uses_the_lesson_and_the_distro(course: Path) -> None:
-    said = explained("run.no_lines", ROS_DISTRO="kilted", **env(course))
-    assert "create_timer(0.5, self." in said
-    assert "https://docs.ros.org/en/kilted/" in said
+    output = explained("run.no_lines", ROS_DISTRO="kilted", **env(course))
+    assert "create_timer(0.5, self." in output
+    assert "https://docs.ros.org/en/kilted/" in output
     assert "https://docs.ros.org/en/humble/" in explained("run.no_lines", "--distro", "humble")
     assert "f'Reading {self." in explained("node.f_prefix", **env(course))
     assert "source /opt/ros/kilted/" in explained("lab.ros_not_sourced", "--distro", "kilted")
@@ -319,8 +319,8 @@ def test_explain_uses_the_lesson_and_the_distro(course: Path) -> None:
 
 def test_explain_without_a_lesson_shows_placeholders(tmp_path: Path) -> None:
     several = weather.write_course(tmp_path, "winds")
-    said = explained("run.no_lines", **env(several))
-    assert "create_timer(<period>, self.<callback>)" in said
+    output = explained("run.no_lines", **env(several))
+    assert "create_timer(<period>, self.<callback>)" in output
     assert "f'Count: {self.counter}'" in explained("node.f_prefix", **env(several))
     assert "https://docs.ros.org/en/jazzy/" in explained("run.no_lines", ROS_DISTRO="unheard-of")
 
@@ -335,38 +335,38 @@ def guide(*words: str | Path, **more: str) -> tuple[int, str, str]:
 
 def test_the_guide_uses_the_courses_own_lesson(course: Path, tmp_path: Path) -> None:
     workspace = tmp_path / "ws"
-    status, said, _ = guide("--workspace", workspace, **env(course))
+    status, output, _ = guide("--workspace", workspace, **env(course))
     assert status == 0
-    assert said.startswith("Step 2 of 4: Make the package\n")
-    assert "source /opt/ros/kilted/setup.bash" in said
-    assert "https://docs.ros.org/en/kilted/Concepts.html" in said
-    assert "<!--" not in said
-    assert "ros2 pkg create --build-type ament_python weather_station" in said
+    assert output.startswith("Step 2 of 4: Make the package\n")
+    assert "source /opt/ros/kilted/setup.bash" in output
+    assert "https://docs.ros.org/en/kilted/Concepts.html" in output
+    assert "<!--" not in output
+    assert "ros2 pkg create --build-type ament_python weather_station" in output
     (workspace / "src").mkdir(parents=True)
     weather.write_package(
         workspace / "src", Replace(NODE, TIMER, ""), Replace(SETUP, weather.ENTRY, "")
     )
-    _, said, _ = guide("--workspace", workspace, **env(course))
-    assert said.splitlines()[-1] == "Next: The node in station.py has no timer yet."
+    _, output, _ = guide("--workspace", workspace, **env(course))
+    assert output.splitlines()[-1] == "Next: The node in station.py has no timer yet."
     _, listed, _ = guide("list", "--workspace", workspace, **env(course))
     assert [line[:3] for line in listed.splitlines()[:4]] == ["[x]", "[x]", "[>]", "[ ]"]
     _, korean, _ = guide("--lang", "ko", "--workspace", workspace, **env(course))
     assert "관측소 쓰기" in korean
-    for each in (said, listed, korean):
+    for each in (output, listed, korean):
         assert not OURS.search(each)
 
 
 def test_the_guide_says_when_everything_is_done(course: Path, tmp_path: Path) -> None:
     (tmp_path / "ws/src").mkdir(parents=True)
     weather.write_package(tmp_path / "ws/src")
-    status, said, _ = guide("--workspace", tmp_path / "ws", **env(course))
-    assert (status, said.splitlines()[-1]) == (0, "Next: check")
+    status, output, _ = guide("--workspace", tmp_path / "ws", **env(course))
+    assert (status, output.splitlines()[-1]) == (0, "Next: check")
     _, listed, _ = guide("list", "--workspace", tmp_path / "ws", **env(course))
     assert [line[:3] for line in listed.splitlines()[:4]] == ["[x]"] * 4
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "output"),
     [
         (weather.LESSON.replace("done: package", "done: pakage"), "did you mean 'package'?"),
         ("# A lesson without steps\n", "no lesson with steps"),
@@ -374,7 +374,7 @@ def test_the_guide_says_when_everything_is_done(course: Path, tmp_path: Path) ->
     ],
 )
 def test_a_lesson_that_the_guide_cannot_use_is_reported(
-    course: Path, tmp_path: Path, text: str | None, said: str
+    course: Path, tmp_path: Path, text: str | None, output: str
 ) -> None:
     file = course / "readings" / "lesson.md"
     file.unlink()
@@ -382,7 +382,7 @@ def test_a_lesson_that_the_guide_cannot_use_is_reported(
         file.write_text(text)
     status, shown, errors = guide("--workspace", tmp_path, **env(course))
     assert (status, shown) == (2, "")
-    assert said in errors
+    assert output in errors
     assert "Traceback" not in errors
 
 
@@ -422,16 +422,16 @@ def test_one_of_several_lessons_must_be_named(command: str, tmp_path: Path) -> N
 
 @pytest.mark.parametrize("command", ["check", "guide", "lab", "validate"])
 def test_an_invalid_course_folder_is_reported(command: str, course: Path, tmp_path: Path) -> None:
-    for folder, said in (
+    for folder, output in (
         (tmp_path / "nowhere", "there is no course folder"),
         (course / "readings", "is a lesson, not a course"),
         (tmp_path / "course" / "readings" / "..", ""),
         (Path("/proc/self/task"), "there is no lesson in the course folder"),
     ):
-        if said:
+        if output:
             status, errors = run(command, tmp_path, GRADER_COURSE=str(folder))
             assert status == 2
-            assert said in errors
+            assert output in errors
 
 
 def test_the_environment_selects_the_lesson(tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ class Run:
     """The result of a run of the command; `out` is its output folder."""
 
     status: int
-    said: str
+    output: str
     out: Path
 
     def rows(self, name: str = "gradebook.csv") -> list[dict[str, str]]:
@@ -56,7 +56,7 @@ class Run:
     @property
     def marked(self) -> int:
         """Return how many submissions were marked."""
-        found = re.search(r"^(\d+) to mark", self.said, re.MULTILINE)
+        found = re.search(r"^(\d+) to mark", self.output, re.MULTILINE)
         return int(found[1]) if found else 0
 
 

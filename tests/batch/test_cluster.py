@@ -45,13 +45,13 @@ def process(
         start_new_session=True,
     ) as started:
         assert started.stderr is not None
-        said = ""
+        output = ""
         for line in started.stderr:
-            said += line
+            output += line
             if ready in line:
                 break
         else:
-            raise AssertionError(said)
+            raise AssertionError(output)
         try:
             yield started.pid, line.split()[-1]
         finally:
@@ -148,10 +148,10 @@ def test_no_verdict_is_lost_if_the_scheduler_ends(ros_jazzy: Ros, tmp_path: Path
                 assert begun.poll() is None
                 os.sched_yield()
             os.kill(scheduler, signal.SIGKILL)
-            _, said = begun.communicate(timeout=120)
-    assert begun.returncode == 3, said
-    assert "is gone" in said
-    assert "Traceback" not in said
+            _, output = begun.communicate(timeout=120)
+    assert begun.returncode == 3, output
+    assert "is gone" in output
+    assert "Traceback" not in output
     again = grade_all(folder, tmp_path / "out")
     assert again.returncode == 1, again.stderr
     with Ledger(tmp_path / "out" / "ledger.sqlite") as ledger:
@@ -178,12 +178,12 @@ def test_a_worker_without_a_sandbox_is_not_used(
 ) -> None:
     start_worker()
     start_worker(PATH="/nowhere")
-    said: list[str] = []
-    with Cluster(scheduler, JOB, notify=said.append) as cluster:
+    messages: list[str] = []
+    with Cluster(scheduler, JOB, notify=messages.append) as cluster:
         (done,) = cluster.run(tasks(tmp_path, ["solution"]), started=unheard)
     assert _scores([done]) == {"solution-0": 100}
-    assert len([line for line in said if "marks in bubblewrap" in line]) == 1
-    assert len([line for line in said if "is not used" in line]) == 1
+    assert len([line for line in messages if "marks in bubblewrap" in line]) == 1
+    assert len([line for line in messages if "is not used" in line]) == 1
 
 
 def test_a_cluster_without_a_usable_worker_is_refused(

@@ -211,7 +211,7 @@ def test_a_group_is_marked_once_and_each_member_has_the_report(
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "output"),
     [
         (("Bela Nagi", "--points", "1", "--because", "x"), "Did you mean 'Bela Nagy'?"),
         (("Bela Nagy", "--check", "run.outptu", "--points", "1"), "Did you mean 'run.output'?"),
@@ -221,10 +221,12 @@ def test_a_group_is_marked_once_and_each_member_has_the_report(
         (("Bela Nagy", "--remove"), "was not corrected"),
     ],
 )
-def test_an_invalid_correction_is_refused(marked: Class, words: tuple[str, ...], said: str) -> None:
+def test_an_invalid_correction_is_refused(
+    marked: Class, words: tuple[str, ...], output: str
+) -> None:
     done = marked.override(*words)
     assert done.returncode == 2
-    assert said in done.stderr
+    assert output in done.stderr
     assert "Traceback" not in done.stderr
 
 
@@ -250,7 +252,7 @@ def test_a_second_grader_on_the_same_class_is_refused(copy: Class) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "output"),
     [
         (("--distro", "jazzy,kilted"), "one distro"),
         (("--regrade-student", "Nobody"), "there is no student 'Nobody'"),
@@ -259,11 +261,11 @@ def test_a_second_grader_on_the_same_class_is_refused(copy: Class) -> None:
     ],
 )
 def test_usage_errors_are_reported_before_anything_is_marked(
-    copy: Class, words: tuple[str, ...], said: str
+    copy: Class, words: tuple[str, ...], output: str
 ) -> None:
     done = copy.again(*words)
     assert done.returncode == 2
-    assert said in done.stderr
+    assert output in done.stderr
     assert "Traceback" not in done.stderr
     assert copy.verdicts() == 4
 
@@ -294,9 +296,9 @@ def test_an_interrupted_run_resumes(
         os.sched_yield()
     workers = workers_of(process.pid)
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 130, said
-    assert "run the same command again to continue" in said
+    _, output = process.communicate(timeout=60)
+    assert process.returncode == 130, output
+    assert "run the same command again to continue" in output
     assert not any(Path(f"/proc/{worker}").exists() for worker in workers)
     with (out / "gradebook.csv").open(encoding="utf-8-sig") as file:
         statuses = [row["status"] for row in csv.DictReader(file)]

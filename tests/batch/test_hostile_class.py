@@ -44,9 +44,9 @@ def test_a_class_with_hostile_students_ends_with_a_verdict_on_each(
     done = grade_all(hostile_class, out, "--limit", "workspace=3000000")
     seconds = time.monotonic() - begin
     assert done.returncode == 1, done.stderr
-    said = done.stdout + done.stderr
-    assert "\x1b" not in said
-    assert forbidden_in(said) == set()
+    output = done.stdout + done.stderr
+    assert "\x1b" not in output
+    assert forbidden_in(output) == set()
     text = (out / "gradebook.csv").read_text(encoding="utf-8-sig")
     rows = {row["key"]: row for row in csv.DictReader(text.splitlines())}
     found = {key: (row["status"], row["final"]) for key, row in rows.items()}

@@ -95,7 +95,7 @@ def test_line_numbers_are_not_student_ids(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "output"),
     [
         ("Sarake,Toinen\n5,x\n6,x\n", "no column identifies a student"),
         ("김민지,2024001,kim@school.kr\n이서연,2024002,lee@school.kr\n", "first line must name"),
@@ -103,9 +103,9 @@ def test_line_numbers_are_not_student_ids(tmp_path: Path) -> None:
     ],
 )
 def test_a_roster_without_known_columns_is_an_error(
-    tmp_path: Path, content: str, said: str
+    tmp_path: Path, content: str, output: str
 ) -> None:
-    with pytest.raises(UsageError, match=rf"roster.csv:1: .*{said}"):
+    with pytest.raises(UsageError, match=rf"roster.csv:1: .*{output}"):
         roster(tmp_path, content)
 
 

@@ -72,7 +72,7 @@ def test_every_output_has_the_groups_verdict_for_each_member(tmp_path: Path, zer
     submissions = [("Team_1", 1003, 90), ("Übung & Co", 1000, 70), ("Default group", None, 50)]
     path = moodle_zip(tmp_path / "c.zip", [(name, n, scored(s)) for name, n, s in submissions])
     run = grade_all(path, tmp_path / "out", "--worksheet", sheet, "--assignment", zero)
-    assert run.status == 1, run.said
+    assert run.status == 1, run.output
     assert run.marked == 3, "one marking for each group"
     score = {name: f"{s}" for name, _, s in submissions}
     expected = {person.name: score[person.group] for person in class_}
@@ -85,7 +85,7 @@ def test_every_output_has_the_groups_verdict_for_each_member(tmp_path: Path, zer
         text = (run.out / "feedback" / f"{person.number}.md").read_text(encoding="utf-8")
         assert person.name in text
         assert f"{score[person.group]} of 100 points" in text
-    assert "Identical except for white space" not in run.said, "a group is no copy of itself"
+    assert "Identical except for white space" not in run.output, "a group is no copy of itself"
     # a member who joins later is given the group's verdict, without another marking
     late = replace(class_[0], number=1020, name="Zoë Roe", id_number="1", email="zoe@x.y")
     sheet.write_bytes(worksheet([*class_, late]))
@@ -96,7 +96,7 @@ def test_every_output_has_the_groups_verdict_for_each_member(tmp_path: Path, zer
         path, run.out, *("--worksheet", sheet, "--assignment", zero), "--regrade-student", "Zoë Roe"
     )
     assert regraded.marked == 1
-    assert "Marked again: 4, 4 of them with the same result." in regraded.said
+    assert "Marked again: 4, 4 of them with the same result." in regraded.output
 
 
 # a part of the class, or of the roster
@@ -118,18 +118,18 @@ def test_marking_one_section_lowers_no_grade_in_the_whole_worksheet(
     words: list[str | Path] = ["--worksheet", sheet, "--roster", sheet]
     words += ["--assignment", zero] if policy == "zero" else []
     run = grade_all(path, tmp_path / "out", *words)
-    assert run.status == 1, run.said
+    assert run.status == 1, run.output
     assert grades(run) == {p.name: "90" if n < 53 else "77.50" for n, p in enumerate(course)}
     assert len(run.rows(IMPORT)) == 53
     statuses = run.column("gradebook.csv", "status", "name")
     assert {statuses[p.name] for p in course[53:]} == {"elsewhere"}
     assert {run.finals()[p.name] for p in course[53:]} == {""}
-    told = {path.stem for path in (run.out / "feedback").glob("*.md")}
-    assert told == {str(p.number) for p in course[:53]}
+    text = {path.stem for path in (run.out / "feedback").glob("*.md")}
+    assert text == {str(p.number) for p in course[:53]}
     # the other section goes into the same folder: nothing of the first one is lost
     rest = moodle_zip(tmp_path / "rest.zip", of_people(course[53:], 95))
     both = grade_all(rest, run.out, *words)
-    assert both.status == 1, both.said
+    assert both.status == 1, both.output
     assert grades(both) == {p.name: "90" if n < 53 else "95" for n, p in enumerate(course)}
     assert both.finals() == grades(both)
 
@@ -144,8 +144,8 @@ def test_zeros_for_many_students_need_the_instructors_consent(tmp_path: Path, ze
     words: list[str | Path] = ["--roster", roster]
     refused = grade_all(path, tmp_path / "out", *words, "--assignment", zero)
     assert refused.status == 2
-    assert "3 of 10 students" in refused.said
-    assert "--accept join" in refused.said
+    assert "3 of 10 students" in refused.output
+    assert "--accept join" in refused.output
     assert refused.marked == 0
     assert nothing_written(refused)
     went_on = grade_all(path, tmp_path / "out", *words, "--assignment", zero, "--accept", "join")
@@ -170,16 +170,16 @@ def test_a_korean_class_is_matched_with_its_roster(
     path = moodle_zip(tmp_path / "c.zip", of_people(class_))
     words = ("--roster", sheet, "--worksheet", sheet, "--assignment", zero)
     run = grade_all(path, tmp_path / "out", *words)
-    assert run.status == 1, run.said
+    assert run.status == 1, run.output
     expected = {p.name: "90" if p.submitted else "0" for p in class_}
     assert run.finals() == expected
     assert grades(run, KOREAN) == expected
-    assert ("CP949" in run.said) == (encoding == "cp949")
+    assert ("CP949" in run.output) == (encoding == "cp949")
     assert (run.out / FILLED).read_bytes().startswith(b"\xef\xbb\xbf")
 
 
 @pytest.mark.parametrize(
-    ("roster", "said"),
+    ("roster", "output"),
     [
         ("Sarake;Toinen\n5;x\n6;x\n", "no column identifies a student"),
         # understood, and nobody of this class is on it
@@ -187,13 +187,13 @@ def test_a_korean_class_is_matched_with_its_roster(
     ],
 )
 def test_a_roster_that_matches_nobody_stops_before_anything_is_marked(
-    tmp_path: Path, zero: Path, roster: str, said: str
+    tmp_path: Path, zero: Path, roster: str, output: str
 ) -> None:
     path = moodle_zip(tmp_path / "c.zip", of_people(people(4)))
     given = written(tmp_path / "roster.csv", roster.encode())
     run = grade_all(path, tmp_path / "out", "--roster", given, "--assignment", zero)
     assert run.status == 2
-    assert said in run.said
+    assert output in run.output
     assert run.marked == 0
     assert nothing_written(run)
 
@@ -205,9 +205,9 @@ def test_a_worksheet_of_another_class_stops_the_run_unless_accepted(tmp_path: Pa
     path = moodle_zip(tmp_path / "c.zip", of_people(class_))
     run = grade_all(path, tmp_path / "out", "--worksheet", sheet)
     assert (run.status, run.marked) == (2, 0)
-    assert "only 1 of 5 submissions" in run.said
+    assert "only 1 of 5 submissions" in run.output
     accepted = grade_all(path, tmp_path / "out", "--worksheet", sheet, "--accept", "join")
-    assert accepted.status == 1, accepted.said
+    assert accepted.status == 1, accepted.output
     assert {name for name, grade in grades(accepted).items() if grade} == {class_[0].name}
 
 
@@ -220,15 +220,15 @@ def test_a_lower_grade_needs_the_instructors_consent(tmp_path: Path) -> None:
     path = moodle_zip(tmp_path / "c.zip", of_people(class_, 90))
     run = grade_all(path, tmp_path / "out", "--worksheet", sheet)
     assert (run.status, run.marked) == (2, 4)
-    assert "4 students would get a lower grade" in run.said
-    assert f"{class_[0].name}: 95.00 in the Moodle worksheet, 90 now" in run.said
+    assert "4 students would get a lower grade" in run.output
+    assert f"{class_[0].name}: 95.00 in the Moodle worksheet, 90 now" in run.output
     assert nothing_written(run)
     # what is already known is reported before anything more is marked
     more = moodle_zip(tmp_path / "more.zip", of_people([*class_[:3], *people(5)[4:]], 90))
     sheet.write_bytes(worksheet([*class_, *people(5)[4:]]))
     early = grade_all(more, tmp_path / "out", "--worksheet", sheet)
     assert (early.status, early.marked) == (2, 1)
-    assert "marking 1" not in early.said
+    assert "marking 1" not in early.output
     assert nothing_written(early)
     accepted = grade_all(path, tmp_path / "out", "--worksheet", sheet, "--accept", "join,lower")
     assert (accepted.status, accepted.marked) == (1, 0), "the verdicts were kept"
@@ -253,13 +253,13 @@ def test_earlier_submissions_stay_in_the_gradebook(tmp_path: Path, zero: Path) -
     # if the ledger is lost, the gradebook has their grades
     (tmp_path / "out" / "ledger.sqlite").unlink()
     again = grade_all(part, tmp_path / "out", *words)
-    assert again.status == 1, again.said
+    assert again.status == 1, again.output
     assert again.finals() == expected
     assert again.column("gradebook.csv", "status", "name")[class_[5].name] == "elsewhere"
     # without the roster nothing shows that they belong to this class: their rows would be removed
     gone = grade_all(part, tmp_path / "out", "--assignment", zero)
     assert gone.status == 2
-    assert "2 students would get a lower grade" in gone.said
+    assert "2 students would get a lower grade" in gone.output
     assert again.finals() == expected
 
 
@@ -277,11 +277,11 @@ def test_the_canvas_gradebook_is_checked_before_anything_is_marked(tmp_path: Pat
     gradebook = written(tmp_path / "g.csv", canvas_gradebook(class_, columns=columns))
     run = grade_all(path, tmp_path / "out", "--canvas", gradebook)
     assert (run.status, run.marked) == (2, 0)
-    assert "'Hello time again (77)'" in run.said
-    assert "CANVAS_COLUMN=" in run.said
+    assert "'Hello time again (77)'" in run.output
+    assert "CANVAS_COLUMN=" in run.output
     assert nothing_written(run)
     named = grade_all(path, tmp_path / "out", "--canvas", gradebook, "--canvas-column", "77")
-    assert named.status == 1, named.said
+    assert named.status == 1, named.output
     filled = named.rows("canvas-gradebook.csv")
     assert [row[columns[1]] for row in filled] == ["100.00", "90", "90", "90"]
 
@@ -294,7 +294,7 @@ def test_a_missing_submission_does_not_lower_a_canvas_grade(tmp_path: Path, zero
     path = canvas(tmp_path, class_[:5])
     words = ("--canvas", gradebook, "--roster", gradebook, "--assignment", zero)
     run = grade_all(path, tmp_path / "out", *words)
-    assert run.status == 1, run.said
+    assert run.status == 1, run.output
     filled = run.rows("canvas-gradebook.csv")[1:]
     assert [row[column] for row in filled] == ["90"] * 5 + ["70"]
 
@@ -307,13 +307,13 @@ def test_a_failed_output_does_not_prevent_the_others(tmp_path: Path) -> None:
     path = moodle_zip(tmp_path / "c.zip", of_people(class_))
     words = ("--worksheet", sheet, "--canvas", gradebook)
     first = grade_all(path, tmp_path / "out", *words)
-    assert first.status == 1, first.said
+    assert first.status == 1, first.output
     before = (first.out / FILLED).read_bytes()
     correct(first.out, class_[0], 120)
     again = grade_all(path, first.out, *words)
     assert again.status == 2
-    assert "more points than the Moodle worksheet allows" in again.said
-    assert "All other files were written" in again.said
+    assert "more points than the Moodle worksheet allows" in again.output
+    assert "All other files were written" in again.output
     assert again.finals()[class_[0].name] == "120"
     column = "Your first ROS 2 node: Hello time (77)"
     assert [row[column] for row in again.rows("canvas-gradebook.csv")][1:] == ["120", "90", "90"]
@@ -322,7 +322,7 @@ def test_a_failed_output_does_not_prevent_the_others(tmp_path: Path) -> None:
     # withdrawing it lowers a grade, to which the instructor has consented by doing so
     correct(first.out, class_[0], None)
     last = grade_all(path, first.out, *words)
-    assert last.status == 1, last.said
+    assert last.status == 1, last.output
     assert set(last.finals().values()) == {"90"}
 
 

@@ -100,11 +100,11 @@ def test_a_socket_without_permission_is_reported_with_a_fix() -> None:
 
 
 def test_a_full_disk_is_reported_with_a_fix() -> None:
-    said = "write /var/lib/docker/tmp/x: no space left on device"
+    output = "write /var/lib/docker/tmp/x: no space left on device"
     with (
         pytest.raises(SurroundingsError) as caught,
         docker_errors("opening the sandbox"),
     ):
-        raise docker.errors.APIError("500 Server Error", explanation=said)
+        raise docker.errors.APIError("500 Server Error", explanation=output)
     assert "no space left" in caught.value.message
     assert "docker system df" in caught.value.remedy

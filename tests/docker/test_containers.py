@@ -74,8 +74,8 @@ def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> No
         assert host["Init"] is True
         assert host["AutoRemove"] is True
         assert container.attrs["Config"]["User"].split(":")[0] not in ("", "0", "root")
-    _, said = shell(sandbox, "grep Seccomp: /proc/self/status; grep -c . /proc/self/mountinfo")
-    assert said.split()[1] == "2"
+    _, output = shell(sandbox, "grep Seccomp: /proc/self/status; grep -c . /proc/self/mountinfo")
+    assert output.split()[1] == "2"
 
 
 def test_the_first_process_cannot_be_ended_by_the_submission(sandbox: Sandbox) -> None:
@@ -152,9 +152,9 @@ def test_nothing_is_left_however_the_grader_ends(
         time.sleep(0.05)
     assert made_by(client, grader.pid)
     grader.send_signal(sent)
-    said = grader.stderr.read()
-    assert grader.wait(30) == status, said
-    assert "Traceback" not in said
+    output = grader.stderr.read()
+    assert grader.wait(30) == status, output
+    assert "Traceback" not in output
     assert wait_until_gone(client, grader.pid, state="running") == []
     orphans.remove_orphans(client)  # as the next grader does: one that was never started is left
     assert wait_until_gone(client, grader.pid) == []

@@ -129,10 +129,10 @@ def test_a_killed_daemon_is_reported_and_its_remains_are_removed(
         if "building" in line:
             break
     daemon.kill()
-    said = grader.stderr.read()
-    assert grader.wait(60) == 3, said
-    assert "the connection to the Docker daemon was lost" in said
-    assert "Traceback" not in said
+    output = grader.stderr.read()
+    assert grader.wait(60) == 3, output
+    assert "the connection to the Docker daemon was lost" in output
+    assert "Traceback" not in output
 
     daemon.start()
     again = processes.run(command, env={"DOCKER_HOST": daemon.address})

@@ -76,8 +76,10 @@ def test_an_image_has_labels_that_describe_it(image: Image) -> None:
 
 def test_nothing_runs_as_root_and_nobody_can_become_it(client: DockerClient, image: Image) -> None:
     assert image.attrs["Config"]["User"] == "1000:1000"
-    said = output_of(client, image, "id -un; id -u; pwd; command -v sudo; getent passwd 1001 1002")
-    lines = said.splitlines()
+    output = output_of(
+        client, image, "id -un; id -u; pwd; command -v sudo; getent passwd 1001 1002"
+    )
+    lines = output.splitlines()
     assert lines[:3] == ["student", "1000", "/home/student/ros2_ws"]
     assert [line.split(":")[0] for line in lines[3:]] == ["probe", "holder"]
     writable = output_of(client, image, "find / -xdev -type f -perm -4000 -newer /etc/passwd; true")

@@ -112,7 +112,7 @@ def test_a_usage_error_has_status_2_and_writes_nothing(tmp_path: Path) -> None:
     inside.mkdir()
     shutil.copy(archive, inside / "handed_in.zip")
     before = tree(tmp_path)
-    for words, said in (
+    for words, output in (
         ([archive], "Unpack"),
         ([inside], "Unpack"),
         ([tmp_path / "nowhere"], "no file or folder"),
@@ -127,7 +127,7 @@ def test_a_usage_error_has_status_2_and_writes_nothing(tmp_path: Path) -> None:
             env={"HOME": str(tmp_path)},
         )
         assert (done.returncode, done.stdout) == (2, ""), words
-        assert said in done.stderr
+        assert output in done.stderr
         assert "Traceback" not in done.stderr
     assert tree(tmp_path) == before
 

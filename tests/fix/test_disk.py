@@ -95,7 +95,7 @@ def _resource_is_a_link(root: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("meanwhile", "said"),
+    ("meanwhile", "output"),
     [
         (_read_only, "read-only"),
         (_changed, "has changed since"),
@@ -106,13 +106,13 @@ def _resource_is_a_link(root: Path) -> None:
     ],
 )
 def test_an_unwritable_file_is_refused_and_nothing_is_written(
-    meanwhile: Callable[[Path], None], said: str, tmp_path: Path
+    meanwhile: Callable[[Path], None], output: str, tmp_path: Path
 ) -> None:
     root = edited(tmp_path, NAME, ENTRY, Delete(MARKER))
     plan = plan_of(root)
     meanwhile(root)
     before = tree(tmp_path)
-    with pytest.raises(UsageError, match=said) as caught:
+    with pytest.raises(UsageError, match=output) as caught:
         apply(plan.old, plan.new, root)
     assert "Nothing was written" in str(caught.value)
     assert tree(tmp_path) == before

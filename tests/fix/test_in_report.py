@@ -44,10 +44,10 @@ def test_a_failing_fix_costs_no_verdict_and_is_reported(
     handed_in = write(BY_NAME["comma_missing"], tmp_path)
     right = mark(handed_in)
     monkeypatch.setattr(runner, "patch_for", faulty)
-    told: list[events.Event] = []
-    report = mark(handed_in, listener=told.append)
+    messages: list[events.Event] = []
+    report = mark(handed_in, listener=messages.append)
     assert {check.id: check.status for check in report.checks} == {
         check.id: check.status for check in right.checks
     }
     assert {check.patch for check in report.checks} == {""}
-    assert any(isinstance(event, events.Note) and "our fault" in event.text for event in told)
+    assert any(isinstance(event, events.Note) and "our fault" in event.text for event in messages)

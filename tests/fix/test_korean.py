@@ -61,6 +61,6 @@ def test_usage_errors_and_refusals_are_in_korean(tmp_path: Path) -> None:
     ):
         done = processes.run(processes.grader("fix", "--lang", "ko", *words))
         assert done.returncode == 2, words
-        told = done.stderr[done.stderr.index("grader: ") :]
-        assert re.search("[가-힣]", told), told
-        assert prose(told) == [], told
+        text = done.stderr[done.stderr.index("grader: ") :]
+        assert re.search("[가-힣]", text), text
+        assert prose(text) == [], text

@@ -117,8 +117,8 @@ def diagnosis(found: bytes) -> None:
     if source is not None:
         suspect = Suspect(source, NODE, ASSIGNMENT)
         for look in BY_SYMPTOM.values():
-            told = look(suspect)
-            assert told is None or told.kind in CATALOGUE
+            text = look(suspect)
+            assert text is None or text.kind in CATALOGUE
 
 
 def _with(path: str, found: bytes) -> Submission:

@@ -119,7 +119,7 @@ def test_different_points_possible_are_reported() -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "column", "said"),
+    ("content", "column", "output"),
     [
         (b"Identifier,Grade\nParticipant 1,\n", "", "not a Canvas gradebook"),
         (export(POSSIBLE, student(0)), "Hello tim", "Hello tim"),
@@ -128,10 +128,10 @@ def test_different_points_possible_are_reported() -> None:
         (export(POSSIBLE, '"Lee",1000,0'), "", "too short"),
     ],
 )
-def test_an_unusable_gradebook_is_refused(content: bytes, column: str, said: str) -> None:
+def test_an_unusable_gradebook_is_refused(content: bytes, column: str, output: str) -> None:
     with pytest.raises(UsageError) as caught:
         fill_gradebook(content, hello(0), column=column)
-    assert said in str(caught.value)
+    assert output in str(caught.value)
 
 
 @settings(max_examples=60, deadline=None)

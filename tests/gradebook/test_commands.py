@@ -53,7 +53,7 @@ def test_the_archive_is_readable_by_its_owner_only(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "status", "said"),
+    ("words", "status", "output"),
     [
         (["convert", "gradescope", "/no/such"], 2, "/no/such"),
         (["convert", "gradescope", str(processes.ROOT / "setup.py")], 2, "not a report"),
@@ -63,8 +63,8 @@ def test_the_archive_is_readable_by_its_owner_only(tmp_path: Path) -> None:
         (["gradescope-zip", "/no/such/folder/x.zip"], 3, "could not be written"),
     ],
 )
-def test_a_usage_error_says_what_to_do(words: list[str], status: int, said: str) -> None:
+def test_a_usage_error_says_what_to_do(words: list[str], status: int, output: str) -> None:
     done = outputs(*words)
     assert done.returncode == status
-    assert said in done.stderr
+    assert output in done.stderr
     assert "Traceback" not in done.stderr

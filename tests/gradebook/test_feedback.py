@@ -52,8 +52,8 @@ def test_a_failed_check_is_explained(broken: Report) -> None:
     entry = single(broken)
     check = broken.check("run.output")
     text = visible_text(markdown(entry, TITLE, show_hidden=False))
-    for told in (check.title, check.expected, check.actual.split("\n")[0], check.fix):
-        assert told in text
+    for shown_text in (check.title, check.expected, check.actual.split("\n")[0], check.fix):
+        assert shown_text in text
     assert "hello time: 9" in text
 
 
@@ -80,12 +80,12 @@ def test_nothing_about_others_and_no_notes_for_the_instructor_are_shown(mixed: C
         assert entry.report.submission.path not in text
 
 
-@pytest.mark.parametrize(("key", "said"), [("1013", "ends in the middle"), ("1007", "nothing")])
+@pytest.mark.parametrize(("key", "output"), [("1013", "ends in the middle"), ("1007", "nothing")])
 def test_a_student_without_a_report_gets_the_reason(
-    mixed: ClassResult, key: str, said: str
+    mixed: ClassResult, key: str, output: str
 ) -> None:
     for text in both(mixed, key):
-        assert said in text
+        assert output in text
 
 
 @settings(max_examples=80, deadline=None)

@@ -97,21 +97,21 @@ def test_the_solution_gets_full_marks_and_cannot_read_the_keys(autograder: Path)
     edit = Replace("setup.py", line, SPY.format(places=places))
     spy = Package(name=SOLUTION.name, edits=(edit,))
     write(spy, autograder / "submission")
-    status, found, said = run(autograder)
-    assert (status, found["score"]) == (0, 100), said
+    status, found, output = run(autograder)
+    assert (status, found["score"]) == (0, 100), output
     assert {test["status"] for test in found["tests"]} == {"passed"}
     assert found["extra_data"]["submission"]["id"] == 12345
     assert found["extra_data"]["report"]["assignment"] == "hello_time"
-    assert "Ann Lee: 100 of 100" in said
+    assert "Ann Lee: 100 of 100" in output
 
 
 @pytest.mark.full
 def test_a_broken_package_gets_the_reasons(autograder: Path) -> None:
     fault = Replace("setup.py", "my_first_node:main", "my_frist_node:main")
     write(Package(name=SOLUTION.name, edits=(fault,)), autograder / "submission")
-    status, found, said = run(autograder)
+    status, found, output = run(autograder)
     tests = {test["extra_data"]["check"]: test for test in found["tests"]}
-    assert status == 0, said
+    assert status == 0, output
     assert found["score"] < 100
     assert tests["entry_point.mapping"]["status"] == "failed"
     assert "my_frist_node" in tests["entry_point.mapping"]["output"]
@@ -129,11 +129,11 @@ def test_a_submission_without_a_package_has_results(autograder: Path) -> None:
 @pytest.mark.full
 def test_a_grader_that_cannot_start_says_it_is_not_the_students_fault(autograder: Path) -> None:
     (autograder / "source/.venv").unlink()
-    status, found, said = run(autograder)
+    status, found, output = run(autograder)
     assert status != 0
     assert found["score"] == 0
     assert "not your package" in found["output"]
-    assert "not your package" not in said
+    assert "not your package" not in output
 
 
 @pytest.mark.full
@@ -143,8 +143,8 @@ def test_the_archives_setup_installs_all_that_it_needs(autograder: Path) -> None
     done = processes.run([autograder / "source/setup.sh"], cwd=autograder, timeout=300)
     assert done.returncode == 0, done.stderr
     write(SOLUTION, autograder / "submission")
-    status, found, said = run(autograder)
-    assert (status, found["score"]) == (0, 100), said
+    status, found, output = run(autograder)
+    assert (status, found["score"]) == (0, 100), output
 
 
 def test_results_are_complete_after_each_check(
@@ -260,8 +260,8 @@ def test_the_archive_can_have_another_courses_assignment(
         with zipfile.ZipFile(BytesIO(gradescope_zip(assignment=assignment))) as archive:
             own = (course / "readings" / "assignment.yaml").read_bytes()
             assert archive.read("assignment/assignment.yaml") == own
-            said = archive.read("run_autograder")
-            assert b"--assignment assignment/assignment.yaml" in said
+            output = archive.read("run_autograder")
+            assert b"--assignment assignment/assignment.yaml" in output
 
 
 def test_an_archive_of_nothing_is_refused(tmp_path: Path) -> None:

@@ -85,12 +85,12 @@ def test_a_student_without_a_report_is_distinguished(mixed: ClassResult) -> None
 
 
 def test_corrections_and_penalties_are_properties(mixed: ClassResult) -> None:
-    told = {
+    text = {
         suite.name: [(p.name, p.value) for p in suite.properties()]  # type: ignore[no-untyped-call]
         for suite in suites(class_xml(mixed))
     }
-    assert ("penalty", "5") in told["1003"]
-    corrected = dict(told["1009"])["corrected"]
+    assert ("penalty", "5") in text["1003"]
+    corrected = dict(text["1009"])["corrected"]
     assert "M. Curie" in corrected
     assert "shown to work in the laboratory" in corrected
 

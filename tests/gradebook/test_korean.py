@@ -53,9 +53,9 @@ def korean(report: Report) -> Report:
     checks = []
     for check in report.checks:
         prose = dict.fromkeys(("expected", "actual", "rationale", "fix", "patch"), "글")
-        told = {name: "글" for name, value in prose.items() if getattr(check, name)}
+        text = {name: "글" for name, value in prose.items() if getattr(check, name)}
         advice = ["글"] * len(check.advice)
-        checks.append(check.model_copy(update={"title": "제목", "advice": advice, **told}))
+        checks.append(check.model_copy(update={"title": "제목", "advice": advice, **text}))
     submission = report.submission.model_copy(update={"name": "김하나", "notes": ["글"]})
     assignment = report.assignment.model_copy(update={"title": TITLE})
     ticks = [tick.model_copy(update={"text": "줄"}) for tick in report.observed.ticks]
@@ -164,8 +164,8 @@ def test_feedback_has_no_english_in_it(entry: GradebookEntry, show_hidden: bool)
     page = html_page(entry, TITLE, show_hidden=show_hidden).decode()
     assert '<html lang="ko"' in page
     short = short_html(entry, show_hidden=show_hidden)
-    told = [markdown(entry, TITLE, show_hidden=show_hidden)]
-    for text in (*told, *Texts(page).found, *Texts(short).found):
+    shown_text = [markdown(entry, TITLE, show_hidden=show_hidden)]
+    for text in (*shown_text, *Texts(page).found, *Texts(short).found):
         assert english(_without_contact(text, entry)) == [], text
 
 
@@ -255,5 +255,5 @@ def test_gradescopes_results_are_korean_before_the_first_check_and_after_a_fault
     for text in seen:
         found = json.loads(text)
         assert re.search("[가-힣]", found["output"])
-        for told in strings(found):
-            assert english(told) == [], told
+        for shown_text in strings(found):
+            assert english(shown_text) == [], shown_text

@@ -141,7 +141,7 @@ def test_a_grade_above_the_maximum_is_refused_with_the_name() -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "output"),
     [
         (b"Student,ID,Section,Task (1)\nAnn,1,A,\n", "Participant"),
         (b"Identifier,Grade\n", "Participant"),
@@ -150,8 +150,8 @@ def test_a_grade_above_the_maximum_is_refused_with_the_name() -> None:
         (b"Identifier,Full name,Grade\nParticipant 1000,Ann\n", "damaged"),
     ],
 )
-def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, said: str) -> None:
-    with pytest.raises(UsageError, match=said):
+def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, output: str) -> None:
+    with pytest.raises(UsageError, match=output):
         fill_worksheet(content, class_of_one())
 
 

@@ -27,7 +27,7 @@ def files(out: Path) -> set[Path]:
 
 
 def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) -> None:
-    said: list[str] = []
+    messages: list[str] = []
     out = tmp_path / "new" / "out"
     written = write_outputs(
         dataclasses.replace(mixed, title="Hello time"),
@@ -38,7 +38,7 @@ def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) 
                 export(POSSIBLE, *(student(n) for n in range(24))), column="4711"
             ),
         },
-        notify=said.append,
+        notify=messages.append,
     ).files
     assert set(written) == files(out)
     names = {path.name for path in written if path.parent == out}
@@ -52,7 +52,7 @@ def test_every_file_is_written_and_returned(mixed: ClassResult, tmp_path: Path) 
     for entry in mixed.entries:
         for ending in ("md", "html"):
             assert (out / "feedback" / f"{entry.student.key}.{ending}") in written
-    assert any(mixed.entries[23].student.name in text for text in said)
+    assert any(mixed.entries[23].student.name in text for text in messages)
 
 
 def test_only_the_owner_can_read_them(mixed: ClassResult, tmp_path: Path) -> None:

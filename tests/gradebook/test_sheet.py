@@ -61,7 +61,7 @@ def test_bytes_around_a_filled_cell_stay() -> None:
 
 
 @pytest.mark.parametrize(
-    ("encoding", "name", "said"),
+    ("encoding", "name", "output"),
     [
         ("cp949", "김민지", "CP949"),
         ("cp949", "뷁 가나다라마", "CP949"),
@@ -74,16 +74,16 @@ def test_bytes_around_a_filled_cell_stay() -> None:
     ],
 )
 def test_every_spreadsheet_encoding_is_read_and_written_as_utf8(
-    encoding: str, name: str, said: str
+    encoding: str, name: str, output: str
 ) -> None:
     sheet = Sheet(f"a,b\n{name},1\n".encode(encoding), name="the file")
     assert sheet.value(1, 0) == name
-    assert (said in sheet.note) if said else not sheet.note
+    assert (output in sheet.note) if output else not sheet.note
     assert sheet.filled({(1, 1): "2"}) == f"a,b\n{name},2\n".encode("utf-8-sig")
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "output"),
     [
         (b"\xff\xfea", "UTF-16, and is not"),
         (b"PK\x03\x04\x00\x00", "is no CSV"),
@@ -91,6 +91,6 @@ def test_every_spreadsheet_encoding_is_read_and_written_as_utf8(
         (b"\n\n", "is empty"),
     ],
 )
-def test_a_file_that_is_not_csv_is_refused(content: bytes, said: str) -> None:
-    with pytest.raises(UsageError, match=said):
+def test_a_file_that_is_not_csv_is_refused(content: bytes, output: str) -> None:
+    with pytest.raises(UsageError, match=output):
         Sheet(content, name="the file")

@@ -62,14 +62,14 @@ def follow(lab: Lab, distro: str = "jazzy") -> None:
     steps = commands(distro)
     for number in (1, 2, 3):
         for line in steps[number]:
-            said = lab.type(line)
-            assert lab.status() == 0, said
-    assert "creating folder ./my_robot_controller" in said
+            output = lab.type(line)
+            assert lab.status() == 0, output
+    assert "creating folder ./my_robot_controller" in output
     assert "Summary: 1 package finished" in [lab.type(line) for line in steps[4]][-1]
     assert "Next: touch" in lab.type("guide")
     for line in (*steps[5], *steps[6]):
-        said = lab.type(line)
-        assert lab.status() == 0, said
+        output = lab.type(line)
+        assert lab.status() == 0, output
     lab.write("my_first_node.py", NODE)
     assert "Next: Add this line to console_scripts" in lab.type("guide")
     entry = "'test_node = my_robot_controller.my_first_node:main',"
@@ -90,8 +90,8 @@ def run_and_stop(lab: Lab, lines: list[str], distro: str = "jazzy") -> None:
     lab.screen.sendline(run)
     for count in range(3):
         lab.screen.expect_exact(f"[my_first_node]: Hello time: {count}")
-    said = lab.interrupt()
-    assert lab.status() in ((0,) if distro == "jazzy" else (0, 254)), said
+    output = lab.interrupt()
+    assert lab.status() in ((0,) if distro == "jazzy" else (0, 254)), output
 
 
 def owners(workspace: Path) -> set[int]:

@@ -54,11 +54,11 @@ def api(tmp_path: Path) -> Iterator[docker.APIClient]:
 
 def test_output_that_arrives_with_the_response_header_is_not_lost(api: docker.APIClient) -> None:
     stream = ExecStream(api, "any", ["true"], tty=True)
-    said = b""
+    output = b""
     while data := stream.read():
-        said += data
+        output += data
     stream.close()
-    assert said == b"first words, and the rest"
+    assert output == b"first words, and the rest"
 
 
 @pytest.mark.parametrize("size", [1, 7, 8, 9, 1000])

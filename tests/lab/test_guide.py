@@ -62,7 +62,7 @@ def test_another_terminal_has_not_sourced_the_overlay(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "output"),
     [
         ("#!/usr/bin/env python3\n", "", "first line"),
         ("(Node)", "(object)", "no class that inherits from Node"),
@@ -73,12 +73,12 @@ def test_another_terminal_has_not_sourced_the_overlay(tmp_path: Path) -> None:
     ],
 )
 def test_an_unfinished_node_is_reported_with_what_is_missing(
-    old: str, new: str, said: str, tmp_path: Path
+    old: str, new: str, output: str, tmp_path: Path
 ) -> None:
     environment = after_step(tmp_path / "ws", 9, NODE.replace(old, new))
     now = found(tmp_path / "ws", environment)
     assert steps.current(now) == 6
-    assert said in now[5]
+    assert output in now[5]
 
 
 def test_another_way_to_write_the_node_counts(tmp_path: Path) -> None:

@@ -167,10 +167,10 @@ def test_a_check_in_the_lab_uses_the_language(kind: Kind, tmp_path: Path) -> Non
 
 def test_the_welcome_is_in_the_language(kind: Kind, tmp_path: Path) -> None:
     with Lab(kind, tmp_path / "ws", env=KOREAN) as lab:
-        _, _, told = lab.welcome.partition("\n\n")
-        assert "다음에 할 일을 한 단계씩" in told
+        _, _, text = lab.welcome.partition("\n\n")
+        assert "다음에 할 일을 한 단계씩" in text
         assert str(tmp_path / "ws") in lab.welcome
-        assert PROSE.findall(told) == []
+        assert PROSE.findall(text) == []
         assert lab.type("echo $lab_welcome").strip() == ""  # not left in the shell
         assert lab.leave() == 0
 
@@ -193,5 +193,5 @@ def test_usage_errors_of_the_lab_are_in_korean(ros_jazzy: Ros, tmp_path: Path) -
         assert done.returncode == status
         assert done.stderr.startswith("lab: ")
         assert HANGUL.search(done.stderr)
-        told = re.sub(r"\(.*?\)", "", done.stderr)  # commands to be typed
-        assert PROSE.findall(told) == [], done.stderr
+        text = re.sub(r"\(.*?\)", "", done.stderr)  # commands to be typed
+        assert PROSE.findall(text) == [], done.stderr

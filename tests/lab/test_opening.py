@@ -47,7 +47,7 @@ def test_help_is_quick_to_load_and_names_the_options() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "output"),
     [
         (["--distro", "jazy"], "did you mean 'jazzy'?"),
         (["--sandbox", "bubblewarp"], "did you mean 'bubblewrap'?"),
@@ -61,10 +61,10 @@ def test_help_is_quick_to_load_and_names_the_options() -> None:
         (["--sandbox", "bubblewrap", "--workspace", "/proc/ws"], "cannot be created"),
     ],
 )
-def test_usage_errors_say_what_to_do(words: list[str], said: str, ros_jazzy: Ros) -> None:
+def test_usage_errors_say_what_to_do(words: list[str], output: str, ros_jazzy: Ros) -> None:
     done = lab(*words, "--", "true")
     assert done.returncode == 2
-    assert said in done.stderr
+    assert output in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
 

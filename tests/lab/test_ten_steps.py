@@ -19,9 +19,9 @@ def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
     workspace = tmp_path / "ros2_ws"
     with Lab(kind, workspace) as lab:
         ten_steps.follow(lab)
-        said = lab.type("check")
-        assert lab.status() == 0, said
-        assert "100 / 100" in said
+        output = lab.type("check")
+        assert lab.status() == 0, output
+        assert "100 / 100" in output
         (workspace / "src" / "my_robot_controller" / "setup.cfg").unlink()
         shown = lab.type("fix --no-run")
         assert lab.status() == 0, shown

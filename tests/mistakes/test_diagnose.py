@@ -75,16 +75,16 @@ def test_the_root_cause_is_first_the_symptom_second_and_the_line_is_shown(bench:
     line = next(n for n, text in enumerate(source.splitlines(), 1) if "timer_calback" in text)
     error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"
     seen = evidence(bench, source, TRACEBACK.format(line=line, error=error))
-    told = diagnose(failed("run.died_at_start"), seen)
-    assert [m.id for m in told.mistakes] == ["node.callback_misspelt", "run.died_at_start"]
-    assert told.where == Where(file=NODE, line=line)
-    assert "self.create_timer(1.0, self.timer_calback)" in told.actual
-    assert "self.timer_callback" in told.fix
-    lines = told.actual.split("\n")
+    shown_text = diagnose(failed("run.died_at_start"), seen)
+    assert [m.id for m in shown_text.mistakes] == ["node.callback_misspelt", "run.died_at_start"]
+    assert shown_text.where == Where(file=NODE, line=line)
+    assert "self.create_timer(1.0, self.timer_calback)" in shown_text.actual
+    assert "self.timer_callback" in shown_text.fix
+    lines = shown_text.actual.split("\n")
     at = lines.index("timer_calback")
     assert set(lines[at + 1]) <= {" ", "^"}
     assert lines[at + 2] == "timer_callback"
-    assert told.consequence_of == ""
+    assert shown_text.consequence_of == ""
 
 
 def test_the_same_root_cause_at_another_check_is_a_consequence(bench: Bench) -> None:
@@ -121,24 +121,24 @@ def test_a_hidden_check_is_never_named_as_the_cause(bench: Bench) -> None:
 def test_an_uninstalled_module_is_distinguished_from_a_missing_one(bench: Bench) -> None:
     error = "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node'"
     printed = TRACEBACK.format(line=5, error=error)
-    told = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
-    assert told.mistakes[0].id == "setup.not_packaged"
+    text = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    assert text.mistakes[0].id == "setup.not_packaged"
     (bench.root / "my_robot_controller/__init__.py").unlink()
-    told = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
-    assert told.mistakes[0].id == "source.no_init_file"
-    assert "touch my_robot_controller/__init__.py" in told.fix
+    text = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    assert text.mistakes[0].id == "source.no_init_file"
+    assert "touch my_robot_controller/__init__.py" in text.fix
 
 
 def test_a_text_without_the_f_prefix_is_distinguished_from_another_text(bench: Bench) -> None:
-    told = diagnose(failed("run.wrong_text"), evidence(bench, RIGHT))
-    assert told.mistakes[0].id == "node.f_prefix"
+    text = diagnose(failed("run.wrong_text"), evidence(bench, RIGHT))
+    assert text.mistakes[0].id == "node.f_prefix"
 
 
 @pytest.mark.parametrize("source", ["def broken(:\n", "\0\0", "x = (\n" * 1000])
 def test_an_unreadable_source_leaves_the_symptom(bench: Bench, source: str) -> None:
-    told = diagnose(failed("run.no_lines"), evidence(bench, source))
-    assert [m.id for m in told.mistakes] == ["run.no_lines"]
-    assert told.consequence_of == ""
+    text = diagnose(failed("run.no_lines"), evidence(bench, source))
+    assert [m.id for m in text.mistakes] == ["run.no_lines"]
+    assert text.consequence_of == ""
 
 
 def test_a_node_in_a_separate_module_is_examined_there(bench: Bench) -> None:
@@ -147,19 +147,19 @@ def test_a_node_in_a_separate_module_is_examined_there(bench: Bench) -> None:
     left = (
         "from my_robot_controller.talker import main\n\n\nif __name__ == '__main__':\n    main()\n"
     )
-    told = diagnose(failed("run.constant_counter"), evidence(bench, left))
-    assert told.mistakes[0].id == "node.counter_not_increased"
-    assert told.where is not None
-    assert told.where.file == "my_robot_controller/talker.py"
+    text = diagnose(failed("run.constant_counter"), evidence(bench, left))
+    assert text.mistakes[0].id == "node.counter_not_increased"
+    assert text.where is not None
+    assert text.where.file == "my_robot_controller/talker.py"
     for symptom in ("run.exits_at_once", "run.no_node"):
-        told = diagnose(failed(symptom), evidence(bench, left))
-        assert [m.id for m in told.mistakes] == [symptom], "not looked at: nobody is accused"
+        text = diagnose(failed(symptom), evidence(bench, left))
+        assert [m.id for m in text.mistakes] == [symptom], "not looked at: nobody is accused"
 
 
 def test_a_check_of_another_stage_is_left_unchanged(bench: Bench) -> None:
     seen = Failed("package.setup_cfg_syntax", expected=say("pass"), actual="x")
-    told = diagnose(seen, evidence(bench, RIGHT))
-    assert told == Diagnosis.of(seen)
+    text = diagnose(seen, evidence(bench, RIGHT))
+    assert text == Diagnosis.of(seen)
 
 
 @pytest.mark.parametrize("mistake", [*BY_SYMPTOM, "run.wrong_text", "run.died_at_start"])
@@ -168,14 +168,14 @@ def test_a_diagnosis_adds_next_to_nothing_to_a_verdict(bench: Bench, mistake: st
     error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_calback'"
     seen = evidence(bench, usual, TRACEBACK.format(line=14, error=error) * 20)
     assert len(usual) < MOST_BYTES
-    told = failed(mistake)
+    text = failed(mistake)
     begin = time.process_time()
-    diagnose(told, seen)
+    diagnose(text, seen)
     assert time.process_time() - begin < MOST_SECONDS
 
 
 def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
-    for old, new, said in (
+    for old, new, output in (
         ("'__main__'", "'main'", "if __name__ == '__main__':"),
         ("'__main__'", "'__mian__'", "if __name__ == '__main__':"),
         ("rclpy.try_shutdown()", "rclpy.shutdown", "rclpy.try_shutdown()"),
@@ -183,6 +183,6 @@ def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
         assert RIGHT.count(old) == 1
         bench.write(NODE, RIGHT.replace(old, new))
         (advice,) = bench.passes(source.node_file).advice
-        assert said in advice
+        assert output in advice
     bench.write(NODE, RIGHT)
     assert not bench.passes(source.node_file).advice

@@ -28,13 +28,13 @@ def explain(*words: str, text: str = "", lang: str = "C") -> subprocess.Complete
 def test_an_entry_has_the_reason_the_fix_and_a_link() -> None:
     done = explain("setup.missing_comma")
     assert done.returncode == 0
-    for said in (
+    for output in (
         "the comma between them is missing",
         "Python joins two adjacent strings",
         "Add a comma after",
         "https://",
     ):
-        assert said in done.stdout
+        assert output in done.stdout
 
 
 def test_the_language_comes_from_the_environment_or_the_option() -> None:

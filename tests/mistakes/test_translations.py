@@ -89,12 +89,12 @@ def test_the_translated_texts_of_click_are_still_those_of_click() -> None:
     """A new version of click may change its texts, which would leave them untranslated."""
     folder = Path(click.__file__).parent
     keywords: dict[str, tuple[int, ...] | None] = {"_": None, "ngettext": (1, 2)}
-    said = {
+    output = {
         found
         for path in folder.glob("*.py")
         for _, found, _, _ in extract_from_file("python", path, keywords=keywords)
     }
-    assert {*CLICK, *CLICK_PLURALS} <= said
+    assert {*CLICK, *CLICK_PLURALS} <= output
 
 
 def test_korean_sentences_are_in_the_formal_polite_style() -> None:

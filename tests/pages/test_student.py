@@ -24,9 +24,9 @@ def test_points_that_nobody_touched_are_said_to_be_the_checks() -> None:
 
 
 def test_a_late_penalty_is_explained() -> None:
-    said = calculation(penalty=5.0, late_seconds=7_800.0, final=55.0)
-    assert "Late by 2 h 10 min: 5 points taken." in said
-    assert "55 of 100 go into the gradebook." in said
+    output = calculation(penalty=5.0, late_seconds=7_800.0, final=55.0)
+    assert "Late by 2 h 10 min: 5 points taken." in output
+    assert "55 of 100 go into the gradebook." in output
 
 
 def test_late_without_a_penalty_says_so() -> None:
@@ -35,17 +35,17 @@ def test_late_without_a_penalty_says_so() -> None:
 
 def test_a_correction_shows_its_reason_author_and_the_earlier_points() -> None:
     override = Override("1001", "run.output", 10, "shown in the laboratory", by="M. C.", at=AT)
-    said = calculation(overrides=(override,), score=70.0, final=70.0)
-    assert "run.output gives 10 instead of 0, because: shown in the laboratory" in said
-    assert "M. C., 2026-11-20 22:30 UTC" in said
-    assert "The score is then 70." in said
+    output = calculation(overrides=(override,), score=70.0, final=70.0)
+    assert "run.output gives 10 instead of 0, because: shown in the laboratory" in output
+    assert "M. C., 2026-11-20 22:30 UTC" in output
+    assert "The score is then 70." in output
 
 
 def test_a_correction_of_the_total_is_called_so() -> None:
-    said = calculation(
+    output = calculation(
         overrides=(Override("1001", "", 80, "an oral exam"),), score=80.0, final=80.0
     )
-    assert "the total gives 80, because: an oral exam" in said
+    assert "the total gives 80, because: an oral exam" in output
 
 
 def test_the_attempt_that_counts_is_named() -> None:
@@ -58,8 +58,8 @@ def test_points_that_wait_for_the_instructor_are_said_to_wait() -> None:
 
 def test_undecided_points_are_shown_with_the_total() -> None:
     doubtful = report(check("run.period", "inconclusive"))
-    said = student_view(entry(1, doubtful), show_hidden=True).calculation
-    assert "4 points could be neither given nor taken." in said
+    output = student_view(entry(1, doubtful), show_hidden=True).calculation
+    assert "4 points could be neither given nor taken." in output
 
 
 def test_a_grader_failure_is_not_shown_as_the_students_fault() -> None:
@@ -99,8 +99,8 @@ def test_no_text_of_a_hidden_check_is_shown_to_students() -> None:
 
 
 def test_durations_have_their_two_largest_units() -> None:
-    said = [duration(seconds) for seconds in (4.24, 60, 600.9, 7_800, 86_400, 277_300)]
-    assert said == ["4.2 s", "1 min", "10 min", "2 h 10 min", "1 d", "3 d 5 h"]
+    output = [duration(seconds) for seconds in (4.24, 60, 600.9, 7_800, 86_400, 277_300)]
+    assert output == ["4.2 s", "1 min", "10 min", "2 h 10 min", "1 d", "3 d 5 h"]
 
 
 def test_times_are_shown_in_utc() -> None:

@@ -130,12 +130,12 @@ def test_after_a_kill_the_old_or_the_new_report_is_complete(tmp_path: Path) -> N
 
 def test_an_unwritable_folder_is_reported_with_a_fix(tmp_path: Path, ordinary_user: None) -> None:
     for out in (Path("/proc/reports"), Path("/usr/reports")):
-        with pytest.raises(SurroundingsError, match=f"below {out}") as told:
+        with pytest.raises(SurroundingsError, match=f"below {out}") as text:
             write_report(report(), out, "anna")
-        assert "--out" in told.value.remedy
-        assert told.value.exit_status == 3
-        assert isinstance(told.value.message, Message)
-        assert isinstance(told.value.remedy, Message)
+        assert "--out" in text.value.remedy
+        assert text.value.exit_status == 3
+        assert isinstance(text.value.message, Message)
+        assert isinstance(text.value.remedy, Message)
 
 
 def test_a_file_in_place_of_the_folder_is_reported(tmp_path: Path) -> None:
@@ -151,12 +151,12 @@ def test_on_a_full_disk_the_old_report_stays_and_nothing_else_is_left(tmp_path: 
     former = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     try:
         resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))  # limits the size of a file
-        with pytest.raises(SurroundingsError, match="Free some space") as told:
+        with pytest.raises(SurroundingsError, match="Free some space") as text:
             write_report(report(message="new" * 9_000), tmp_path, "anna")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
         signal.signal(signal.SIGXFSZ, former)
-    assert "--out" in str(told.value)
+    assert "--out" in str(text.value)
     assert json.loads(written.read_text())["message"] == "old"
     assert [path.name for path in written.parent.iterdir()] == ["report.json"]
 

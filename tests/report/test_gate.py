@@ -44,19 +44,19 @@ def run(*ways: str, **more: str) -> str:
     return done.stdout.decode()
 
 
-def by_way(said: str) -> dict[str, str]:
+def by_way(output: str) -> dict[str, str]:
     """Return the output of each way; fail if one has an unexpected exit status."""
-    parts = re.split(r"\n== (\w+) (\d+)\n", said)
+    parts = re.split(r"\n== (\w+) (\d+)\n", output)
     found = dict(zip(parts[1::3], parts[0::3], strict=False))
     statuses = {way: int(status) for way, status in zip(parts[1::3], parts[2::3], strict=True)}
-    assert statuses == WAYS, said
+    assert statuses == WAYS, output
     return found
 
 
 def test_a_pipe_gets_no_control_bytes_however_text_is_printed() -> None:
-    said = run(*WAYS)
-    assert "\x1b" not in said
-    for way, text in by_way(said).items():
+    output = run(*WAYS)
+    assert "\x1b" not in output
+    for way, text in by_way(output).items():
         assert "Score 100 / 100" in text, way
         assert forbidden_in(text) == set(), way
 
@@ -74,23 +74,23 @@ def test_a_terminal_gets_only_our_own_styles() -> None:
 
 
 def test_an_encoding_that_lacks_the_characters_does_not_bypass_the_gate() -> None:
-    said = run("echo", PYTHONIOENCODING="ascii", LANG="C")
-    assert "== echo 0" in said
-    assert forbidden_in(said) == set()
+    output = run("echo", PYTHONIOENCODING="ascii", LANG="C")
+    assert "== echo 0" in output
+    assert forbidden_in(output) == set()
 
 
 def test_a_grader_fault_has_a_traceback_and_its_own_status() -> None:
-    said = run("crash")
-    assert "== crash 3" in said
-    assert "Traceback (most recent call last)" in said
-    assert "please report it" in said
+    output = run("crash")
+    assert "== crash 3" in output
+    assert "Traceback (most recent call last)" in output
+    assert "please report it" in output
 
 
 def test_a_very_long_error_is_cut() -> None:
-    said = run("long")
-    assert len(said) < 20_000
-    assert "the end\n" in said
-    assert "left out" in said
+    output = run("long")
+    assert len(output) < 20_000
+    assert "the end\n" in output
+    assert "left out" in output
 
 
 @pytest.mark.parametrize("name", HOSTILE)

@@ -24,8 +24,8 @@ def line_of(text: str, start: str) -> str:
 def test_the_head_names_student_package_and_folder() -> None:
     page = render_report(failing_report())
     assert page.splitlines()[0] == "Your first ROS 2 node: Hello time"
-    for said in ("anna", "my_robot_controller", "jazzy", "bubblewrap", "virtual clock"):
-        assert said in page.partition("package.found")[0]
+    for output in ("anna", "my_robot_controller", "jazzy", "bubblewrap", "virtual clock"):
+        assert output in page.partition("package.found")[0]
 
 
 @pytest.mark.parametrize("width", [40, 80, 200])
@@ -74,8 +74,8 @@ def test_a_failed_check_has_all_details(width: int) -> None:
     page = render_report(failing_report(), width=width)
     failed = misspelt_module()
     block = page.partition("FAIL entry_point.mapping:")[2].partition("Skipped because")[0]
-    for said in (failed.title, failed.rationale, failed.fix):
-        assert said in words(block)
+    for output in (failed.title, failed.rationale, failed.fix):
+        assert output in words(block)
     # a narrow page may break these, which have no spaces to break at
     assert failed.expected.replace(" ", "") in re.sub(r"\s", "", block)
     assert failed.actual.replace(" ", "") in re.sub(r"\s", "", block)
@@ -208,7 +208,7 @@ def test_a_submission_without_a_package_is_shown() -> None:
 
 def test_verbose_adds_versions_limits_times_ticks_and_all_evidence() -> None:
     page = words(render_report(failing_report(), verbose=True))
-    for said in (
+    for output in (
         "rclpy 7.1.6",
         "memory 1,000,000,000 bytes, enforced by cgroup",
         "build 2.10 s",
@@ -216,8 +216,8 @@ def test_verbose_adds_versions_limits_times_ticks_and_all_evidence() -> None:
         "Hello time: 0 at 1.000 s",
         "| Summary: 1 package finished [1.90s]",
     ):
-        assert said in page
-        assert said not in words(render_report(failing_report()))
+        assert output in page
+        assert output not in words(render_report(failing_report()))
     assert page.count("ModuleNotFoundError") == 1
 
 

@@ -76,11 +76,11 @@ def test_a_node_ended_by_sigint_gives_status_254(kilted: Surroundings) -> None:
         wait_until_asleep(process)
     os.kill(terminal.pid, signal.SIGINT)
     terminal.expect(pexpect.EOF)
-    said = terminal.before or ""
+    output = terminal.before or ""
     terminal.wait()
     assert terminal.exitstatus == 254
-    assert said.count("[ros2run]: Received signal:  Interrupt\r\n") == 1
-    assert said.endswith("[ros2run]: Interrupt\r\n")
+    assert output.count("[ros2run]: Received signal:  Interrupt\r\n") == 1
+    assert output.endswith("[ros2run]: Interrupt\r\n")
 
 
 def test_ctrl_c_on_the_terminal_reaches_the_node_and_is_forwarded_too(kilted: Surroundings) -> None:
@@ -95,14 +95,14 @@ def test_ctrl_c_on_the_terminal_reaches_the_node_and_is_forwarded_too(kilted: Su
     terminal.expect_exact("ready")
     terminal.sendintr()
     terminal.expect_exact("[ros2run]: Received signal:  Interrupt")
-    said = terminal.before or ""
+    output = terminal.before or ""
     os.kill(terminal.pid, signal.SIGTERM)
     terminal.expect(pexpect.EOF)
-    said += terminal.before or ""
+    output += terminal.before or ""
     terminal.wait()
     assert terminal.exitstatus == 5
     # The two merge into one if the second comes before the node is scheduled
-    assert said.count("heard SIGINT") in (1, 2)
+    assert output.count("heard SIGINT") in (1, 2)
 
 
 def test_a_new_package_is_checked_with_xmllint_too(kilted: Surroundings) -> None:
