@@ -100,11 +100,11 @@ def test_unpacking_resumes_after_a_kill(tmp_path: Path) -> None:
         "import os, sys; from pathlib import Path\n"
         "from grader.batch import unpack\n"
         "from grader.batch.discover import discover\n"
-        "real = unpack.Writing.add\n"
+        "real = unpack.ClassWriter.add\n"
         "def add(self, member):\n"
         "    real(self, member)\n"
         "    if member.name.startswith('joe'): os.kill(os.getpid(), 9)\n"
-        "unpack.Writing.add = add\n"
+        "unpack.ClassWriter.add = add\n"
         "discover(Path(sys.argv[1]), unpack=Path(sys.argv[2]))\n"
     )
     words = [sys.executable, "-c", script, str(tmp_path / "class.zip"), str(tmp_path / "work")]
