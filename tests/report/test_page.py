@@ -239,7 +239,7 @@ def test_hidden_checks_are_counted_and_not_described() -> None:
     later = check("secret.later", visibility="after_due_date", title="SECRET later",
                   advice=["SECRET advice"], actual="SECRET")  # fmt: skip
     waits = check("run.period", "skipped", blocked_by="secret.id", depends=["secret.id"],
-                  actual="not asked, because of: SECRET title")  # fmt: skip
+                  actual="skipped because of: SECRET title")  # fmt: skip
     marked = report(secret, later, waits)
     for verbose in (False, True):
         page = render_report(marked, verbose=verbose)
