@@ -14,7 +14,7 @@ from grader.mistakes.from_traceback import RECOGNISERS, recognise
 from grader.mistakes.kind import Finding
 from grader.mistakes.raised import Raised
 from grader.mistakes.suspect import Suspect
-from grader.package.source.node import MOST_BYTES, read_node
+from grader.package.source.node import MOST_BYTES, NodeSource, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE
@@ -50,17 +50,19 @@ OTHERWISE = textwrap.dedent(
 )
 
 
-def look(symptom: str, text: str) -> Finding | None:
-    source = read_node(text.encode())
+def node_in(text: str) -> NodeSource:
+    source = read_node({FILE: text.encode()}.get, FILE, "main")
     assert source is not None
-    return LOOKS[symptom](Suspect(source, FILE, ASSIGNMENT))
+    return source
+
+
+def look(symptom: str, text: str) -> Finding | None:
+    return LOOKS[symptom](Suspect(node_in(text), ASSIGNMENT))
 
 
 def raised(error: str, text: str, line: int | None) -> Finding | None:
-    source = read_node(text.encode())
-    assert source is not None
     where = Where(file=FILE, line=line) if line else None
-    return recognise(Raised(error, FILE, where, source, ASSIGNMENT))
+    return recognise(Raised(error, where, node_in(text), ASSIGNMENT))
 
 
 def line_of(text: str, part: str) -> int:
@@ -221,18 +223,18 @@ def test_the_missing_name_is_told_from_a_misspelt_init() -> None:
 def test_whatever_the_source_nothing_breaks(data: st.DataObject) -> None:
     lines = RIGHT.splitlines()
     kept = data.draw(st.lists(st.sampled_from(lines), max_size=40))
-    source = read_node("\n".join(kept).encode())
+    source = read_node({FILE: "\n".join(kept).encode()}.get, FILE, "main")
     if source is None:
         return
     for find in LOOKS.values():
-        found = find(Suspect(source, FILE, ASSIGNMENT))
+        found = find(Suspect(source, ASSIGNMENT))
         assert found is None or found.kind in CATALOGUE
     errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]
     error = data.draw(st.sampled_from(errors) | st.text(max_size=80))
-    found = recognise(Raised(error, FILE, Where(file=FILE, line=3), source, ASSIGNMENT))
+    found = recognise(Raised(error, Where(file=FILE, line=3), source, ASSIGNMENT))
     assert found is None or found.kind in CATALOGUE
 
 
 def test_a_file_that_is_nobodys_first_node_has_no_facts() -> None:
-    assert read_node(b"def broken(:\n") is None
-    assert read_node(b"x = 1\n" * MOST_BYTES) is None
+    for found in (b"def broken(:\n", b"x = 1\n" * MOST_BYTES):
+        assert read_node({FILE: found}.get, FILE, "main") is None

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from grader.course.assignment import Assignment
 from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
+from grader.package.source.module import Module
+from grader.package.source.node import NodeSource, read_node
 from grader.report.model import CheckResult
 
 Param = str | int | float
@@ -51,6 +55,16 @@ class Case:
     def entry(self) -> str:
         """The entry of console_scripts that the assignment requires."""
         return f"{self.assignment.executable} = {self.assignment.target}"
+
+    @cached_property
+    def node(self) -> NodeSource | None:
+        """The source of the node; None if it cannot be read, or if several classes share its code."""
+        source = read_node(self.files.data, self.node_path, self.assignment.function)
+        return source if source is not None and source.is_one_class else None
+
+    def changed(self, module: Module, *splices: Splice) -> Files | None:
+        """Return the files after changes to a module; None if Python cannot read the result."""
+        return self.with_data(module.path, module.edited(splices)) if splices else None
 
     def with_data(self, path: str, data: bytes | None) -> Files | None:
         """Return the files with one replaced; None if `data` is None or equal to the old bytes."""

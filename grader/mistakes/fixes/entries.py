@@ -12,7 +12,7 @@ from grader.mistakes.fixes.setup_call import FILE, read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, read_source, read_text
 from grader.package.source.entry_points import Entry, EntryPoints, from_setup_cfg, from_setup_py
-from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.python import PythonFault, is_python
 from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import read_setup_py
 
@@ -95,7 +95,7 @@ def uncommented(case: Case) -> Files | None:
         return None
     at = text.start_of(case.finding.line)
     new = text.spliced([Splice(at + match.start(1), at + match.end(1), "")])
-    return case.with_data(FILE, new) if new is not None and _is_python(new) else None
+    return case.with_data(FILE, new) if new is not None and is_python(new) else None
 
 
 def added(case: Case) -> Files | None:
@@ -103,8 +103,8 @@ def added(case: Case) -> Files | None:
     setup = read_setup_call(case)
     if setup is None or setup.unpacks or _has_entry(case) or not _leads_somewhere(case):
         return None
-    entry = f"{setup.quote}{case.entry}{setup.quote}"
-    scripts = f"{setup.quote}{GROUP}{setup.quote}"
+    entry = f"{setup.source.quote}{case.entry}{setup.source.quote}"
+    scripts = f"{setup.source.quote}{GROUP}{setup.source.quote}"
     points = setup.argument("entry_points")
     splices: list[Splice] = []
     if points is None:
@@ -156,7 +156,7 @@ def single(case: Case) -> Files | None:
             return None
         splices.append(text.without(entry.line))
     new = text.spliced(splices)
-    return case.with_data(FILE, new) if new is not None and _is_python(new) else None
+    return case.with_data(FILE, new) if new is not None and is_python(new) else None
 
 
 def _entry(case: Case) -> Entry | None:
@@ -184,11 +184,3 @@ def _points(case: Case) -> EntryPoints | None:
 def _source(case: Case, path: str) -> SourceText | None:
     found = case.files.data(path)
     return read_source(found) if path.endswith(".py") else read_text(found)
-
-
-def _is_python(found: bytes) -> bool:
-    try:
-        parse_python(found)
-    except PythonFault:
-        return False
-    return True

@@ -7,7 +7,7 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import BOM, MOST_BYTES, read_source
-from grader.package.source.python import SHEBANG, PythonFault, parse_python
+from grader.package.source.python import SHEBANG, is_python
 
 SCRIPT = re.compile(r"[#!\s]*(?:/|\b)(?:usr/|bin/|env\b)[\w/ .-]*python[\d.]*\s*", re.IGNORECASE)
 LATE = 20
@@ -16,7 +16,7 @@ LATE = 20
 def byte_order_mark(case: Case) -> Files | None:
     """Remove the byte order mark."""
     found = case.files.data(case.node_path)
-    if found is None or not found.startswith(BOM) or not _is_python(found):
+    if found is None or not found.startswith(BOM) or not is_python(found):
         return None
     return case.with_data(case.node_path, found[len(BOM) :])
 
@@ -34,15 +34,7 @@ def line_ends(case: Case) -> Files | None:
 
 def _same_code(old: bytes, new: bytes) -> bool:
     """Whether both versions can be parsed, or neither."""
-    return _is_python(old) == _is_python(new)
-
-
-def _is_python(found: bytes) -> bool:
-    try:
-        parse_python(found)
-    except PythonFault:
-        return False
-    return True
+    return is_python(old) == is_python(new)
 
 
 def shebang(case: Case) -> Files | None:
@@ -65,4 +57,4 @@ def shebang(case: Case) -> Files | None:
         late = [n for n in range(2, LATE) if text.line(n).startswith("#!")]
         splices += [text.without(late[0])] if late else []
     new = text.spliced(splices)
-    return case.with_data(case.node_path, new) if new and _is_python(new) else None
+    return case.with_data(case.node_path, new) if new and is_python(new) else None

@@ -34,9 +34,8 @@ class SetupCall:
         """Return the string literal of an expression: in place, or assigned once to a name."""
         if isinstance(node, ast.Name):
             node = self.constant(node.id)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            return node if self.is_plain(node) else None
-        return None
+        plain = isinstance(node, ast.Constant) and self.source.literal(node) is not None
+        return node if plain and isinstance(node, ast.Constant) else None
 
     def constant(self, name: str) -> ast.expr | None:
         """Return the value of a name at module level, if it is assigned exactly once."""
@@ -50,20 +49,10 @@ class SetupCall:
                 return statement.value
         return None
 
-    def is_plain(self, node: ast.Constant) -> bool:
-        """Whether a string is a single literal without prefix or escapes."""
-        code = self.source.code(node)
-        return isinstance(node.value, str) and code in (f"'{node.value}'", f'"{node.value}"')
-
     def text(self, old: ast.Constant, new: str) -> Splice:
         """Return the splice that changes a literal and keeps its quotes."""
         quote = self.source.code(old)[0]
         return self.source.swap(old, f"{quote}{new}{quote}")
-
-    @property
-    def quote(self) -> str:
-        """The quotes that the file uses for most of its strings."""
-        return '"' if self.source.text.count('"') > self.source.text.count("'") else "'"
 
     def into_list(self, node: ast.List | ast.Tuple, new: str) -> list[Splice]:
         """Return the splices that append an item to a list, on its own line if the others are."""

@@ -63,7 +63,7 @@ def _renamed(setup: SetupCall, case: Case) -> list[Splice]:
 
 def _added(setup: SetupCall, case: Case) -> list[Splice]:
     data_files = setup.argument("data_files")
-    q = setup.quote
+    q = setup.source.quote
     package = setup.constant("package_name")
     known = isinstance(package, ast.Constant) and package.value == case.package
     path = f"{q}resource/{q} + package_name" if known else f"{q}resource/{case.package}{q}"

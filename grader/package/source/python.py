@@ -65,6 +65,15 @@ def parse_python(found: bytes) -> PythonFile:
     return PythonFile(text, tree)
 
 
+def is_python(found: bytes) -> bool:
+    """Return whether Python can read a file's bytes."""
+    try:
+        parse_python(found)
+    except PythonFault:
+        return False
+    return True
+
+
 def _fault(error: SyntaxError, text: str) -> PythonFault:
     kind = "syntax"
     if isinstance(error, TabError):
