@@ -7,7 +7,6 @@ do, or "" if the step is done. It asks only whether the student can go on; wheth
 
 from __future__ import annotations
 
-import ast
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,6 +17,9 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import meant, nearest
 from grader.course.assignment import Assignment
 from grader.package.source.entry_points import from_setup_cfg, from_setup_py
+from grader.package.source.names import called_name
+from grader.package.source.node import NodeSource, read_node
+from grader.package.source.node_class import derives_from_node
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import read_setup_py
@@ -133,7 +135,7 @@ def _code(place: Place) -> str:
     if not text.strip():
         return say("Write the node in {file}.", file=name)
     try:
-        tree = parse_python(text).tree
+        parse_python(text)
     except PythonFault as fault:
         fault_there = say("Python cannot read {file}: {reason}.", file=name, reason=fault.text)
         line = say("Look at line {line}.", line=fault.line) if fault.line else ""
@@ -144,13 +146,15 @@ def _code(place: Place) -> str:
             file=name,
             line="#!/usr/bin/env python3",
         )
-    calls = {_called(node) for node in ast.walk(tree) if isinstance(node, ast.Call)}
-    functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    if not any(_is_node(each) for each in ast.walk(tree)):
+    node = _node(place)
+    if node is None:
+        return ""  # (only a file that is too large: whether it works, the checks can tell)
+    calls = {called_name(call) for call, _ in node.calls}
+    if not any(derives_from_node(each) for each in node.module.classes):
         return say("{file} has no class that inherits from Node yet.", file=name)
     if "create_timer" not in calls:
         return say("The node in {file} has no timer yet.", file=name)
-    if place.wanted.function not in functions:
+    if node.main is None:
         function = place.wanted.function
         return say("{file} has no function {function} yet.", file=name, function=function)
     if not any(call.startswith("spin") for call in calls):
@@ -223,14 +227,8 @@ def _read(path: Path) -> bytes:
         return b""
 
 
-def _called(call: ast.Call) -> str:
-    function = call.func
-    if isinstance(function, ast.Attribute):
-        return function.attr
-    return function.id if isinstance(function, ast.Name) else ""
-
-
-def _is_node(tree: ast.AST) -> bool:
-    if not isinstance(tree, ast.ClassDef):
-        return False
-    return any(ast.unparse(base).rpartition(".")[2] == "Node" for base in tree.bases)
+def _node(place: Place) -> NodeSource | None:
+    """Return the node's source; its file, and the modules of the package that it imports."""
+    wanted = place.wanted
+    path = f"{wanted.package}/{wanted.node_file}"
+    return read_node(lambda path: _read(place.package / path) or None, path, wanted.function)

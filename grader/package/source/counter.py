@@ -88,14 +88,23 @@ def _is_local(function: Function | None, name: str) -> bool:
     """Return whether a name is a variable or a parameter of the function itself."""
     if function is None or declares(function, name):
         return False
-    bound = [a.arg for n in ast.walk(function) if isinstance(n, ast.arguments) for a in n.args]
-    return name in bound or any(name in targets_of(node) for node in ast.walk(function))
+    bound = [given.arg for given in function.args.args]
+    return name in bound or any(name in targets_of(node) for node in _scope(function))
 
 
 def declares(function: Function, name: str) -> bool:
     """Return whether a function declares a name with `global` or `nonlocal`."""
-    declared = [n for n in ast.walk(function) if isinstance(n, ast.Global | ast.Nonlocal)]
+    declared = [n for n in _scope(function) if isinstance(n, ast.Global | ast.Nonlocal)]
     return any(name in node.names for node in declared)
+
+
+def _scope(function: Function) -> Iterator[ast.AST]:
+    """Yield the parts of a function, without those of functions in it."""
+    waiting: list[ast.AST] = list(function.body)
+    for node in waiting:
+        yield node
+        if not isinstance(node, Function):
+            waiting += ast.iter_child_nodes(node)
 
 
 def local_start(function: Function, name: str) -> ast.Assign | None:

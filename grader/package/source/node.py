@@ -42,6 +42,12 @@ class Timer:
         return last_part(dotted(given)) if given is not None else ""
 
     @property
+    def is_variable(self) -> bool:
+        """Whether the callback is named without a dot: it is a function and no method."""
+        given = self.callback.func if isinstance(self.callback, ast.Call) else self.callback
+        return isinstance(given, ast.Name)
+
+    @property
     def called(self) -> bool:
         """Whether the callback is called instead of passed by name."""
         called = isinstance(self.callback, ast.Call) and dotted(self.callback)
@@ -208,7 +214,7 @@ class NodeSource:
         for timer in self.timers:
             if timer.method in self.methods:
                 return self.methods[timer.method]
-            if isinstance(timer.callback, ast.Name):
+            if timer.is_variable:
                 named = [
                     n for n in self.own_nodes if isinstance(n, Function) and n.name == timer.method
                 ]

@@ -1,0 +1,170 @@
+"""Mistakes in nodes of another form are recognised, and fixed back to the right node."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import pytest
+
+from grader.course.assignment import Assignment
+from grader.mistakes.fixes.case import Case, Finding
+from grader.mistakes.fixes.table import fixes_for
+from grader.mistakes.wanted import words_of
+from grader.package.edit.files import Files
+from grader.package.intake.model import SourceFile, Submission
+from grader.package.source.node import read_node
+from grader.package.source.python import is_python
+from grader.report.model import CheckResult, Where
+from grader.run.run import Run
+from grader.verdict.diagnose import Diagnosis, diagnose
+from grader.verdict.fix import first_fix
+from grader.verdict.outcome import Failed
+from tests.mistakes.other_forms import (
+    CASES,
+    FORMS,
+    HEAD,
+    LOG,
+    RIGHT,
+    SLIPS,
+    START,
+    STEP,
+    Slip,
+    changed,
+    filled,
+    lines_with,
+    with_slip,
+)
+from tests.static_bench import ASSIGNMENT, NODE
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+CALL = """\
+Traceback (most recent call last):
+  File "/ws/build/my_robot_controller/{path}", line {line}, in somewhere
+"""
+
+
+@dataclass
+class StandIn:
+    """The part of the evidence that a diagnosis looks at."""
+
+    assignment: Assignment
+    submission: Submission
+    run: Run
+    results: dict[str, CheckResult] = field(default_factory=dict)
+
+
+def submitted(files: Mapping[str, str]) -> Submission:
+    return Submission(
+        path=Path("/nowhere"),
+        name="other",
+        origin="directory",
+        modes="recorded",
+        sha256="",
+        root=".",
+        files=tuple(SourceFile(p, "file", 0o755, text.encode()) for p, text in files.items()),
+    )
+
+
+def told(slip: Slip, files: Mapping[str, str]) -> Diagnosis:
+    """Return what a verdict says of files in which a run has shown the symptom."""
+    path, line = next(lines_with(slip.at, files), (NODE, 1)) if slip.at else (NODE, 1)
+    shown = CALL.format(path=path, line=line) if slip.at else ""
+    run = Run(command="ros2 run", transcript=f"{shown}{slip.error}\n")
+    seen = StandIn(ASSIGNMENT, submitted(files), run)
+    failed = Failed(
+        slip.symptom,
+        expected="a line",
+        actual="no line",
+        where=Where(file=NODE),
+        params={"text": shown_text(slip)} if slip.symptom == "run.wrong_text" else {},
+        words={**words_of(ASSIGNMENT), "wanted": ASSIGNMENT.node_name},
+    )
+    return diagnose(failed, cast("Evidence", seen))
+
+
+def shown_text(slip: Slip) -> str:
+    """Return the line that a node with this mistake logs."""
+    lines = {"node.f_prefix": "Hello time: {count}", "node.text_without_number": "Hello time: "}
+    return lines.get(slip.mistake, "Helo time: 0")
+
+
+def named(case: tuple[Slip, str]) -> str:
+    return f"{case[0].mistake} with {case[1]}"
+
+
+@pytest.mark.parametrize("case", CASES, ids=named)
+def test_a_mistake_is_recognised_in_the_file_that_has_it(case: tuple[Slip, str]) -> None:
+    slip, form = case
+    files = with_slip(slip, form)
+    diagnosis = told(slip, files)
+    assert diagnosis.mistakes[0].id == slip.mistake
+    (edited,) = [path for path, text in files.items() if text != FORMS[form][path]]
+    assert diagnosis.where is not None
+    if diagnosis.where.line is not None:
+        assert diagnosis.where.file == edited
+
+
+@pytest.mark.parametrize("case", CASES, ids=named)
+def test_the_fix_makes_the_right_node_of_it(case: tuple[Slip, str]) -> None:
+    slip, form = case
+    files = Files.of(submitted(with_slip(slip, form)))
+    found = Case(files, Finding("run.output", slip.mistake), ASSIGNMENT)
+    new = first_fix(found, fixes_for(found.finding))
+    assert new is not None
+    fixed = {path: (new.data(path) or b"").decode() for path in FORMS[form]}
+    assert all(is_python(text.encode()) for text in fixed.values())
+    if slip.code:
+        assert filled(slip.code, form) in "".join(fixed.values())
+    else:
+        assert fixed == FORMS[form]
+
+
+def test_a_counter_of_the_callback_itself_becomes_an_attribute() -> None:
+    count = LOG.replace("self.counter_", "count")
+    local = changed(RIGHT, (START, ""), (LOG, f"count = 0\n        {count}"),
+                    (STEP, "        count += 1\n"))  # fmt: skip
+    slip = Slip("node.counter_reset", "", "", "run.constant_counter")
+    diagnosis = told(slip, {NODE: local})
+    assert diagnosis.mistakes[0].id == slip.mistake
+    assert next(lines_with("        count = 0", {NODE: local})) == (NODE, line_of(diagnosis))
+    files = Files.of(submitted({NODE: local}))
+    case = Case(files, Finding("run.output", slip.mistake), ASSIGNMENT)
+    new = first_fix(case, fixes_for(case.finding))
+    assert new is not None
+    assert new.data(NODE) == RIGHT.replace("self.counter_", "self.count").encode()
+
+
+def line_of(diagnosis: Diagnosis) -> int | None:
+    return diagnosis.where.line if diagnosis.where else None
+
+
+RELATED = "class Base(Node):\n    pass\n\n\nclass MyFirstNode(Base):"
+
+
+def test_classes_that_share_the_code_of_the_node_are_left_to_the_student() -> None:
+    text = changed(RIGHT, ("class MyFirstNode(Node):", RELATED), (STEP, ""))
+    files = Files.of(submitted({NODE: text}))
+    case = Case(files, Finding("run.output", "node.counter_not_increased"), ASSIGNMENT)
+    assert first_fix(case, fixes_for(case.finding)) is None
+
+
+def test_of_two_nodes_the_one_that_main_makes_is_looked_at() -> None:
+    other = HEAD[HEAD.index("class ") :].replace("MyFirstNode", "Other")
+    text = changed(RIGHT, (STEP, "")).replace("class MyFirst", f"{other}class MyFirst")
+    source = read_node({NODE: text.encode()}.get, NODE, "main")
+    assert source is not None
+    assert source.node_class is not None
+    assert source.node_class.name == "MyFirstNode"
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_right_node_is_never_changed(form: str) -> None:
+    files = Files.of(submitted(FORMS[form]))
+    for slip in SLIPS:
+        case = Case(files, Finding("run.output", slip.mistake), ASSIGNMENT)
+        assert first_fix(case, fixes_for(case.finding)) is None, slip.mistake
