@@ -18,15 +18,19 @@ from grader.package.intake.model import SourceFile, Submission
 from grader.package.source.node import read_node
 from grader.package.source.python import is_python
 from grader.report.model import CheckResult, Where
+from grader.run.probe_link import LogRecord
 from grader.run.run import Run
+from grader.verdict.checks.faults import line_of as line_in
 from grader.verdict.diagnose import Diagnosis, diagnose
 from grader.verdict.fix import first_fix
 from grader.verdict.outcome import Failed
 from tests.mistakes.other_forms import (
     CASES,
+    END,
     FORMS,
     HEAD,
     LOG,
+    OTHER,
     RIGHT,
     SLIPS,
     START,
@@ -141,6 +145,32 @@ def test_a_counter_of_the_callback_itself_becomes_an_attribute() -> None:
 
 def line_of(diagnosis: Diagnosis) -> int | None:
     return diagnosis.where.line if diagnosis.where else None
+
+
+def test_the_line_that_logged_a_record_is_shown_in_the_file_of_the_class() -> None:
+    seen = StandIn(ASSIGNMENT, submitted(FORMS["class imported"]), Run(command="ros2 run"))
+    for path, place in ((OTHER, Where(file=OTHER, line=18)), ("x/y.py", Where(file=NODE))):
+        record = LogRecord(20, "my_first_node", "Hello time: 0", "hello", f"/ws/{path}", 18, 0)
+        assert line_in(cast("Evidence", seen), record) == place
+
+
+def test_a_node_that_is_not_derived_from_node_is_found_before_another_module_with_one() -> None:
+    text = changed(
+        RIGHT, ("(Node):", ":"), ("import rclpy\n", "import rclpy\nfrom . import hello\n")
+    )
+    source = read_node({NODE: text.encode(), OTHER: HEAD.encode()}.get, NODE, "main")
+    assert source is not None
+    assert source.module.path == NODE
+
+
+def test_modules_that_import_each_other_are_read_once() -> None:
+    files = {
+        NODE: f"from .hello import MyFirstNode\n\n\ndef main({END}",
+        OTHER: f"from . import my_first_node\n{HEAD}",
+    }
+    source = read_node({path: text.encode() for path, text in files.items()}.get, NODE, "main")
+    assert source is not None
+    assert source.paths == [OTHER, NODE]
 
 
 RELATED = "class Base(Node):\n    pass\n\n\nclass MyFirstNode(Base):"

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 from grader.package.source.module import Function, Module, parse_module
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node_class import class_of_node, family_of, module_with_node
-from grader.package.source.own_imports import OwnImport, own_imports
+from grader.package.source.own_imports import entry_function, own_imports
 from grader.package.source.python import PythonFault
+from grader.package.source.timer import Timer, timer_of
 
 LOG_METHODS = ("debug", "info", "warn", "warning", "error", "fatal")
 GET_LOGGER = ("get_logger", "get_logger()")
@@ -26,41 +26,6 @@ MOST_MODULES = 10
 Read = Callable[[str], "bytes | None"]
 
 
-@dataclass(frozen=True)
-class Timer:
-    """A call of create_timer: its arguments, and the function that contains it."""
-
-    call: ast.Call
-    period: ast.expr | None
-    callback: ast.expr | None
-    function: Function | None
-
-    @property
-    def method(self) -> str:
-        """The name of the callback; "" if it has none."""
-        given = self.callback.func if isinstance(self.callback, ast.Call) else self.callback
-        return last_part(dotted(given)) if given is not None else ""
-
-    @property
-    def is_variable(self) -> bool:
-        """Whether the callback is named without a dot: it is a function and no method."""
-        given = self.callback.func if isinstance(self.callback, ast.Call) else self.callback
-        return isinstance(given, ast.Name)
-
-    @property
-    def called(self) -> bool:
-        """Whether the callback is called instead of passed by name."""
-        called = isinstance(self.callback, ast.Call) and dotted(self.callback)
-        return bool(called) and not str(called).endswith("partial()")
-
-    @property
-    def seconds(self) -> float | None:
-        """The period, if it is written as a number."""
-        if isinstance(self.period, ast.Constant) and isinstance(self.period.value, int | float):
-            return float(self.period.value)
-        return None
-
-
 class NodeSource:
     """The facts of a node: `entry` is the entry point's file, `module` the one with the class.
 
@@ -69,8 +34,7 @@ class NodeSource:
 
     def __init__(self, modules: Sequence[Module], function: str) -> None:
         self.entry = modules[0]
-        self._imports = list(own_imports(self.entry))
-        found = _function(function, modules, self._imports)
+        found = entry_function(function, modules)
         self.main = found[1] if found else None
         made = {last_part(name) for _, name in calls_in(self.main)} if self.main else set()
         self.module = module_with_node(modules)
@@ -190,23 +154,16 @@ class NodeSource:
         """The calls of create_timer; those of helper classes only if the node has none."""
         made = [call for call, name in self.calls if last_part(name) == "create_timer"]
         own = set(self.own_nodes)
-        return [self._timer(call) for call in [c for c in made if c in own] or made]
+        return [
+            timer_of(call, self.function_around(call))
+            for call in [c for c in made if c in own] or made
+        ]
 
     @property
     def timer_call(self) -> ast.Call | None:
         """The node's only call of create_timer."""
         found = self.calls_of("create_timer")
         return found[0] if len(found) == 1 else None
-
-    def _timer(self, call: ast.Call) -> Timer:
-        given = {keyword.arg: keyword.value for keyword in call.keywords}
-        period, callback = (*call.args[:2], None, None)[:2]
-        return Timer(
-            call,
-            period or given.get("timer_period_sec"),
-            callback or given.get("callback"),
-            self.function_around(call),
-        )
 
     @cached_property
     def callback(self) -> Function | None:
@@ -314,21 +271,6 @@ def _without(module: Module, left_out: set[ast.ClassDef]) -> Iterator[ast.AST]:
     for node in waiting:
         yield node
         waiting += [n for n in ast.iter_child_nodes(node) if n not in left_out]
-
-
-def _function(
-    name: str, modules: Sequence[Module], imports: Sequence[OwnImport]
-) -> tuple[Module, Function] | None:
-    """Return a function of the first module, or the one that it imports under that name."""
-    if name in modules[0].functions:
-        return modules[0], modules[0].functions[name]
-    for found in imports:
-        wanted = name if found.name == "*" else found.name
-        if found.bound in (name, "*"):
-            for module in modules:
-                if module.path in found.paths and wanted in module.functions:
-                    return module, module.functions[wanted]
-    return None
 
 
 def read_node(read: Read, path: str, function: str) -> NodeSource | None:

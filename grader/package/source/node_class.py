@@ -16,7 +16,7 @@ def module_with_node(modules: Sequence[Module]) -> Module:
 
     The first module is the entry point's, the others are those that it imports.
     """
-    for fits in (derives_from_node, acts_as_node):
+    for fits in (_is_node, acts_as_node):
         found = next((m for m in modules if any(fits(c) for c in m.classes)), None)
         if found is not None:
             return found
@@ -40,6 +40,13 @@ def class_of_node(module: Module, made: set[str]) -> ast.ClassDef | None:
 def derives_from_node(found: ast.ClassDef) -> bool:
     """Return whether a base class is named like a node's."""
     return any(base.endswith("Node") for base in _bases(found))
+
+
+def _is_node(found: ast.ClassDef) -> bool:
+    """Return whether a class is derived from a node, or was meant to be."""
+    return derives_from_node(found) or any(
+        name.startswith(USED_BY_NODES) for _, name in calls_in(found)
+    )
 
 
 def acts_as_node(found: ast.ClassDef) -> bool:

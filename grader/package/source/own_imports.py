@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 
 
 @dataclass(frozen=True)
@@ -55,3 +55,17 @@ def _parts(node: ast.ImportFrom, path: str) -> tuple[str, ...]:
     folders = tuple(path.split("/")[:-1])
     kept = len(folders) - node.level + 1
     return (*folders[:kept], *named) if kept > 0 else ()
+
+
+def entry_function(name: str, modules: Sequence[Module]) -> tuple[Module, Function] | None:
+    """Return a function of the first module, or the one that it imports under that name."""
+    entry = modules[0]
+    if name in entry.functions:
+        return entry, entry.functions[name]
+    for found in own_imports(entry):
+        wanted = name if found.name == "*" else found.name
+        if found.bound in (name, "*"):
+            for module in modules:
+                if module.path in found.paths and wanted in module.functions:
+                    return module, module.functions[wanted]
+    return None
