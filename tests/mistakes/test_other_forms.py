@@ -173,6 +173,16 @@ def test_modules_that_import_each_other_are_read_once() -> None:
     assert source.paths == [OTHER, NODE]
 
 
+def test_an_attribute_of_another_object_is_not_taken_for_the_counter() -> None:
+    text = changed(RIGHT, (START, "        options = Node.options\n        options.limit = 0\n"))
+    files = Files.of(submitted({NODE: text}))
+    case = Case(files, Finding("run.output", "node.attribute_not_set"), ASSIGNMENT)
+    new = first_fix(case, fixes_for(case.finding))
+    assert new is not None
+    assert b"        options.limit = 0\n" in (new.data(NODE) or b"")
+    assert START.encode() in (new.data(NODE) or b"")
+
+
 RELATED = "class Base(Node):\n    pass\n\n\nclass MyFirstNode(Base):"
 
 

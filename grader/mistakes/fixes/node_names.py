@@ -76,7 +76,7 @@ def counter(case: Case) -> Files | None:
         target = statement.targets[0] if isinstance(statement, ast.Assign) else None
         written = target.id if isinstance(target, ast.Name) else own_name(target)
         near = written == name or nearest(name, [written], cutoff=0.8) == written
-        if target is None or not near or not _is_number(statement):
+        if target is None or not written or not near or not _is_number(statement):
             continue
         if _is_alone(node, target):
             return case.changed(node.module, text.swap(target, f"self.{name}"))

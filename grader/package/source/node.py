@@ -22,7 +22,8 @@ GET_LOGGER = ("get_logger", "get_logger()")
 MOST_BYTES = 20_000
 """A larger file is not a first node, and a hostile one would take seconds to analyse."""
 MOST_MODULES = 10
-"""How many modules beside the entry point's are read."""
+MOST_OF_ALL = 3 * MOST_BYTES
+"""How many modules are read beside the entry point's, and how many characters in all."""
 Read = Callable[[str], "bytes | None"]
 
 
@@ -283,17 +284,24 @@ def read_node(read: Read, path: str, function: str) -> NodeSource | None:
     entry = _module(read, path)
     if entry is None:
         return None
-    modules = [entry]
-    for module in modules:
-        for found in own_imports(module):
-            for place in found.paths:
-                new = len(modules) <= MOST_MODULES and place not in [m.path for m in modules]
-                other = _module(read, place) if new else None
-                modules += [other] if other is not None else []
     try:
-        return NodeSource(modules, function)
+        return NodeSource(_with_imports(entry, read), function)
     except RecursionError:
         return None
+
+
+def _with_imports(entry: Module, read: Read) -> list[Module]:
+    """Return a module and those that it imports from its own package, directly or not."""
+    modules = [entry]
+    tried = {entry.path}
+    for module in modules:
+        for path in (path for found in own_imports(module) for path in found.paths):
+            size = sum(len(each.text.text) for each in modules)
+            if path not in tried and len(modules) <= MOST_MODULES and size < MOST_OF_ALL:
+                tried.add(path)
+                other = _module(read, path)
+                modules += [other] if other is not None else []
+    return modules
 
 
 def _module(read: Read, path: str) -> Module | None:

@@ -64,16 +64,17 @@ def _bases(found: ast.ClassDef) -> Iterator[str]:
 
 def family_of(found: ast.ClassDef, module: Module) -> list[ast.ClassDef]:
     """Return a class with those of its file that it derives from, or that derive from it."""
-    family = [found]
-    for _ in module.classes:
-        bases = {base for each in family for base in _bases(each)}
-        names = {each.name for each in family}
-        more = [
-            c
-            for c in module.classes
-            if c not in family and (c.name in bases or names & set(_bases(c)))
-        ]
-        if not more:
-            break
-        family += more
-    return family
+    bases = {each: set(_bases(each)) for each in module.classes}
+    by_name = {each.name: each for each in module.classes}
+    derived: dict[str, list[ast.ClassDef]] = {}
+    for each, names in bases.items():
+        for name in names:
+            derived.setdefault(name, []).append(each)
+    family = {found: None}
+    waiting = [found]
+    for each in waiting:
+        above = [by_name[name] for name in bases.get(each, ()) if name in by_name]
+        new = [c for c in (*above, *derived.get(each.name, ())) if c not in family]
+        family |= dict.fromkeys(new)
+        waiting += new
+    return list(family)
