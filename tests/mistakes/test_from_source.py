@@ -13,7 +13,7 @@ from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_traceback import RECOGNISERS, recognise
 from grader.mistakes.kind import RecognisedMistake
 from grader.mistakes.symptoms import Raised, Suspect
-from grader.package.source.node import MOST_BYTES, read_node
+from grader.package.source.node import MOST_BYTES, NodeSource, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE
@@ -49,17 +49,19 @@ OTHERWISE = textwrap.dedent(
 )
 
 
-def look(symptom: str, text: str) -> RecognisedMistake | None:
-    source = read_node(text.encode())
+def node_in(text: str) -> NodeSource:
+    source = read_node({FILE: text.encode()}.get, FILE, "main")
     assert source is not None
-    return BY_SYMPTOM[symptom](Suspect(source, FILE, ASSIGNMENT))
+    return source
+
+
+def look(symptom: str, text: str) -> RecognisedMistake | None:
+    return BY_SYMPTOM[symptom](Suspect(node_in(text), ASSIGNMENT))
 
 
 def raised(error: str, text: str, line: int | None) -> RecognisedMistake | None:
-    source = read_node(text.encode())
-    assert source is not None
     where = Where(file=FILE, line=line) if line else None
-    return recognise(Raised(error, FILE, where, source, ASSIGNMENT))
+    return recognise(Raised(error, where, node_in(text), ASSIGNMENT))
 
 
 def line_of(text: str, part: str) -> int:
@@ -220,18 +222,18 @@ def test_a_missing_node_name_is_distinguished_from_a_misspelt_init() -> None:
 def test_any_source_is_examined_without_an_error(data: st.DataObject) -> None:
     lines = RIGHT.splitlines()
     kept = data.draw(st.lists(st.sampled_from(lines), max_size=40))
-    source = read_node("\n".join(kept).encode())
+    source = read_node({FILE: "\n".join(kept).encode()}.get, FILE, "main")
     if source is None:
         return
     for find in BY_SYMPTOM.values():
-        found = find(Suspect(source, FILE, ASSIGNMENT))
+        found = find(Suspect(source, ASSIGNMENT))
         assert found is None or found.kind in CATALOGUE
     errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]
     error = data.draw(st.sampled_from(errors) | st.text(max_size=80))
-    found = recognise(Raised(error, FILE, Where(file=FILE, line=3), source, ASSIGNMENT))
+    found = recognise(Raised(error, Where(file=FILE, line=3), source, ASSIGNMENT))
     assert found is None or found.kind in CATALOGUE
 
 
 def test_an_unparsable_or_huge_file_has_no_facts() -> None:
-    assert read_node(b"def broken(:\n") is None
-    assert read_node(b"x = 1\n" * MOST_BYTES) is None
+    for found in (b"def broken(:\n", b"x = 1\n" * MOST_BYTES):
+        assert read_node({FILE: found}.get, FILE, "main") is None
