@@ -84,8 +84,10 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 
 
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    close = nearest(match["name"], (*RCLPY, "Node", "String", "Twist"), cutoff=0.75)
-    return raised.finding("import_name", name=match["name"], close=close, module=match["module"])
+    name, module = match["name"], match["module"]
+    known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
+    close = nearest(name, known, cutoff=0.75)
+    return raised.finding("import_name", name=name, close=close, module=module)
 
 
 def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:

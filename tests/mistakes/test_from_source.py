@@ -195,6 +195,27 @@ def test_an_exception_is_classified_and_the_right_name_suggested(
     assert found.where.line == at
 
 
+@pytest.mark.parametrize(
+    ("error", "fix"),
+    [
+        ("ModuleNotFoundError: No module named 'rcply'", "Write rclpy instead of rcply."),
+        ("ModuleNotFoundError: No module named 'qqqqq'", "Check the spelling of the module's name"),
+        ("ImportError: cannot import name 'node' from 'rclpy.node' (/opt/node.py)",
+         "Write Node instead of node."),
+        ("ImportError: cannot import name 'Int' from 'std_msgs.msg' (/opt/msg.py)",
+         "Compare the name with the module's documentation."),
+        ("NameError: name 'Hallo' is not defined",
+         "Write Hello instead of Hallo, or define Hallo first."),
+        ("NameError: name 'qqqqq' is not defined", "Write the name exactly as it is defined"),
+    ],
+)  # fmt: skip
+def test_the_fix_of_a_misspelt_name_has_the_nearest_known_name(error: str, fix: str) -> None:
+    found = raised(error, OTHERWISE, 1)
+    assert found is not None
+    values = {**found.params, **found.words}
+    assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(fix)
+
+
 def test_the_second_of_two_calls_of_init_is_reported() -> None:
     text = OTHERWISE.replace("args=args)\n", "args=args)\n    rclpy.init()\n")
     found = raised("RuntimeError: Context.init() must only be called once", text, None)
