@@ -12,7 +12,9 @@ from collections.abc import Callable
 from grader.mistakes.from_counter import constant, wrong_start, wrong_step
 from grader.mistakes.kind import RecognisedMistake
 from grader.mistakes.symptoms import Suspect
-from grader.package.source.node import NodeSource, calls_in, dotted
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
+from grader.report.model import Where
 
 SLEEPS = ("time.sleep", "sleep")
 WAITS = ("input", *SLEEPS)
@@ -29,42 +31,41 @@ def no_spin(suspect: Suspect) -> RecognisedMistake | None:
     found = _no_node(suspect)
     if found is not None:
         return found
-    spins = [(call, name.rpartition(".")[2]) for call, name in source.calls]
+    spins = [(call, last_part(name)) for call, name in source.calls]
     names = {name for _, name in spins}
     if names & {"spin", "spin_until_future_complete"}:
         return None
     for call, name in spins:
         if name == "spin_once":
-            return suspect.finding("spin_once", call.lineno)
-    for node in ast.walk(source.tree):
+            return suspect.finding("spin_once", call)
+    for node in source.all_nodes:
         named = node.value if isinstance(node, ast.Expr) else None
         if isinstance(named, ast.Attribute) and named.attr == "spin":
-            return suspect.finding("spin_not_called", named.lineno)
-    return suspect.finding("spin_missing", suspect.line_of_function)
+            return suspect.finding("spin_not_called", named)
+    return suspect.finding("spin_missing", suspect.place_of_function)
 
 
 def _no_node(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     if not source.uses_ros:
-        return suspect.finding("no_ros", 1)
+        return suspect.finding("no_ros", Where(file=source.entry.path, line=1))
     made = source.makes_node() or any(n.endswith("create_node") for _, n in source.calls)
     if source.node_class is not None and not made:
-        return suspect.finding("main_empty", suspect.line_of_function)
+        return suspect.finding("main_empty", suspect.place_of_function)
     return None
 
 
 def no_node(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the reason why a program runs but creates no node."""
     found = _no_node(suspect)
-    main, node_class = suspect.function, suspect.source.node_class
+    main = suspect.function
     if found is not None or main is None:
         return found
-    made = node_class.name if node_class else ""
     for call, name in calls_in(main):
-        if name == made:
+        if suspect.source.is_node_class(call.func):
             return None
         if name in WAITS:
-            return suspect.finding("waits_first", call.lineno, name=f"{name}()")
+            return suspect.finding("waits_first", call, name=f"{name}()")
     return None
 
 
@@ -74,19 +75,20 @@ def no_lines(suspect: Suspect) -> RecognisedMistake | None:
     callback = source.callback
     if not source.timers:
         init = source.methods.get("__init__")
-        return suspect.finding("timer_missing", init.lineno if init else None)
+        return suspect.finding("timer_missing", init)
     timer = source.timers[0]
     if callback is not None and all(t.function is callback for t in source.timers):
-        return suspect.finding("timer_in_callback", timer.line)
+        return suspect.finding("timer_in_callback", timer.call)
     for call, name in source.calls:
         if name.endswith(".cancel"):
-            return suspect.finding("timer_cancelled", call.lineno)
+            return suspect.finding("timer_cancelled", call)
     if timer.seconds is not None and timer.seconds >= LONG > suspect.output.period:
-        return suspect.finding("period_milliseconds", timer.line, written=f"{timer.seconds:g}")
+        return suspect.finding("period_milliseconds", timer.call, written=f"{timer.seconds:g}")
     logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
-    if timer.method and timer.method not in source.methods and logging:
+    other = callback is None or callback.name != timer.method
+    if timer.method and other and logging:
         params = {"name": timer.method}
-        return suspect.finding("timer_other_callback", timer.line, **params)
+        return suspect.finding("timer_other_callback", timer.call, **params)
     if callback is None:
         return None
     held = _never_ends(suspect)
@@ -94,32 +96,32 @@ def no_lines(suspect: Suspect) -> RecognisedMistake | None:
         return held
     logs = source.logs(callback)
     if not logs and not source.prints(callback):
-        return suspect.finding("log_missing", callback.lineno)
+        return suspect.finding("log_missing", callback)
     debug = [log for log in logs if dotted(log.func).endswith(".debug")]
-    return suspect.finding("debug_level", debug[0].lineno) if debug else None
+    return suspect.finding("debug_level", debug[0]) if debug else None
 
 
 def twice(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the reason why two lines come at a time."""
     source = suspect.source
     if len(source.timers) > 1:
-        return suspect.finding("two_timers", source.timers[1].line)
+        return suspect.finding("two_timers", source.timers[1].call)
     callback = source.callback
     if callback is None:
         return None
     logs = [*source.logs(callback), *source.prints(callback)]
     if len(logs) > 1:
-        line = sorted(call.lineno for call in logs)[1]
-        return suspect.finding("logs_twice", line)
+        second = sorted(logs, key=lambda call: call.lineno)[1]
+        return suspect.finding("logs_twice", second)
     return None
 
 
 def printed(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the print that writes the line."""
     callback = suspect.source.callback
-    part = callback if callback is not None else suspect.source.tree
-    prints = suspect.source.prints(part) or suspect.source.prints(suspect.source.tree)
-    return suspect.finding("print_used", prints[0].lineno) if prints else None
+    prints = suspect.source.prints(callback) if callback is not None else []
+    prints = prints or [call for call, name in suspect.source.calls if name == "print"]
+    return suspect.finding("print_used", prints[0]) if prints else None
 
 
 def by_hand(suspect: Suspect) -> RecognisedMistake | None:
@@ -127,12 +129,12 @@ def by_hand(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     for timer in source.timers:
         if timer.called:
-            return suspect.finding("callback_called", timer.line)
+            return suspect.finding("callback_called", timer.call)
     init = source.methods.get("__init__")
-    names = {f"self.{timer.method}" for timer in source.timers if timer.method}
+    names = {dotted(timer.callback) for timer in source.timers if timer.callback} - {""}
     for call, name in calls_in(init) if init else ():
         if name in names:
-            return suspect.finding("called_by_hand", call.lineno)
+            return suspect.finding("called_by_hand", call)
     return None
 
 
@@ -160,14 +162,14 @@ def wrong_period(suspect: Suspect) -> RecognisedMistake | None:
         or timers not in ([suspect.output.period], [None])
     ):
         return None
-    return suspect.finding("sleeps_in_callback", slept[0].lineno, seconds=slept[1])
+    return suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
 
 
 def stops(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the code that stops the timer."""
     for call, name in suspect.source.calls:
         if name.endswith((".cancel", ".destroy_timer")):
-            return suspect.finding("timer_cancelled", call.lineno)
+            return suspect.finding("timer_cancelled", call)
     return _never_ends(suspect)
 
 
@@ -176,9 +178,9 @@ def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
     callback = suspect.source.callback
     for node in ast.walk(callback) if callback is not None else ():
         if isinstance(node, ast.Call) and dotted(node.func) == "input":
-            return suspect.finding("callback_never_ends", node.lineno, name="input()")
+            return suspect.finding("callback_never_ends", node, name="input()")
         if isinstance(node, ast.While) and _goes_on(node):
-            return suspect.finding("callback_never_ends", node.lineno, name="while")
+            return suspect.finding("callback_never_ends", node, name="while")
     return None
 
 
@@ -189,15 +191,17 @@ def _goes_on(loop: ast.While) -> bool:
 
 def ends(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the code that ends the node without an exception."""
-    for node in ast.walk(suspect.source.tree):
+    for node in suspect.source.all_nodes:
+        if not isinstance(node, ast.Raise | ast.Call):
+            continue
         raised = dotted(node.exc) if isinstance(node, ast.Raise) and node.exc else ""
         called = dotted(node.func) if isinstance(node, ast.Call) else ""
         if raised.startswith(("SystemExit", "KeyboardInterrupt")) or called in EXITS:
             name = called or raised
-            return suspect.finding("exits", getattr(node, "lineno", None), name=name)
+            return suspect.finding("exits", node, name=name)
     for call, name in suspect.source.calls:
-        if name.rpartition(".")[2] == "spin_once":
-            return suspect.finding("spin_once", call.lineno)
+        if last_part(name) == "spin_once":
+            return suspect.finding("spin_once", call)
     return None
 
 

@@ -14,7 +14,8 @@ from grader.mistakes import from_call
 from grader.mistakes.kind import RecognisedMistake
 from grader.mistakes.placeholders import CLASS
 from grader.mistakes.symptoms import Raised
-from grader.package.source.node import LOG_METHODS, dotted
+from grader.package.source.names import dotted, last_part
+from grader.package.source.node import LOG_METHODS
 
 MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
 NODE_METHODS = (
@@ -48,11 +49,11 @@ def _always(slug: str) -> Recognise:
 
 def _private(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     call = raised.source.super_init
-    if match["type"] not in {found.name for found in raised.source.classes}:
+    if match["type"] not in raised.source.known_classes:
         return None
     if call is None:
         return raised.finding("super_missing")
-    return raised.finding("super_late", line=call.lineno)
+    return raised.finding("super_late", at=call)
 
 
 def _no_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -60,20 +61,19 @@ def _no_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     methods = raised.source.methods
     near = nearest("__init__", methods, cutoff=0.7)
     if "__init__" not in methods and near:
-        return raised.finding("init_underscores", line=methods[near].lineno, name=near)
+        return raised.finding("init_underscores", at=methods[near], name=near)
     return raised.finding("super_without_name")
 
 
 def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     found = raised.source.node_class
-    name, line = (found.name, found.lineno) if found else (CLASS, None)
-    return raised.finding("not_a_node", line=line, name=name)
+    return raised.finding("not_a_node", at=found, name=found.name if found else CLASS)
 
 
 def _not_initialized(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
-    inits = [c.lineno for c, n in raised.source.calls if n.rpartition(".")[2] == "init"]
+    inits = [c for c, n in raised.source.calls if last_part(n) == "init"]
     return raised.finding("init_late" if inits else "init_missing")
 
 
@@ -84,19 +84,21 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 
 
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    close = nearest(match["name"], (*RCLPY, "Node", "String", "Twist"), cutoff=0.75)
-    return raised.finding("import_name", name=match["name"], close=close, module=match["module"])
+    name, module = match["name"], match["module"]
+    known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
+    close = nearest(name, known, cutoff=0.75)
+    return raised.finding("import_name", name=name, close=close, module=module)
 
 
 def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    name, source = match["name"], raised.source
+    name, source, module = match["name"], raised.source, raised.module
     if name == "self":
         return raised.finding("timer_at_class_level")
-    if name in IMPORTS and name not in source.imports:
+    if name in IMPORTS and name not in module.imports:
         return raised.finding("import_missing", name=name, statement=IMPORTS[name])
     if name in source.methods:
         return raised.finding("callback_without_self_dot", name=name)
-    close = nearest(name, {*source.names, *dir(builtins), *IMPORTS}, cutoff=0.7)
+    close = nearest(name, {*module.names, *dir(builtins), *IMPORTS}, cutoff=0.7)
     return raised.finding("name_unknown", name=name, close=close)
 
 
@@ -104,25 +106,24 @@ def _no_main(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     function = raised.assignment.function
     if match["function"] != function:
         return None
-    close = nearest(function, raised.source.functions)
+    functions = raised.source.entry.functions
+    close = nearest(function, functions)
     if close:
-        line = raised.source.functions[close].lineno
-        return raised.finding("main_misspelt", line=line, name=close, close=function)
+        return raised.finding("main_misspelt", at=functions[close], name=close, close=function)
     return raised.finding("main_missing")
 
 
 def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["function"] != raised.assignment.function:
         return None
-    main = raised.source.functions.get(raised.assignment.function)
-    return raised.finding("main_wants_args", line=main.lineno if main else None)
+    return raised.finding("main_wants_args", at=raised.source.main)
 
 
 def _attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     kind, name, source = match["type"], match["name"], raised.source
-    if kind not in {found.name for found in source.classes}:
+    if kind not in source.known_classes:
         return None
-    line = source.line(raised.line)
+    line = raised.module.line(raised.line)
     if line and f"self.{name}" not in line:
         return None  # the attribute is not accessed through self
     for timer in source.timers:
@@ -141,7 +142,7 @@ def _callback(raised: Raised, name: str) -> RecognisedMistake:
     init = source.methods.get("__init__")
     for node in ast.walk(init) if init else ():
         if isinstance(node, ast.FunctionDef) and node.name == name:
-            return raised.finding("callback_in_init", line=node.lineno, name=name)
+            return raised.finding("callback_in_init", at=node, name=name)
     close = nearest(name, [m for m in source.methods if m != "__init__"])
     found = raised.finding("callback_misspelt", name=name, close=close)
     return replace(found, words={**found.words, "callback": close or name})
@@ -158,7 +159,7 @@ def _other_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     name = str(raised.words["counter"])
-    for node in ast.walk(raised.source.tree):
+    for node in raised.module.nodes:
         if isinstance(node, ast.BinOp) and raised.line in range(
             node.lineno, (node.end_lineno or node.lineno) + 1
         ):
@@ -168,11 +169,11 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 
 def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
-    for node in ast.walk(raised.source.tree):
+    for node in raised.source.all_nodes:
         if isinstance(node, ast.AugAssign) and isinstance(node.value, ast.Constant):
             step, name = node.value.value, dotted(node.target)
             if isinstance(step, str) and name:
-                return raised.finding("step_is_text", line=node.lineno, name=name, step=step)
+                return raised.finding("step_is_text", at=node, name=name, step=step)
     return None
 
 

@@ -7,15 +7,15 @@ import ast
 from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import compared, nearest
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.source.node import NodeSource, dotted
+from grader.package.source.names import dotted
 
 GUARD = "__main__"
 
 
-def hints(source: NodeSource) -> list[str]:
+def hints(tree: ast.Module) -> list[str]:
     """Return advice on a source file."""
     found: list[str] = []
-    for node in ast.walk(source.tree):
+    for node in ast.walk(tree):
         if isinstance(node, ast.Compare) and dotted(node.left) == "__name__":
             found += _guard(node)
         elif isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.shutdown":

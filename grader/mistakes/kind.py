@@ -84,15 +84,17 @@ class Family:
         fix: str,
         link: str = "",
         *,
+        close: str = "",
         seen: str = "",
     ) -> Kind:
-        """Return the kind `prefix.slug`."""
+        """Return the kind `prefix.slug`; `close` is its fix if a similar name is known."""
         return Kind(
             id=f"{self.prefix}.{slug}",
             stage=stage,
             title=title,
             why=why,
             fix=fix,
+            fixes={"close": close} if close else {},
             link=link or self.link,
             seen=seen,
         )

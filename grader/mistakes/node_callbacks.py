@@ -58,6 +58,7 @@ KINDS = (
     _node("name_unknown", "callback", msg("A name is used that is not defined"),
           msg("Python knows only names that the file imports or defines; case matters."),
           msg("Write the name exactly as it is defined, or define it first."), links.PYTHON_ERRORS,
+          close=msg("Write {close} instead of {name}, or define {name} first."),
           seen=r"NameError: name '(?P<name>\w{1,120})' is not defined"),
     _node("callback_no_self", "callback", msg("The callback has no parameter self"), ONLY_SELF,
           msg("Write: def {callback}(self):"), links.PYTHON_CLASSES,

@@ -16,6 +16,7 @@ LOOKED_FOR = msg(
     "level of the module."
 )
 NODES_MADE = msg("rclpy.init() connects the program to ROS; no node can be created before it.")
+CLOSE = msg("Write {close} instead of {name}.")
 
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
@@ -34,12 +35,12 @@ KINDS = (
               "none."),
           msg("Check the spelling of the module's name; only modules of ROS and of Python are "
               "available."),
-          links.PYTHON_ERRORS,
+          links.PYTHON_ERRORS, close=CLOSE,
           seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'"),
     _node("import_name", "start", msg("An import names something that the module does not have"),
           msg("from module import name works only for names that the module defines; case "
               "matters."),
-          msg("Compare the name with the module's documentation."), links.RCLPY,
+          msg("Compare the name with the module's documentation."), links.RCLPY, close=CLOSE,
           seen=r"ImportError: cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'"),
     _node("import_missing", "start", msg("A name is used without being imported"),
           msg("Python knows only names that the file imports or defines."),

@@ -5,12 +5,12 @@ A text never names a part of one exercise: it has a placeholder instead.
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Mapping
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
-from grader.package.source.node import Function, NodeSource, dotted
+from grader.package.source.counter import logged_counter
+from grader.package.source.node import NodeSource
 
 CALLBACK = "callback"  # default names, if the student's source has none
 COUNTER = "self.counter"
@@ -78,22 +78,5 @@ def _callback_of(source: NodeSource | None) -> str:
 
 
 def _counter_of(source: NodeSource | None) -> str:
-    callback = source.callback if source is not None else None
-    logged = logged_counter(source, callback) if source is not None and callback else None
+    logged = logged_counter(source) if source is not None else None
     return logged[1] if logged else COUNTER
-
-
-def logged_counter(source: NodeSource, callback: Function) -> tuple[int, str] | None:
-    """Return the line of the first log call, and the attribute of self in it."""
-    for call in [*source.logs(callback), *source.prints(callback)]:
-        for node in ast.walk(call):
-            name = dotted(node) if isinstance(node, ast.Attribute) else ""
-            if name.startswith("self.") and name.count(".") == 1 and "get_logger" not in name:
-                return call.lineno, name
-    # (the text is built on a line before the call: the incremented attribute is the counter)
-    for call in [*source.logs(callback), *source.prints(callback)]:
-        for node in ast.walk(callback):
-            name = dotted(node.target) if isinstance(node, ast.AugAssign) else ""
-            if name.startswith("self."):
-                return call.lineno, name
-    return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -9,22 +10,24 @@ from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
 from grader.mistakes.kind import RecognisedMistake
 from grader.mistakes.placeholders import placeholder_values
-from grader.package.source.node import Function, NodeSource
+from grader.package.source.module import Function, Module
+from grader.package.source.node import NodeSource
 from grader.report.model import Where
 
 
 @dataclass(frozen=True)
 class Raised:
-    """An exception: its last line, where in the student's code it was raised, and that source.
-
-    `file` is the node's own file: the place of the mistake if the traceback names none.
-    """
+    """An exception: its last line, where in the student's code it was raised, and that source."""
 
     error: str
-    file: str
     where: Where | None
     source: NodeSource
     assignment: Assignment
+
+    @property
+    def module(self) -> Module:
+        """The student's file in which it was raised; that of the class if this is unknown."""
+        return self.source.module_at(self.where.file if self.where else "")
 
     @property
     def line(self) -> int | None:
@@ -35,16 +38,16 @@ class Raised:
         self,
         slug: str,
         *,
-        line: int | None = None,
+        at: ast.stmt | ast.expr | None = None,
         params: Mapping[str, str] | None = None,
         **more: str,
     ) -> RecognisedMistake:
-        """Return the mistake `node.slug`, on a line of the node's file."""
+        """Return the mistake `node.slug`: at a piece of syntax, or where it was raised."""
         given = {**(params or {}), **more}
         words = {**self.words, "close": "", "name": "", **given}
-        where = self.where or Where(file=self.file, line=line)
-        if line is not None:
-            where = Where(file=self.file, line=line)
+        where = self.where or Where(file=self.source.entry.path)
+        if at is not None:
+            where = place_of(self.source, at)
         variant = "close" if words["close"] else ""
         return RecognisedMistake(
             kind=f"node.{slug}", params=given, words=words, variant=variant, where=where
@@ -58,10 +61,9 @@ class Raised:
 
 @dataclass(frozen=True)
 class Suspect:
-    """A source with a known symptom, its path in the package, and its assignment."""
+    """A source with a known symptom, and its assignment."""
 
     source: NodeSource
-    file: str
     assignment: Assignment
 
     @property
@@ -72,17 +74,22 @@ class Suspect:
     @property
     def function(self) -> Function | None:
         """The function that the entry point leads to, if the source has it."""
-        return self.source.functions.get(self.assignment.function)
+        return self.source.main
 
     @property
-    def line_of_function(self) -> int | None:
-        """The line on which it begins."""
-        return self.function.lineno if self.function is not None else None
+    def place_of_function(self) -> Where:
+        """The place at which it begins; the entry point's file if the source does not have it."""
+        if self.function is None:
+            return Where(file=self.source.entry.path)
+        return place_of(self.source, self.function)
 
     def finding(
-        self, slug: str, line: int | None = None, **params: str | int | float
+        self, slug: str, at: ast.stmt | ast.expr | Where | None = None, **params: str | int | float
     ) -> RecognisedMistake:
-        """Return the mistake `node.slug`, on a line of the file."""
+        """Return the mistake `node.slug`, at a piece of syntax or at a place.
+
+        Without either it is in the file that has the node's class.
+        """
         words = {
             **placeholder_values(self.assignment, self.source),
             "node": "node",
@@ -90,5 +97,12 @@ class Suspect:
             "close": "",
             **params,
         }
-        where = Where(file=self.file, line=line)
+        where = at if isinstance(at, Where) else place_of(self.source, at)
         return RecognisedMistake(kind=f"node.{slug}", params=params, words=words, where=where)
+
+
+def place_of(source: NodeSource, node: ast.stmt | ast.expr | None) -> Where:
+    """Return the file and the line of a piece of syntax; the class's file for None."""
+    if node is None:
+        return Where(file=source.module.path)
+    return Where(file=source.module_of(node).path, line=node.lineno)

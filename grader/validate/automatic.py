@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
+from grader.package.source.node import read_node
 from grader.validate import in_files, in_setup, in_source
 from grader.validate.mutant import Mutant
 from grader.validate.spots import Code
@@ -41,10 +42,22 @@ def _made(
     setup = _read(original, in_files.SETUP)
     for name, text, families in in_setup.mutants_of(setup, assignment):
         yield name, (Write(in_files.SETUP, text.encode()),), families
-    node = f"{assignment.package}/{assignment.node_file}"
-    for name, text, families in in_source.mutants_of(_read(original, node), assignment):
-        expected = families if _parses(text) else ("source.node_file",)
-        yield name, (Write(node, text.encode()),), expected
+    path = f"{assignment.package}/{assignment.node_file}"
+    for place in _files_of_node(original, path, assignment):
+        for name, text, families in in_source.mutants_of(_read(original, place), assignment):
+            # (of these files source.node_file reads only the required one)
+            unreadable = ("source.node_file",) if place == path else ("run.",)
+            expected = families if _parses(text) else unreadable
+            yield name, (Write(place, text.encode()),), expected
+
+
+def _files_of_node(original: Tree, path: str, assignment: Assignment) -> list[str]:
+    """Return the files that the node is in: the required one first, and that of its class."""
+    _read(original, path)
+    files = {name: entry.data for name, entry in original.items() if not entry.link}
+    node = read_node(files.get, path, assignment.function)
+    others = [other for other in node.paths if other != path] if node is not None else []
+    return [path, *others]
 
 
 def _read(original: Tree, path: str) -> Code:

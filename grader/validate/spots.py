@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from grader.package.edit.text import Positioned, SourceText, Splice
+
 MOST_SLUG = 60  # characters of code in a mutant's name
 
 
@@ -17,7 +19,7 @@ def misspelt(word: str) -> str:
 
 @dataclass(frozen=True)
 class Code:
-    """A Python source as text; positions are those of `ast` (bytes of UTF-8 in a line)."""
+    """A Python source as text."""
 
     text: str
 
@@ -38,19 +40,19 @@ class Code:
 
     def of(self, node: ast.AST) -> str:
         """Return a node's code."""
-        begin, end = self._span(node)
-        return self._bytes[begin:end].decode()
+        return self._source.code(_positioned(node))
 
     def put(self, node: ast.AST, new: str) -> str:
         """Return the source with a node replaced by `new`."""
-        begin, end = self._span(node)
-        return (self._bytes[:begin] + new.encode() + self._bytes[end:]).decode()
+        return self._spliced(self._source.swap(_positioned(node), new))
 
     def put_both(self, first: ast.AST, second: ast.AST) -> str:
         """Return the source with two nodes swapped; `first` comes before `second`."""
-        (a, b), (c, d) = self._span(first), self._span(second)
-        data = self._bytes
-        return (data[:a] + data[c:d] + data[b:c] + data[a:b] + data[d:]).decode()
+        source = self._source
+        return self._spliced(
+            source.swap(_positioned(first), self.of(second)),
+            source.swap(_positioned(second), self.of(first)),
+        )
 
     def indent(self, node: ast.stmt) -> str:
         """Return the blanks before a statement."""
@@ -95,18 +97,17 @@ class Code:
         return ast.dump(found) == ast.dump(node)
 
     @cached_property
-    def _bytes(self) -> bytes:
-        return self.text.encode()
+    def _source(self) -> SourceText:
+        return SourceText(self.text, "utf-8")
 
-    @cached_property
-    def _starts(self) -> list[int]:
-        starts = [0]
-        for line in self._bytes.split(b"\n"):
-            starts.append(starts[-1] + len(line) + 1)
-        return starts
+    def _spliced(self, *splices: Splice) -> str:
+        new = self._source.spliced(splices)
+        if new is None:
+            raise ValueError("the places overlap")
+        return new.decode()
 
-    def _span(self, node: ast.AST) -> tuple[int, int]:
-        if not isinstance(node, ast.expr | ast.stmt | ast.keyword | ast.arg | ast.alias):
-            raise TypeError(f"{type(node).__name__} has no place")
-        end_line, end = node.end_lineno or node.lineno, node.end_col_offset or 0
-        return self._starts[node.lineno - 1] + node.col_offset, self._starts[end_line - 1] + end
+
+def _positioned(node: ast.AST) -> Positioned:
+    if not isinstance(node, Positioned):
+        raise TypeError(f"{type(node).__name__} has no place")
+    return node

@@ -14,18 +14,16 @@ from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_traceback import recognise
 from grader.mistakes.kind import RecognisedMistake
-from grader.mistakes.symptoms import Raised, Suspect
+from grader.mistakes.symptoms import Raised, Suspect, place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import traceback_of
-from grader.verdict.checks.parsed import node_path
-from grader.verdict.node_files import file_at, file_with_main, file_with_node
+from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
-OF_MAIN = ("run.exits_at_once", "run.no_node")
 SHORTEST = 3  # characters of a source line that is worth showing
 
 
@@ -84,25 +82,23 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
         error, where = traceback_of(evidence, evidence.run)
         if error:
             return _not_installed(error, evidence) or _raised(error, where, evidence)
-    within = file_with_main(evidence) if symptom in OF_MAIN else file_with_node(evidence)
-    if within is None:
+    source = source_of_node(evidence)
+    if source is None:
         return None
-    suspect = Suspect(within.source, within.path, evidence.assignment)
+    suspect = Suspect(source, evidence.assignment)
     if symptom == "run.wrong_text":
         return _text(diagnosis, suspect)
-    if symptom == "run.wrong_node_name" and within.source.super_init is not None:
-        diagnosis.where = Where(file=within.path, line=within.source.super_init.lineno)
-    if symptom == "run.wrong_period" and within.source.timers:
-        diagnosis.where = Where(file=within.path, line=within.source.timers[0].line)
+    if symptom == "run.wrong_node_name" and source.super_init is not None:
+        diagnosis.where = place_of(source, source.super_init)
+    if symptom == "run.wrong_period" and source.timers:
+        diagnosis.where = place_of(source, source.timers[0].call)
     look = BY_SYMPTOM.get(symptom)
     return look(suspect) if look is not None else None
 
 
 def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
-    within = file_at(evidence, where.file if where else node_path(evidence))
-    if within is None:
-        return None
-    return recognise(Raised(error, within.path, where, within.source, evidence.assignment))
+    source = source_around(evidence, where)
+    return recognise(Raised(error, where, source, evidence.assignment)) if source else None
 
 
 def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
@@ -122,14 +118,15 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
 def _text(diagnosis: Diagnosis, suspect: Suspect) -> RecognisedMistake | None:
     """Return the mistake in the number of a wrong text; None if the rest of the text differs."""
     text = str(diagnosis.mistakes[0].params.get("text", ""))
-    line = diagnosis.where.line if diagnosis.where else None
+    where = diagnosis.where
+    place = where if where and where.line else place_of(suspect.source, None)
     head, tail = suspect.output.text.split("{n}")
     if re.search(r"\{[\w.]{1,80}\}", text):
-        return suspect.finding("f_prefix", line)
+        return suspect.finding("f_prefix", place)
     if text.split() == f"{head}{tail}".split():
-        return suspect.finding("text_without_number", line)
+        return suspect.finding("text_without_number", place)
     number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
-    return suspect.finding("number_format", line) if re.fullmatch(number, text) else None
+    return suspect.finding("number_format", place) if re.fullmatch(number, text) else None
 
 
 def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:
@@ -150,10 +147,10 @@ def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:
 def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
     """Add the source line to the `actual` text."""
     where = diagnosis.where
-    within = file_at(evidence, where.file) if where is not None and where.line else None
-    if where is None or within is None:
+    source = source_around(evidence, where) if where is not None and where.line else None
+    if where is None or source is None:
         return
-    code = within.source.line(where.line)
+    code = source.module_at(where.file).line(where.line)
     if len(code) >= SHORTEST:
         line = say("line {line}: {code}", line=where.line or 0, code=shown(code))
         diagnosis.actual = joined(diagnosis.actual, line, by="\n")

@@ -1,53 +1,32 @@
-"""Finds the files that may contain the mistake: the node's own, and the modules it imports."""
+"""Finds the source that may contain the mistake: the node's, or another module's."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from grader.package.source.node import NodeSource, read_node
-from grader.verdict.checks.parsed import file_of, names_in, node_path
+from grader.verdict.checks.parsed import file_of, node_path
 
 if TYPE_CHECKING:
+    from grader.report.model import Where
     from grader.verdict.evidence import Evidence
 
-MOST_MODULES = 10  # modules searched in addition to the node's file
+
+def source_of_node(evidence: Evidence) -> NodeSource | None:
+    """Return the source of the node, which can be in several files; None if Python cannot read it."""
+    return _read(evidence, node_path(evidence))
 
 
-@dataclass(frozen=True)
-class NodeFile:
-    """A file of the package: its path in the package, and its source."""
-
-    path: str
-    source: NodeSource
-
-
-def file_at(evidence: Evidence, path: str) -> NodeFile | None:
-    """Return a file of the package; None if it does not exist or Python cannot read it."""
-    file = file_of(evidence, path)
-    source = read_node(file.data) if file is not None and not file.unreadable else None
-    return NodeFile(path, source) if source is not None else None
+def source_around(evidence: Evidence, where: Where | None) -> NodeSource | None:
+    """Return the source that a place is in: the node's, or a module that is not part of it."""
+    source = source_of_node(evidence)
+    known = source is not None and where is not None and where.file in source.paths
+    return source if where is None or known else _read(evidence, where.file)
 
 
-def file_with_main(evidence: Evidence) -> NodeFile | None:
-    """Return the node's file; None if the node's class is in another module."""
-    found = file_at(evidence, node_path(evidence))
-    return None if found is None or _imports_the_node(found, evidence) else found
+def _read(evidence: Evidence, path: str) -> NodeSource | None:
+    def data(path: str) -> bytes | None:
+        file = file_of(evidence, path)
+        return file.data if file is not None and not file.unreadable else None
 
-
-def file_with_node(evidence: Evidence) -> NodeFile | None:
-    """Return the file with the node's class: the node's file, or a module that it imports."""
-    found = file_at(evidence, node_path(evidence))
-    if found is None or not _imports_the_node(found, evidence):
-        return found
-    inner = evidence.assignment.package
-    for name in sorted(names_in(evidence, inner))[:MOST_MODULES]:
-        other = file_at(evidence, f"{inner}/{name}") if name.endswith(".py") else None
-        if other is not None and other.source.uses_ros and other.source.node_class is not None:
-            return other
-    return None
-
-
-def _imports_the_node(found: NodeFile, evidence: Evidence) -> bool:
-    own = found.source.imports_of(evidence.assignment.package)
-    return own and found.source.node_class is None
+    return read_node(data, path, evidence.assignment.function)

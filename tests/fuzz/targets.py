@@ -107,18 +107,18 @@ def terminal(found: bytes) -> None:
             assert line.log[1] >= 0
     assert len(shown.transcript) <= 50_000
     error, _ = python_error(shown.transcript, "my_first_node.py")
-    source = read_node(RIGHT[NODE])
+    source = read_node(RIGHT.get, NODE, ASSIGNMENT.function)
     assert source is not None
-    recognise(Raised(error, NODE, None, source, ASSIGNMENT))
+    recognise(Raised(error, None, source, ASSIGNMENT))
 
 
 def diagnosis(found: bytes) -> None:
-    source = read_node(found)
+    source = read_node({NODE: found}.get, NODE, ASSIGNMENT.function)
     if source is not None:
-        suspect = Suspect(source, NODE, ASSIGNMENT)
+        suspect = Suspect(source, ASSIGNMENT)
         for look in BY_SYMPTOM.values():
-            text = look(suspect)
-            assert text is None or text.kind in CATALOGUE
+            mistake = look(suspect)
+            assert mistake is None or mistake.kind in CATALOGUE
 
 
 def _with(path: str, found: bytes) -> Submission:

@@ -87,6 +87,25 @@ def test_another_way_to_write_the_node_counts(tmp_path: Path) -> None:
     assert steps.current(found(tmp_path / "ws", environment)) == 10
 
 
+@pytest.mark.parametrize(
+    ("lacking", "output"),
+    [("", ""), ("self.create_timer(1.0, self.timer_callback)", "no timer"), ("(Node)", "no class")],
+)
+def test_a_class_in_another_module_of_the_package_counts(
+    lacking: str, output: str, tmp_path: Path
+) -> None:
+    head, end = NODE.split("def main(")
+    entry = (
+        f"#!/usr/bin/env python3\nimport rclpy\nfrom .hello import MyFirstNode\n\n\ndef main({end}"
+    )
+    environment = after_step(tmp_path / "ws", 9, entry)
+    new = "pass" if output == "no timer" else ""
+    put(tmp_path / "ws", f"{INNER}/hello.py", head.replace(lacking, new) if lacking else head)
+    now = found(tmp_path / "ws", environment)
+    assert steps.current(now) == (6 if lacking else 10)
+    assert output in now[5]
+
+
 def test_files_in_a_wrong_state_are_reported(tmp_path: Path) -> None:
     """Each mistake alone, in an otherwise right workspace."""
 

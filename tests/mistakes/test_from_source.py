@@ -13,7 +13,7 @@ from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_traceback import RECOGNISERS, recognise
 from grader.mistakes.kind import RecognisedMistake
 from grader.mistakes.symptoms import Raised, Suspect
-from grader.package.source.node import MOST_BYTES, read_node
+from grader.package.source.node import MOST_BYTES, NodeSource, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE
@@ -49,17 +49,19 @@ OTHERWISE = textwrap.dedent(
 )
 
 
-def look(symptom: str, text: str) -> RecognisedMistake | None:
-    source = read_node(text.encode())
+def node_in(text: str) -> NodeSource:
+    source = read_node({FILE: text.encode()}.get, FILE, "main")
     assert source is not None
-    return BY_SYMPTOM[symptom](Suspect(source, FILE, ASSIGNMENT))
+    return source
+
+
+def look(symptom: str, text: str) -> RecognisedMistake | None:
+    return BY_SYMPTOM[symptom](Suspect(node_in(text), ASSIGNMENT))
 
 
 def raised(error: str, text: str, line: int | None) -> RecognisedMistake | None:
-    source = read_node(text.encode())
-    assert source is not None
     where = Where(file=FILE, line=line) if line else None
-    return recognise(Raised(error, FILE, where, source, ASSIGNMENT))
+    return recognise(Raised(error, where, node_in(text), ASSIGNMENT))
 
 
 def line_of(text: str, part: str) -> int:
@@ -193,6 +195,27 @@ def test_an_exception_is_classified_and_the_right_name_suggested(
     assert found.where.line == at
 
 
+@pytest.mark.parametrize(
+    ("error", "fix"),
+    [
+        ("ModuleNotFoundError: No module named 'rcply'", "Write rclpy instead of rcply."),
+        ("ModuleNotFoundError: No module named 'qqqqq'", "Check the spelling of the module's name"),
+        ("ImportError: cannot import name 'node' from 'rclpy.node' (/opt/node.py)",
+         "Write Node instead of node."),
+        ("ImportError: cannot import name 'Int' from 'std_msgs.msg' (/opt/msg.py)",
+         "Compare the name with the module's documentation."),
+        ("NameError: name 'Hallo' is not defined",
+         "Write Hello instead of Hallo, or define Hallo first."),
+        ("NameError: name 'qqqqq' is not defined", "Write the name exactly as it is defined"),
+    ],
+)  # fmt: skip
+def test_the_fix_of_a_misspelt_name_has_the_nearest_known_name(error: str, fix: str) -> None:
+    found = raised(error, OTHERWISE, 1)
+    assert found is not None
+    values = {**found.params, **found.words}
+    assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(fix)
+
+
 def test_the_second_of_two_calls_of_init_is_reported() -> None:
     text = OTHERWISE.replace("args=args)\n", "args=args)\n    rclpy.init()\n")
     found = raised("RuntimeError: Context.init() must only be called once", text, None)
@@ -220,18 +243,18 @@ def test_a_missing_node_name_is_distinguished_from_a_misspelt_init() -> None:
 def test_any_source_is_examined_without_an_error(data: st.DataObject) -> None:
     lines = RIGHT.splitlines()
     kept = data.draw(st.lists(st.sampled_from(lines), max_size=40))
-    source = read_node("\n".join(kept).encode())
+    source = read_node({FILE: "\n".join(kept).encode()}.get, FILE, "main")
     if source is None:
         return
     for find in BY_SYMPTOM.values():
-        found = find(Suspect(source, FILE, ASSIGNMENT))
+        found = find(Suspect(source, ASSIGNMENT))
         assert found is None or found.kind in CATALOGUE
     errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]
     error = data.draw(st.sampled_from(errors) | st.text(max_size=80))
-    found = recognise(Raised(error, FILE, Where(file=FILE, line=3), source, ASSIGNMENT))
+    found = recognise(Raised(error, Where(file=FILE, line=3), source, ASSIGNMENT))
     assert found is None or found.kind in CATALOGUE
 
 
 def test_an_unparsable_or_huge_file_has_no_facts() -> None:
-    assert read_node(b"def broken(:\n") is None
-    assert read_node(b"x = 1\n" * MOST_BYTES) is None
+    for found in (b"def broken(:\n", b"x = 1\n" * MOST_BYTES):
+        assert read_node({FILE: found}.get, FILE, "main") is None

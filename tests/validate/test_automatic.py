@@ -11,7 +11,7 @@ from grader.course.load import load_assignment
 from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code
-from grader.validate.tree import digest, read_tree
+from grader.validate.tree import Write, apply_all, digest, read_tree
 from tests.processes import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
@@ -84,3 +84,18 @@ def test_places_are_found_in_lines_with_multibyte_letters() -> None:
     assert code.of(second.value) == "'ü'"
     assert code.put(second.value, "'x'") == "a = 'é'; b = 'x'\nc = 3\n"
     assert code.put_both(first, third) == "c = 3; b = 'ü'\na = 'é'\n"
+
+
+def test_a_node_whose_class_is_in_another_module_has_mutants_of_both_files() -> None:
+    head, end = SOLUTION[NODE].data.decode().split("def main(")
+    entry = (
+        f"#!/usr/bin/env python3\nimport rclpy\nfrom .hello import MyFirstNode\n\n\ndef main({end}"
+    )
+    other = "my_robot_controller/hello.py"
+    tree = apply_all((Write(NODE, entry), Write(other, head)), SOLUTION)
+    made = {mutant.name: mutant for mutant in generate(tree, ASSIGNMENT)}
+    for name, path in (("drop rclpy.spin(node)", NODE), ("drop self.counter_ += 1", other)):
+        mutant = made[name]
+        files = mutant.of(tree)
+        assert [p for p in tree if files[p] != tree[p]] == [path]
+        assert mutant.is_hit_by("run.output")

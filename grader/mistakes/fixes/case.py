@@ -5,10 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from grader.course.assignment import Assignment
 from grader.package.edit.files import Files
-from grader.package.edit.text import SourceText, read_source
+from grader.package.edit.text import SourceText, Splice, read_source
+from grader.package.source.module import Module
+from grader.package.source.node import NodeSource, read_node
 from grader.package.source.python import PythonFault, parse_python
 from grader.report.model import CheckResult
 
@@ -65,6 +68,16 @@ class Case:
             return source, parse_python(found).tree
         except PythonFault:
             return None
+
+    @cached_property
+    def node(self) -> NodeSource | None:
+        """The source of the node; None if it cannot be read, or if several classes share its code."""
+        source = read_node(self.files.data, self.node_path, self.assignment.function)
+        return source if source is not None and source.is_one_class else None
+
+    def changed(self, module: Module, *splices: Splice) -> Files | None:
+        """Return the files after changes to a module; None if Python cannot parse the result."""
+        return self.with_data(module.path, module.edited(splices)) if splices else None
 
     def with_data(self, path: str, data: bytes | None) -> Files | None:
         """Return the files with one replaced; None if `data` is None or equal to the old bytes."""

@@ -5,94 +5,127 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode, own, read_node
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
+from grader.package.source.counter import (
+    changes_of,
+    declares,
+    local_start,
+    names_given,
+    outer_start,
+    starts_of,
+    targets_of,
+)
+from grader.package.source.node import NodeSource
 
 
 def plus(case: Case) -> Files | None:
     """Replace =+ with +=."""
-    code = read_node(case)
+    node = case.node
     found: list[tuple[ast.Assign, ast.UnaryOp]] = []
-    changes = [s for name in code.counters() for s in code.changes_of(name)] if code else []
+    changes = [s for name in starts_of(node) for s in changes_of(node, name)] if node else []
     for change in changes:
         value = change.value if isinstance(change, ast.Assign) else None
         if isinstance(value, ast.UnaryOp) and isinstance(change, ast.Assign):
             found += [(change, value)] if isinstance(value.op, ast.UAdd) else []
-    if code is None or len(found) != 1:
+    if node is None or len(found) != 1:
         return None
     statement, signed = found[0]
-    start = code.source.span(statement.targets[0])[1]
-    end = code.source.span(signed)[0]
-    if "".join(code.source.text[start:end].split()) != "=":
+    module = node.module_of(statement)
+    start = module.text.span(statement.targets[0])[1]
+    end = module.text.span(signed)[0]
+    if "".join(module.text.text[start:end].split()) != "=":
         return None
-    return code.changed(Splice(start, code.source.span(signed.operand)[0], " += "))
+    return case.changed(module, Splice(start, module.text.span(signed.operand)[0], " += "))
 
 
 def step(case: Case) -> Files | None:
     """Increment the counter after the log line, if nothing ever changes it."""
-    code = read_node(case)
-    call = code.log_call if code else None
-    if code is None or call is None:
+    node = case.node
+    call = node.log_call if node else None
+    name = _counted(node, call) if node and call else ""
+    function = node.function_around(call) if node and call else None
+    if node is None or call is None or function is None or not name:
         return None
-    named = {own(n) for n in ast.walk(call) if isinstance(n, ast.Attribute)} & set(code.counters())
-    lines = [s for m in code.methods for s in m.body if isinstance(s, ast.Expr) and s.value is call]
-    if len(named) != 1 or len(lines) != 1 or code.changes_of(min(named)):
+    lines = [s for s in function.body if isinstance(s, ast.Expr) and s.value is call]
+    if len(lines) != 1 or changes_of(node, name):
         return None
+    module = node.module_of(call)
     line = lines[0].end_lineno or lines[0].lineno
-    indent = indent_of(code.source.line(lines[0].lineno))
-    row = f"{indent}self.{min(named)} += {case.assignment.output.step}"
-    return code.changed(code.source.before(line + 1, row))
+    indent = indent_of(module.text.line(lines[0].lineno))
+    row = f"{indent}{name} += {case.assignment.output.step}"
+    return case.changed(module, *_declared(node, name), module.text.before(line + 1, row))
+
+
+def _declared(node: NodeSource, name: str) -> list[Splice]:
+    """Return the splices that declare a variable in the callback, if it needs that."""
+    callback = node.callback
+    start = outer_start(node, name)
+    if callback is None or start is None or declares(callback, name):
+        return []
+    module = node.module_of(callback)
+    first = callback.body[0]
+    documented = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    line = (first.end_lineno or first.lineno) + 1 if documented else first.lineno
+    word = "global" if node.function_around(start) is None else "nonlocal"
+    indent = indent_of(module.text.line(first.lineno))
+    return [module.text.before(line, f"{indent}{word} {name}")]
 
 
 def start(case: Case) -> Files | None:
     """Correct the first number: change the initial value, or increment after the log line."""
-    code = read_node(case)
-    call = code.log_call if code else None
-    name = _counted(code, call) if code and call else ""
-    changes = code.changes_of(name) if code and name else []
-    if code is None or call is None or len(changes) != 1:
+    node = case.node
+    call = node.log_call if node else None
+    name = _counted(node, call) if node and call else ""
+    changes = changes_of(node, name) if node and name else []
+    if node is None or call is None or len(changes) != 1:
         return None
-    change, first = changes[0], code.counters()[name]
+    change, first = changes[0], starts_of(node)[name]
     if not isinstance(change, ast.AugAssign):
         return None
+    wanted = case.assignment.output.start
     if change.lineno > call.lineno:
-        wanted = case.assignment.output.start
+        module = node.module_of(first)
         return (
-            code.changed(code.source.swap(first, repr(wanted))) if first.value != wanted else None
+            case.changed(module, module.text.swap(first, repr(wanted)))
+            if (first.value != wanted)
+            else None
         )
-    return _after_log(code, change, call) if first.value == case.assignment.output.start else None
+    return _after_log(case, change, call) if first.value == wanted else None
 
 
-def _after_log(code: NodeCode, change: ast.stmt, call: ast.Call) -> Files | None:
+def _after_log(case: Case, change: ast.stmt, call: ast.Call) -> Files | None:
     """Move the line directly before the log line to directly after it."""
-    body = next((m.body for m in code.methods if change in m.body), [])
+    node = case.node
+    function = node.function_around(change) if node else None
+    body = function.body if function is not None and change in function.body else []
     at = body.index(change) if body else 0
     log = body[at + 1] if at + 1 < len(body) else None
-    if not isinstance(log, ast.Expr) or log.value is not call:
+    if node is None or not isinstance(log, ast.Expr) or log.value is not call:
         return None
     if change.end_lineno != change.lineno or change.lineno + 1 != log.lineno:
         return None
-    row = code.source.line(change.lineno)
+    module = node.module_of(change)
+    row = module.text.line(change.lineno)
     below = (log.end_lineno or log.lineno) + 1
-    return code.changed(code.source.without(change.lineno), code.source.before(below, row))
+    return case.changed(module, module.text.without(change.lineno), module.text.before(below, row))
 
 
-def _counted(code: NodeCode, call: ast.Call) -> str:
+def _counted(node: NodeSource, call: ast.Call) -> str:
     """Return the name of the counter that is logged; "" if there is not exactly one."""
-    named = {own(n) for n in ast.walk(call) if isinstance(n, ast.Attribute)} & set(code.counters())
+    named = set(names_given(call)) & set(starts_of(node))
     return min(named) if len(named) == 1 else ""
 
 
 def by(case: Case) -> Files | None:
     """Increment the counter by the required step."""
-    code = read_node(case)
-    call = code.log_call if code else None
-    name = _counted(code, call) if code and call else ""
-    changes = code.changes_of(name) if code and name else []
+    node = case.node
+    call = node.log_call if node else None
+    name = _counted(node, call) if node and call else ""
+    changes = changes_of(node, name) if node and name else []
     change = changes[0] if len(changes) == 1 else None
     wanted = case.assignment.output.step
-    if code is None or not isinstance(change, ast.AugAssign) or wanted < 0:
+    if node is None or not isinstance(change, ast.AugAssign) or wanted < 0:
         return None
     value = change.value
     if not isinstance(value, ast.Constant) or type(value.value) is not int:
@@ -101,54 +134,108 @@ def by(case: Case) -> Files | None:
         return None
     if (type(change.op), value.value) == (ast.Add, wanted):
         return None
-    code_of = code.source.code(change.target)
-    return code.changed(code.source.swap(change, f"{code_of} += {wanted}"))
+    module = node.module_of(change)
+    code_of = module.text.code(change.target)
+    return case.changed(module, module.text.swap(change, f"{code_of} += {wanted}"))
 
 
 def twice(case: Case) -> Files | None:
-    """Remove the second of two identical lines in a row in a method."""
-    code = read_node(case)
-    if code is None:
+    """Remove the second of two identical lines in a row in a function of the node."""
+    node = case.node
+    if node is None:
         return None
+    text = node.module.text
     splices = []
-    for method in code.methods:
-        for one, other in zip(method.body, method.body[1:]):
-            rows = [code.source.line(s.lineno).strip() for s in (one, other)]
-            if rows[0] == rows[1] == code.source.code(other) and ast.unparse(one) == rows[0]:
-                splices.append(code.source.without(other.lineno))
-    return code.changed(*splices) if len(splices) == 1 else None
+    for function in node.own_functions:
+        for one, other in zip(function.body, function.body[1:]):
+            rows = [text.line(s.lineno).strip() for s in (one, other)]
+            if rows[0] == rows[1] == text.code(other) and ast.unparse(one) == rows[0]:
+                splices.append(text.without(other.lineno))
+    return case.changed(node.module, *splices) if len(splices) == 1 else None
 
 
 def self_dot(case: Case) -> Files | None:
     """Put the missing self. before the counter."""
-    code = read_node(case)
-    if code is None or not code.counters():
+    node = case.node
+    starts = starts_of(node) if node else {}
+    own = {name.removeprefix("self.") for name in starts if name.startswith("self.")}
+    if node is None or not own:
         return None
-    bound = {a.arg for n in ast.walk(code.tree) if isinstance(n, ast.arguments) for a in n.args}
+    bound = {a.arg for n in node.own_nodes if isinstance(n, ast.arguments) for a in n.args}
     splices = []
-    for method in code.methods:
-        for node in ast.walk(method):
-            if isinstance(node, ast.Name) and node.id in code.counters() and node.id not in bound:
-                if method.name == "__init__":
+    for method in node.own_methods:
+        for part in ast.walk(method):
+            if isinstance(part, ast.Name) and part.id in own and part.id not in bound:
+                if method.name == "__init__" or node.module.text.code(part) != part.id:
                     return None
-                at = code.source.span(node)[0]
+                at = node.module.text.span(part)[0]
                 splices.append(Splice(at, at, "self."))
-    return code.changed(*splices)
+    return case.changed(node.module, *splices)
+
+
+def outer(case: Case) -> Files | None:
+    """Declare the counter, a variable outside the callback that it changes."""
+    node = case.node
+    callback = node.callback if node else None
+    if node is None or callback is None:
+        return None
+    changed = {n for part in ast.walk(callback) for n in targets_of(part)}
+    names = {name for name in changed if outer_start(node, name) and not declares(callback, name)}
+    return case.changed(node.module, *_declared(node, min(names))) if len(names) == 1 else None
 
 
 def kept(case: Case) -> Files | None:
     """Remove the line of the callback that resets the counter to its start."""
-    code = read_node(case)
-    call = code.log_call if code else None
-    name = _counted(code, call) if code and call else ""
-    changes = code.changes_of(name) if code and name else []
+    node = case.node
+    call = node.log_call if node else None
+    name = _counted(node, call) if node and call else ""
+    if node is None or call is None:
+        return None
+    if not name:
+        return _made_attribute(case, call)
+    changes = changes_of(node, name)
     resets = [s for s in changes if isinstance(s, ast.Assign)]
-    if code is None or len(changes) != 2 or len(resets) != 1:
+    if len(changes) != 2 or len(resets) != 1:
         return None
     value = resets[0].value
+    module = node.module_of(resets[0])
     plain = isinstance(value, ast.Constant) and value.value == case.assignment.output.start
-    in_method = any(resets[0] in method.body for method in code.methods)
-    row = code.source.line(resets[0].lineno).strip()
-    if not plain or not in_method or row != code.source.code(resets[0]):
+    function = node.function_around(resets[0])
+    inside = function is not None and resets[0] in function.body
+    row = module.text.line(resets[0].lineno).strip()
+    if not plain or not inside or row != module.text.code(resets[0]):
         return None
-    return code.changed(code.source.without(resets[0].lineno))
+    return case.changed(module, module.text.without(resets[0].lineno))
+
+
+def _made_attribute(case: Case, call: ast.Call) -> Files | None:
+    """Make an attribute that __init__ sets of a counter that is a variable of the callback."""
+    node = case.node
+    if node is None:
+        return None
+    callback, init = (
+        node.method(node.callback.name if node.callback else ""),
+        node.method("__init__"),
+    )
+    names = {n for n in names_given(call) if callback is not None and local_start(callback, n)}
+    if callback is None or init is None or len(names) != 1 or callback is init:
+        return None
+    name, text = min(names), node.module.text
+    first = local_start(callback, name)
+    used = [n for n in ast.walk(callback) if isinstance(n, ast.Name) and n.id == name]
+    last = node.super_init
+    if first is None or last is None or name in node.attributes or name in node.methods:
+        return None
+    row = text.line(first.lineno).strip()
+    if row != text.code(first) or text.line(last.lineno).strip() != text.code(last):
+        return None
+    if any(text.code(n) != name for n in used):  # (in an f-string, before Python 3.12)
+        return None
+    indent = indent_of(text.line(last.lineno))
+    places = [text.span(n)[0] for n in used if n not in first.targets]
+    return case.changed(
+        node.module,
+        text.without(first.lineno),
+        text.before((last.end_lineno or last.lineno) + 1, f"{indent}self.{row}"),
+        *(Splice(at, at, "self.") for at in places),
+    )

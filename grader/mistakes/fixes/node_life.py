@@ -5,36 +5,40 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode, own, read_node
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
+from grader.package.source.module import Module
+from grader.package.source.names import dotted, own_name
+from grader.package.source.node import NodeSource
 
 IMPORT = "from rclpy.node import Node"
 
 
 def node_import(case: Case) -> Files | None:
     """Import Node from rclpy.node."""
-    code = read_node(case)
-    if code is None or "Node" not in {ast.unparse(b) for b in code.node_class.bases}:
+    node = case.node
+    bases = node.node_class.bases if node and node.node_class else []
+    if node is None or "Node" not in {ast.unparse(base) for base in bases}:
         return None
-    imports = [s for s in code.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
+    module = node.module
+    imports = [s for s in module.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
     for statement in imports:
         names = [alias.asname or alias.name for alias in statement.names]
         if "Node" in names or "*" in names:
             lost = isinstance(statement, ast.ImportFrom) and statement.module == "rclpy"
             return (
-                code.changed(code.source.swap(statement, IMPORT))
+                case.changed(module, module.text.swap(statement, IMPORT))
                 if lost and names == ["Node"]
                 else None
             )
     plain = [s for s in imports if isinstance(s, ast.Import) and s.names[0].name == "rclpy"]
-    if len(plain) != 1 or _binds(code, "Node"):
+    if len(plain) != 1 or _binds(module, "Node"):
         return None
-    return code.changed(code.source.before(plain[0].lineno + 1, IMPORT))
+    return case.changed(module, module.text.before(plain[0].lineno + 1, IMPORT))
 
 
-def _binds(code: NodeCode, name: str) -> bool:
-    for node in ast.walk(code.tree):
+def _binds(module: Module, name: str) -> bool:
+    for node in module.nodes:
         if isinstance(node, ast.Name) and node.id == name and isinstance(node.ctx, ast.Store):
             return True
         if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == name:
@@ -44,76 +48,86 @@ def _binds(code: NodeCode, name: str) -> bool:
 
 def base_class(case: Case) -> Files | None:
     """Derive the class from Node, if it has no base class and creates a timer."""
-    code = read_node(case)
-    if code is None or code.node_class.bases or code.timer is None:
+    node = case.node
+    node_class = node.node_class if node else None
+    timer = node.timer_call if node else None
+    if node is None or node_class is None or node_class.bases or timer is None:
         return None
-    if own(code.timer.func) != "create_timer" or IMPORT not in code.source.text:
+    text = node.module.text
+    if own_name(timer.func) != "create_timer" or IMPORT not in text.text:
         return None
-    line = code.node_class.lineno
-    head = code.source.line(line)
-    name = f"class {code.node_class.name}"
+    line = node_class.lineno
+    head = text.line(line)
+    name = f"class {node_class.name}"
     if not head.startswith(name) or head[len(name) :].strip() not in (":", "():"):
         return None
-    start = code.source.start_of(line) + len(name)
-    return code.changed(Splice(start, code.source.end_of(line), "(Node):"))
+    start = text.start_of(line) + len(name)
+    return case.changed(node.module, Splice(start, text.end_of(line), "(Node):"))
 
 
 def constructor(case: Case) -> Files | None:
     """Rename the constructor to __init__, with two underscores on both sides."""
-    code = read_node(case)
-    if code is None or code.method("__init__") is not None:
+    node = case.node
+    if node is None or node.method("__init__") is not None:
         return None
     near = ("_init_", "__init_", "_init__", "init", "__int__", "__inti__", "__ini__")
-    found = [m for m in code.methods if m.name in near]
-    if len(found) != 1 or not code.calls("__init__", within=found[0]):
+    found = [m for m in node.own_methods if m.name in near]
+    if len(found) != 1 or not node.calls_of("__init__", within=found[0]):
         return None
-    at = code.source.at(found[0].lineno, found[0].col_offset) + len("def ")
-    if code.source.text[at : at + len(found[0].name)] != found[0].name:
+    text = node.module.text
+    at = text.at(found[0].lineno, found[0].col_offset) + len("def ")
+    if text.text[at : at + len(found[0].name)] != found[0].name:
         return None
-    return code.changed(Splice(at, at + len(found[0].name), "__init__"))
+    return case.changed(node.module, Splice(at, at + len(found[0].name), "__init__"))
 
 
 def name(case: Case) -> Files | None:
     """Pass the node's name to super().__init__(), and add a missing call at the start."""
-    code = read_node(case)
-    init = code.method("__init__") if code else None
-    if code is None or init is None:
+    node = case.node
+    init = node.method("__init__") if node else None
+    if node is None or init is None:
         return None
-    wanted = f"{code.source.quote}{case.assignment.node_name}{code.source.quote}"
-    calls = code.calls("__init__")
+    text = node.module.text
+    wanted = f"{text.quote}{case.assignment.node_name}{text.quote}"
+    calls = node.calls_of("__init__")
     if not calls:
-        return _call_added(code, init, f"super().__init__({wanted})")
+        return _call_added(case, init, f"super().__init__({wanted})")
     if len(calls) != 1 or ast.unparse(calls[0].func) != "super().__init__":
         return None
     call = calls[0]
     if not call.args and not call.keywords:
-        end = code.source.span(call)[1] - 1
-        return code.changed(Splice(end, end, wanted))
+        end = text.span(call)[1] - 1
+        return case.changed(node.module, Splice(end, end, wanted))
     given = call.args[0] if call.args else None
     for keyword in call.keywords:
         given = keyword.value if keyword.arg == "node_name" and given is None else given
-    old = code.source.plain_string(given)
+    old = text.plain_string(given)
     if given is None or old is None or old == case.assignment.node_name:
         return None
-    q = code.source.code(given)[0]
-    return code.changed(code.source.swap(given, f"{q}{case.assignment.node_name}{q}"))
+    q = text.code(given)[0]
+    return case.changed(node.module, text.swap(given, f"{q}{case.assignment.node_name}{q}"))
 
 
-def _call_added(code: NodeCode, init: ast.FunctionDef, call: str) -> Files | None:
-    bases = {ast.unparse(base).rpartition(".")[2] for base in code.node_class.bases}
+def _call_added(case: Case, init: ast.FunctionDef, call: str) -> Files | None:
+    node = case.node
+    if node is None or node.node_class is None:
+        return None
+    text = node.module.text
+    bases = {ast.unparse(base).rpartition(".")[2] for base in node.node_class.bases}
     first = init.body[0]
     documented = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
     if bases != {"Node"} or init.lineno == first.lineno:
         return None
     line = (first.end_lineno or first.lineno) + 1 if documented else first.lineno
-    return code.changed(code.source.before(line, indent_of(code.source.line(first.lineno)) + call))
+    row = indent_of(text.line(first.lineno)) + call
+    return case.changed(node.module, text.before(line, row))
 
 
 def super_first(case: Case) -> Files | None:
     """Move super().__init__() to the start of the constructor."""
-    code = read_node(case)
-    init = code.method("__init__") if code else None
-    if code is None or init is None:
+    node = case.node
+    init = node.method("__init__") if node else None
+    if node is None or init is None:
         return None
     found = [s for s in init.body if isinstance(s, ast.Expr) and _is_super(s.value)]
     first = init.body[0]
@@ -121,8 +135,9 @@ def super_first(case: Case) -> Files | None:
         first = init.body[1] if len(init.body) > 1 else first
     if len(found) != 1 or found[0] is first or found[0].end_lineno != found[0].lineno:
         return None
-    row = code.source.line(found[0].lineno)
-    return code.changed(code.source.without(found[0].lineno), code.source.before(first.lineno, row))
+    text = node.module.text
+    row = text.line(found[0].lineno)
+    return case.changed(node.module, text.without(found[0].lineno), text.before(first.lineno, row))
 
 
 def _is_super(node: ast.expr) -> bool:
@@ -131,42 +146,45 @@ def _is_super(node: ast.expr) -> bool:
 
 def main_arguments(case: Case) -> Files | None:
     """Give main's argument a default: the entry point calls main without arguments."""
-    code = read_node(case)
-    main = code.main if code else None
-    if code is None or main is None or main.args.defaults or main.decorator_list:
+    node = case.node
+    main = node.main if node else None
+    if node is None or main is None or main.args.defaults or main.decorator_list:
         return None
     args = main.args.args
     if len(args) != 1 or main.args.posonlyargs or main.args.kwonlyargs or args[0].annotation:
         return None
-    at = code.source.at(args[0].lineno, args[0].col_offset) + len(args[0].arg)
-    return code.changed(Splice(at, at, "=None"))
+    module = node.module_of(main)
+    at = module.text.at(args[0].lineno, args[0].col_offset) + len(args[0].arg)
+    return case.changed(module, Splice(at, at, "=None"))
 
 
 def rclpy_init(case: Case) -> Files | None:
     """Call rclpy.init() first in main: add the missing call, or move it there."""
-    code = read_node(case)
-    main = code.main if code else None
-    if code is None or main is None or "import rclpy" not in code.source.text:
+    node = case.node
+    main = node.main if node else None
+    if node is None or main is None:
         return None
+    module = node.module_of(main)
+    text = module.text
     body = [s for s in main.body if not _is_text(s)]
-    calls = [c for c in code.calls("init") if ast.unparse(c.func) == "rclpy.init"]
-    made = [s for s in main.body if _makes(s, code.node_class.name)]
-    if not made or body[0].lineno == main.lineno or "from rclpy import" in code.source.text:
+    calls = [c for c in node.calls_of("init") if ast.unparse(c.func) == "rclpy.init"]
+    made = [s for s in main.body if _makes(s, node)]
+    if not made or body[0].lineno == main.lineno:
         return None
-    indent = indent_of(code.source.line(body[0].lineno))
+    if "import rclpy" not in text.text or "from rclpy import" in text.text:
+        return None
+    indent = indent_of(text.line(body[0].lineno))
     if not calls:
         takes = [a.arg for a in main.args.args] == ["args"]
         row = f"{indent}rclpy.init({'args=args' if takes else ''})"
-        return code.changed(code.source.before(body[0].lineno, row))
+        return case.changed(module, text.before(body[0].lineno, row))
     lines = [s for s in main.body if isinstance(s, ast.Expr) and s.value in calls]
     if len(calls) != 1 or len(lines) != 1 or lines[0] is body[0]:
         return None
     if lines[0].end_lineno != lines[0].lineno or not isinstance(body[0], ast.Assign):
         return None
-    row = code.source.line(lines[0].lineno)
-    return code.changed(
-        code.source.without(lines[0].lineno), code.source.before(body[0].lineno, row)
-    )
+    row = text.line(lines[0].lineno)
+    return case.changed(module, text.without(lines[0].lineno), text.before(body[0].lineno, row))
 
 
 def _is_text(statement: ast.stmt) -> bool:
@@ -175,11 +193,13 @@ def _is_text(statement: ast.stmt) -> bool:
 
 def spin(case: Case) -> Files | None:
     """Spin the node that main creates: with a real call, and forever instead of once."""
-    code = read_node(case)
-    main = code.main if code else None
-    if code is None or main is None:
+    node = case.node
+    main = node.main if node else None
+    if node is None or node.node_class is None or main is None:
         return None
-    made = [s for s in main.body if _makes(s, code.node_class.name)]
+    module = node.module_of(main)
+    text = module.text
+    made = [s for s in main.body if _makes(s, node)]
     loops = [n for n in ast.walk(main) if isinstance(n, ast.While | ast.For)]
     if len(made) != 1 or loops or not isinstance(made[0], ast.Assign):
         return None
@@ -187,18 +207,18 @@ def spin(case: Case) -> Files | None:
     if not isinstance(target, ast.Name):
         return None
     spun = [s for s in ast.walk(main) if isinstance(s, ast.Expr) and _spins(s)]
-    if not spun and not _spins(code.tree):
-        row = f"{indent_of(code.source.line(made[0].lineno))}rclpy.spin({target.id})"
-        return code.changed(code.source.before((made[0].end_lineno or made[0].lineno) + 1, row))
+    if not spun and not any(_spins(each.tree) for each in node.modules):
+        row = f"{indent_of(text.line(made[0].lineno))}rclpy.spin({target.id})"
+        return case.changed(module, text.before((made[0].end_lineno or made[0].lineno) + 1, row))
     wrong = [
         f"rclpy.spin_once({target.id})",
         "rclpy.spin",
         "rclpy.spin()",
-        f"rclpy.spin({code.node_class.name})",
+        f"rclpy.spin({dotted(made[0].value).removesuffix('()')})",
     ]
     if len(spun) != 1 or ast.unparse(spun[0]) not in wrong:
         return None
-    return code.changed(code.source.swap(spun[0], f"rclpy.spin({target.id})"))
+    return case.changed(module, text.swap(spun[0], f"rclpy.spin({target.id})"))
 
 
 def _spins(node: ast.AST) -> bool:
@@ -211,6 +231,7 @@ def _spins(node: ast.AST) -> bool:
     return any(name.startswith("spin") for name in names)
 
 
-def _makes(statement: ast.stmt, name: str) -> bool:
+def _makes(statement: ast.stmt, node: NodeSource) -> bool:
+    """Whether it is an assignment whose value is a new node."""
     value = statement.value if isinstance(statement, ast.Assign) else None
-    return isinstance(value, ast.Call) and ast.unparse(value.func) == name
+    return isinstance(value, ast.Call) and node.is_node_class(value.func)

@@ -6,19 +6,28 @@ import ast
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_code import NodeCode, own, read_node
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
+from grader.package.source.counter import names_given, targets_of
+from grader.package.source.module import Module
+from grader.package.source.names import dotted, own_name
+from grader.package.source.node import NodeSource
 
 
 def rclpy(case: Case) -> Files | None:
     """Import rclpy by its right name, if the code uses that name."""
-    code = read_node(case)
-    if code is None:
-        return None
+    for module in case.node.modules if case.node else ():
+        splices = _right_imports(module)
+        used = any(isinstance(n, ast.Name) and n.id == "rclpy" for n in module.nodes)
+        if splices:
+            return case.changed(module, *splices) if used else None
+    return None
+
+
+def _right_imports(module: Module) -> list[Splice]:
     splices = []
-    for statement in code.tree.body:
-        line = code.source.line(statement.lineno)
+    for statement in module.tree.body:
+        line = module.text.line(statement.lineno)
         if isinstance(statement, ast.Import) and len(statement.names) == 1:
             written = statement.names[0].name
         elif isinstance(statement, ast.ImportFrom) and not statement.level:
@@ -27,55 +36,57 @@ def rclpy(case: Case) -> Files | None:
             continue
         if nearest("rclpy", [written], cutoff=0.75) != written or line.count(written) != 1:
             continue
-        at = code.source.start_of(statement.lineno) + line.find(written)
+        at = module.text.start_of(statement.lineno) + line.find(written)
         splices.append(Splice(at, at + len(written), "rclpy"))
-    used = any(isinstance(n, ast.Name) and n.id == "rclpy" for n in ast.walk(code.tree))
-    return code.changed(*splices) if used else None
+    return splices
 
 
 def main(case: Case) -> Files | None:
     """Rename the only function of the file to main."""
-    code = read_node(case)
-    wanted = case.assignment.target.partition(":")[2]
-    found = [s for s in code.tree.body if isinstance(s, ast.FunctionDef)] if code else []
-    if code is None or len(found) != 1 or found[0].name == wanted:
+    node = case.node
+    wanted = case.assignment.function
+    body = node.entry.tree.body if node else []
+    found = [s for s in body if isinstance(s, ast.FunctionDef)]
+    if node is None or len(found) != 1 or found[0].name == wanted:
         return None
-    old = found[0].name
-    head = code.source.at(found[0].lineno, found[0].col_offset) + len("def ")
-    names = [n for n in ast.walk(code.tree) if isinstance(n, ast.Name)]
+    old, text = found[0].name, node.entry.text
+    head = text.at(found[0].lineno, found[0].col_offset) + len("def ")
+    names = [n for n in node.entry.nodes if isinstance(n, ast.Name)]
     if any(n.id == wanted or (n.id == old and isinstance(n.ctx, ast.Store)) for n in names):
         return None
-    if code.source.text[head : head + len(old)] != old or not code.calls("init", within=found[0]):
+    if text.text[head : head + len(old)] != old or not node.calls_of("init", within=found[0]):
         return None
-    uses = [code.source.swap(n, wanted) for n in names if n.id == old]
-    return code.changed(Splice(head, head + len(old), wanted), *uses)
+    uses = [text.swap(n, wanted) for n in names if n.id == old]
+    return case.changed(node.entry, Splice(head, head + len(old), wanted), *uses)
 
 
 def counter(case: Case) -> Files | None:
     """Make __init__ set the counter that the callback logs: with self. and the same name."""
-    code = read_node(case)
-    call = code.log_call if code else None
-    init = code.method("__init__") if code else None
-    if code is None or call is None or init is None:
+    node = case.node
+    call = node.log_call if node else None
+    init = node.method("__init__") if node else None
+    if node is None or call is None or init is None:
         return None
-    logged = {own(n) for n in ast.walk(call) if isinstance(n, ast.Attribute)} - {"", "get_logger"}
-    if len(logged) != 1 or _is_set(code, min(logged)):
+    logged = {n.removeprefix("self.") for n in names_given(call) if n.startswith("self.")}
+    logged = {name.partition(".")[0] for name in logged} - {"get_logger"}
+    if len(logged) != 1 or _is_set(node, min(logged)):
         return None
-    name = min(logged)
+    name, text = min(logged), node.module.text
     for statement in init.body:
         target = statement.targets[0] if isinstance(statement, ast.Assign) else None
-        written = target.id if isinstance(target, ast.Name) else own(target)
+        written = target.id if isinstance(target, ast.Name) else own_name(target)
         near = written == name or nearest(name, [written], cutoff=0.8) == written
-        if target is None or not near or not _is_number(statement):
+        if target is None or not written or not near or not _is_number(statement):
             continue
-        if _is_alone(code, target, written):
-            return code.changed(code.source.swap(target, f"self.{name}"))
+        if _is_alone(node, target):
+            return case.changed(node.module, text.swap(target, f"self.{name}"))
     lines = [s for s in init.body if "super().__init__(" in ast.unparse(s)]
     if len(lines) != 1 or lines[0].lineno == init.lineno:
         return None
-    indent = indent_of(code.source.line(lines[0].lineno))
+    indent = indent_of(text.line(lines[0].lineno))
     row = f"{indent}self.{name} = {case.assignment.output.start}"
-    return code.changed(code.source.before((lines[0].end_lineno or lines[0].lineno) + 1, row))
+    below = (lines[0].end_lineno or lines[0].lineno) + 1
+    return case.changed(node.module, text.before(below, row))
 
 
 def _is_number(statement: ast.stmt) -> bool:
@@ -83,30 +94,18 @@ def _is_number(statement: ast.stmt) -> bool:
     return isinstance(value, ast.Constant) and type(value.value) is int
 
 
-def _is_set(code: NodeCode, name: str) -> bool:
+def _is_set(node: NodeSource, name: str) -> bool:
     """Whether anything defines an attribute of self, except `+=`, which needs it beforehand."""
-    if any(name in (m.name, "self") for m in code.methods):
+    if name == "self" or any(name == method.name for method in node.own_methods):
         return True
-    for node in ast.walk(code.tree):
-        if isinstance(node, ast.Assign) and any(own(t) == name for t in node.targets):
+    for part in node.own_nodes:
+        if not isinstance(part, ast.AugAssign) and f"self.{name}" in targets_of(part):
             return True
-        if isinstance(node, ast.AnnAssign) and own(node.target) == name:
-            return True
-    return any(
-        isinstance(s, ast.Assign) and any(ast.unparse(t) == name for t in s.targets)
-        for s in code.node_class.body
-    )
+    return any(name in targets_of(s) for s in node.class_body if isinstance(s, ast.Assign))
 
 
-def _is_alone(code: NodeCode, target: ast.expr, written: str) -> bool:
+def _is_alone(node: NodeSource, target: ast.expr) -> bool:
     """Whether a name is used only in the assignment to it."""
-    same = [
-        n
-        for n in ast.walk(code.tree)
-        if n is not target
-        and (
-            (isinstance(n, ast.Name) and n.id == written and isinstance(target, ast.Name))
-            or (isinstance(n, ast.Attribute) and own(n) == written and own(target) == written)
-        )
-    ]
-    return not same
+    name = dotted(target)
+    same = [n for n in node.own_nodes if isinstance(n, type(target)) and dotted(n) == name]
+    return same == [target]

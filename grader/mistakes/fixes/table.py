@@ -91,7 +91,7 @@ BY_MISTAKE: dict[str, tuple[Fix, ...]] = {
     "node.period_milliseconds": (node_timer.period,),
     "run.wrong_period": (node_timer.period,),
     "node.attribute_not_set": (node_names.counter,),
-    "node.counter_local": (node_count.self_dot,),
+    "node.counter_local": (node_count.self_dot, node_count.outer),
     "node.name_unknown": (node_count.self_dot,),
     "node.plus_reversed": (node_count.plus,),
     "node.counter_not_increased": (node_count.step,),

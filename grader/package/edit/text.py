@@ -13,6 +13,8 @@ from functools import cached_property
 
 from grader.package.source.python import ENCODINGS
 
+Positioned = ast.expr | ast.stmt | ast.keyword | ast.arg | ast.alias
+"""The pieces of syntax that have a place in the text."""
 LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+\Z")
 BOM = codecs.BOM_UTF8
 MOST_BYTES = 20_000
@@ -71,15 +73,20 @@ class SourceText:
         before = self.line(line).encode("utf-8", "surrogatepass")[:column]
         return self.start_of(line) + len(before.decode("utf-8", "ignore"))
 
-    def span(self, node: ast.expr | ast.stmt) -> tuple[int, int]:
+    def span(self, node: Positioned) -> tuple[int, int]:
         """Return the offsets at which a piece of syntax starts and ends."""
         end = self.at(node.end_lineno or node.lineno, node.end_col_offset or 0)
         return self.at(node.lineno, node.col_offset), end
 
-    def code(self, node: ast.expr | ast.stmt) -> str:
+    def code(self, node: Positioned) -> str:
         """Return a piece of syntax as it is written."""
         start, end = self.span(node)
         return self.text[start:end]
+
+    def swap(self, node: Positioned, new: str) -> Splice:
+        """Return the splice that replaces a piece of syntax."""
+        start, end = self.span(node)
+        return Splice(start, end, new)
 
     def plain_string(self, node: ast.expr | None) -> str | None:
         """Return the value of a single string literal without prefix or escapes, else None."""
@@ -93,11 +100,6 @@ class SourceText:
         """The quotes that the file uses for most of its strings."""
         text = self.text.replace('"""', "").replace("'''", "")
         return '"' if text.count('"') > text.count("'") else "'"
-
-    def swap(self, node: ast.expr | ast.stmt, new: str) -> Splice:
-        """Return the splice that replaces a piece of syntax."""
-        start, end = self.span(node)
-        return Splice(start, end, new)
 
     def before(self, line: int, *rows: str) -> Splice:
         """Return the splice that inserts whole lines before a line (after the last: at the end).

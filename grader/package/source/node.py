@@ -1,175 +1,235 @@
-"""The class, timers, callbacks, log lines and functions in a node's source.
+"""A node's source: its class, timers, callback, loggers, counters and entry function.
 
-Read from the syntax tree (the file is never run); a file that Python cannot read has no facts.
+Read from the syntax trees (no file is ever run). The class can be in another module of the
+package than the entry function; helper classes beside it do not belong to the node.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 
-from grader.package.source.python import PythonFault, PythonFile, parse_python
+from grader.package.source.module import Function, Module, parse_module
+from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.node_class import class_of_node, family_of, module_with_node
+from grader.package.source.own_imports import entry_function, own_imports
+from grader.package.source.python import PythonFault
+from grader.package.source.timer import Timer, timer_of
 
 LOG_METHODS = ("debug", "info", "warn", "warning", "error", "fatal")
-LONGEST_NAME = 20  # names, dots and calls; longer ones are ignored
+GET_LOGGER = ("get_logger", "get_logger()")
 MOST_BYTES = 20_000
 """A larger file is not a first node, and a hostile one would take seconds to analyse."""
-Function = ast.FunctionDef | ast.AsyncFunctionDef
-
-
-def dotted(named: ast.AST) -> str:
-    """Return a name as written: `rclpy.spin`, `self.get_logger().info`; "" for anything else."""
-    node: ast.AST = named
-    after = ""
-    for _ in range(LONGEST_NAME):
-        if isinstance(node, ast.Name):
-            return node.id + after
-        if isinstance(node, ast.Attribute):
-            after = f".{node.attr}{after}"
-            node = node.value
-        elif isinstance(node, ast.Call):
-            after = f"(){after}"
-            node = node.func
-        else:
-            break
-    return ""
-
-
-def calls_in(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    """Yield every call in a part of the source, in order, with the called name."""
-    for found in sorted(
-        (n for n in ast.walk(node) if isinstance(n, ast.Call)),
-        key=lambda n: (n.lineno, n.col_offset),
-    ):
-        yield found, dotted(found.func)
-
-
-def is_log(name: str) -> bool:
-    """Return whether a call of that name logs a line."""
-    before, _, method = name.rpartition(".")
-    return method in LOG_METHODS and ("log" in before.lower() or before.endswith("get_logger()"))
-
-
-@dataclass(frozen=True)
-class Timer:
-    """A call of create_timer: its arguments, and the function that contains it."""
-
-    call: ast.Call
-    period: ast.expr | None
-    callback: ast.expr | None
-    function: Function | None
-
-    @property
-    def line(self) -> int:
-        """The line of the call."""
-        return self.call.lineno
-
-    @property
-    def method(self) -> str:
-        """The name of the callback; "" if it has none."""
-        given = self.callback.func if isinstance(self.callback, ast.Call) else self.callback
-        return dotted(given).rpartition(".")[2] if given is not None else ""
-
-    @property
-    def called(self) -> bool:
-        """Whether the callback is called instead of passed by name."""
-        called = isinstance(self.callback, ast.Call) and dotted(self.callback)
-        return bool(called) and not str(called).endswith("partial()")
-
-    @property
-    def seconds(self) -> float | None:
-        """The period, if it is written as a number."""
-        if isinstance(self.period, ast.Constant) and isinstance(self.period.value, int | float):
-            return float(self.period.value)
-        return None
+MOST_MODULES = 10  # modules that are read in addition to the entry point's
+MOST_OF_ALL = 3 * MOST_BYTES  # characters of all modules, after which no other is read
+Read = Callable[[str], "bytes | None"]
 
 
 class NodeSource:
-    """The facts of one file."""
+    """The facts of a node: `entry` is the entry point's file, `module` the one with the class.
 
-    def __init__(self, file: PythonFile) -> None:
-        self.tree = file.tree
-        self.lines = file.text.splitlines()
+    Both are the same file in most packages. `main` is the entry function, None if it is missing.
+    """
 
-    def line(self, number: int | None) -> str:
-        """Return a line of the file without its indentation; "" if there is none."""
-        if number is None or not 1 <= number <= len(self.lines):
-            return ""
-        return self.lines[number - 1].strip()
+    def __init__(self, modules: Sequence[Module], function: str) -> None:
+        self.entry = modules[0]
+        found = entry_function(function, modules)
+        self.main = found[1] if found else None
+        made = {last_part(name) for _, name in calls_in(self.main)} if self.main else set()
+        self.module = module_with_node(modules)
+        self.node_class = class_of_node(self.module, made)
+        if found and self.node_class is None:
+            self.module = found[0]
+        own = (self.module, self.entry, *([found[0]] if found else []))
+        self.modules = tuple(dict.fromkeys(own))
+
+    @property
+    def paths(self) -> list[str]:
+        """The files of the node, by their path in the package."""
+        return [module.path for module in self.modules]
+
+    def module_of(self, node: ast.AST) -> Module:
+        """Return the file that a piece of syntax is in."""
+        return next((m for m in self.modules if m.has(node)), self.module)
+
+    def module_at(self, path: str) -> Module:
+        """Return the file at a path; that of the class if the node does not have it."""
+        return next((m for m in self.modules if m.path == path), self.module)
 
     @cached_property
-    def calls(self) -> list[tuple[ast.Call, str]]:
-        """All calls of the file."""
-        return list(calls_in(self.tree))
+    def family(self) -> list[ast.ClassDef]:
+        """The node's class, and the classes of its file that are derived from it or its bases."""
+        return family_of(self.node_class, self.module) if self.node_class is not None else []
+
+    @property
+    def is_one_class(self) -> bool:
+        """Return whether the node's class shares its code with no other class of its file."""
+        return not self.family or (
+            len(self.family) == 1 and self.node_class in self.module.tree.body
+        )
+
+    @property
+    def class_body(self) -> list[ast.stmt]:
+        """The statements of the node's class."""
+        return self.node_class.body if self.node_class is not None else []
 
     @cached_property
-    def classes(self) -> list[ast.ClassDef]:
-        """All classes of the file."""
-        return [node for node in ast.walk(self.tree) if isinstance(node, ast.ClassDef)]
+    def class_names(self) -> set[str]:
+        """The names by which the files know the node's class."""
+        names = {found.name for found in self.family}
+        for module in self.modules:
+            names |= {i.bound for i in own_imports(module) if i.name in names}
+        return names
+
+    def is_node_class(self, named: ast.AST) -> bool:
+        """Return whether an expression names the node's class: `MyNode`, `other.MyNode`."""
+        return last_part(dotted(named)) in self.class_names
+
+    @property
+    def all_nodes(self) -> list[ast.AST]:
+        """All parts of the files."""
+        return [node for module in self.modules for node in module.nodes]
+
+    @property
+    def known_classes(self) -> set[str]:
+        """The names of all classes of the files."""
+        return {found.name for module in self.modules for found in module.classes}
 
     @cached_property
-    def node_class(self) -> ast.ClassDef | None:
-        """The class that is the node, or was meant to be."""
-        for found in self.classes:
-            if any(dotted(base).rpartition(".")[2].endswith("Node") for base in found.bases):
-                return found
-        return self.classes[0] if self.classes else None
+    def own_nodes(self) -> list[ast.AST]:
+        """All parts of the files, without helper classes."""
+        return [node for module in self.modules for node in _without(module, self._helpers)]
+
+    @cached_property
+    def _helpers(self) -> set[ast.ClassDef]:
+        return {c for m in self.modules for c in m.tree.body if isinstance(c, ast.ClassDef)} - set(
+            self.family
+        )
 
     @cached_property
     def methods(self) -> dict[str, Function]:
         """The node's own methods."""
-        body = self.node_class.body if self.node_class else []
-        return {node.name: node for node in body if isinstance(node, Function)}
+        return {node.name: node for node in self.class_body if isinstance(node, Function)}
+
+    def method(self, name: str) -> ast.FunctionDef | None:
+        """Return a method of the class; None if there is none, or more than one."""
+        found = [method for method in self.own_methods if method.name == name]
+        return found[0] if len(found) == 1 else None
+
+    @property
+    def own_methods(self) -> list[ast.FunctionDef]:
+        """The methods of the class, each definition of a name."""
+        return [s for s in self.class_body if isinstance(s, ast.FunctionDef)]
+
+    @property
+    def own_functions(self) -> list[Function]:
+        """The methods of the class, and a callback in its file that is no method."""
+        callback = self.callback
+        other = callback is not None and callback not in self.own_methods
+        return [
+            *self.own_methods,
+            *([callback] if callback and other and self.module.has(callback) else []),
+        ]
 
     @cached_property
-    def functions(self) -> dict[str, Function]:
-        """The functions at module level."""
-        return {node.name: node for node in self.tree.body if isinstance(node, Function)}
+    def calls(self) -> list[tuple[ast.Call, str]]:
+        """All calls of the files, those of helper classes too."""
+        return [call for module in self.modules for call in calls_in(module.tree)]
 
-    @cached_property
-    def parents(self) -> dict[ast.AST, ast.AST]:
-        """The parent of each node of the tree."""
-        return {child: node for node in ast.walk(self.tree) for child in ast.iter_child_nodes(node)}
+    def calls_of(self, *names: str, within: ast.AST | None = None) -> list[ast.Call]:
+        """Return the node's calls of functions or methods of these names, in order."""
+        nodes = self.own_nodes if within is None else ast.walk(within)
+        found = [n for n in nodes if isinstance(n, ast.Call) and called_name(n) in names]
+        order = {module: at for at, module in enumerate(self.modules)}
+        return sorted(found, key=lambda n: (order[self.module_of(n)], n.lineno, n.col_offset))
 
     def function_around(self, node: ast.AST) -> Function | None:
         """Return the innermost function that contains a part of the source."""
-        around = self.parents.get(node)
-        while around is not None and not isinstance(around, Function):
-            around = self.parents.get(around)
-        return around
+        around = self.module_of(node).around(node)
+        return next((found for found in around if isinstance(found, Function)), None)
 
     @cached_property
     def timers(self) -> list[Timer]:
-        """The calls of create_timer."""
-        found = []
-        for call, name in self.calls:
-            if name.rpartition(".")[2] == "create_timer":
-                given = {keyword.arg: keyword.value for keyword in call.keywords}
-                period, callback = (*call.args[:2], None, None)[:2]
-                found.append(
-                    Timer(
-                        call,
-                        period or given.get("timer_period_sec"),
-                        callback or given.get("callback"),
-                        self.function_around(call),
-                    )
-                )
-        return found
+        """The calls of create_timer; those of helper classes only if the node has none."""
+        made = [call for call, name in self.calls if last_part(name) == "create_timer"]
+        own = set(self.own_nodes)
+        return [
+            timer_of(call, self.function_around(call))
+            for call in [c for c in made if c in own] or made
+        ]
+
+    @property
+    def timer_call(self) -> ast.Call | None:
+        """The node's only call of create_timer."""
+        found = self.calls_of("create_timer")
+        return found[0] if len(found) == 1 else None
 
     @cached_property
     def callback(self) -> Function | None:
-        """The method that the first timer calls, else the one that logs."""
+        """The function that the first timer calls, else the method that logs."""
         for timer in self.timers:
             if timer.method in self.methods:
                 return self.methods[timer.method]
+            if timer.is_variable:
+                named = [
+                    n for n in self.own_nodes if isinstance(n, Function) and n.name == timer.method
+                ]
+                if len(named) == 1:
+                    return named[0]
         logging = [m for n, m in self.methods.items() if n != "__init__" and self.logs(m)]
         return logging[0] if logging else None
 
+    @cached_property
+    def loggers(self) -> dict[str, ast.Assign | ast.AnnAssign]:
+        """The variables and attributes that hold a logger, with the statements that set them."""
+        found: dict[str, ast.Assign | ast.AnnAssign] = {}
+        for node in self.own_nodes:
+            if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                if last_part(dotted(node.value)) in GET_LOGGER:
+                    found |= {dotted(target): node for target in targets if dotted(target)}
+        return found
+
+    def loggers_at(self, node: ast.AST) -> list[str]:
+        """Return the loggers that are known by a name at a place in a method."""
+        function = self.function_around(node)
+        attributes = [name for name in self.loggers if name.startswith("self.")]
+        local = [
+            name
+            for name, statement in self.loggers.items()
+            if "." not in name and self.function_around(statement) in (function, None)
+        ]
+        return [*local, *attributes]
+
+    def is_log(self, call: ast.Call) -> bool:
+        """Return whether a call logs a line, with the node's logger or one of that name."""
+        before, _, method = dotted(call.func).rpartition(".")
+        return method in LOG_METHODS and (
+            before in self.loggers or "log" in before.lower() or before.endswith("get_logger()")
+        )
+
+    def is_own_log(self, call: ast.Call) -> bool:
+        """Return whether a call logs a line with a logger of get_logger."""
+        function = call.func
+        if not isinstance(function, ast.Attribute) or function.attr not in LOG_METHODS:
+            return False
+        return dotted(function.value) in self.loggers or "get_logger" in ast.unparse(function)
+
     def logs(self, part: ast.AST) -> list[ast.Call]:
         """Return the calls of a logger in a part of the source."""
-        return [call for call, name in calls_in(part) if is_log(name)]
+        return [call for call, _ in calls_in(part) if self.is_log(call)]
+
+    @cached_property
+    def own_logs(self) -> list[ast.Call]:
+        """The node's calls of a logger of get_logger."""
+        return [call for call in self.calls_of(*LOG_METHODS) if self.is_own_log(call)]
+
+    @property
+    def log_call(self) -> ast.Call | None:
+        """The only call of the node's logger, if it has exactly one argument."""
+        found = self.own_logs
+        return found[0] if len(found) == 1 and len(found[0].args) == 1 else None
 
     def prints(self, part: ast.AST) -> list[ast.Call]:
         """Return the calls of print in a part of the source."""
@@ -184,67 +244,70 @@ class NodeSource:
                 return call
         return None
 
-    @cached_property
-    def imports(self) -> set[str]:
-        """The names that imports bind, and the modules that they name."""
-        names: set[str] = set()
-        for node in ast.walk(self.tree):
-            if isinstance(node, ast.Import | ast.ImportFrom):
-                module = getattr(node, "module", None)
-                names |= {module} if module else set()
-                names |= {alias.asname or alias.name for alias in node.names}
-        return names
-
-    def imports_of(self, package: str) -> bool:
-        """Return whether the file imports modules of its own package."""
-        for node in ast.walk(self.tree):
-            if isinstance(node, ast.ImportFrom):
-                named = [package if node.level else str(node.module)]
-            else:
-                named = [a.name for a in node.names] if isinstance(node, ast.Import) else []
-            if any(name.partition(".")[0] == package for name in named):
-                return True
-        return False
-
     @property
     def uses_ros(self) -> bool:
-        """Whether the file imports rclpy."""
-        return any(name.partition(".")[0] == "rclpy" for name in self.imports)
+        """Whether one of the files imports rclpy."""
+        return any(module.uses_ros for module in self.modules)
 
     @cached_property
     def attributes(self) -> set[str]:
         """The names that are set on self."""
         return {
             node.attr
-            for node in ast.walk(self.tree)
+            for node in self.own_nodes
             if isinstance(node, ast.Attribute)
             and isinstance(node.ctx, ast.Store)
             and dotted(node.value) == "self"
         }
 
-    @cached_property
-    def names(self) -> set[str]:
-        """Every name that the file binds or defines."""
-        stored = {
-            node.id
-            for node in ast.walk(self.tree)
-            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-        }
-        made = {n.name for n in ast.walk(self.tree) if isinstance(n, Function | ast.ClassDef)}
-        arguments = {node.arg for node in ast.walk(self.tree) if isinstance(node, ast.arg)}
-        return stored | made | arguments | self.imports
-
     def makes_node(self) -> bool:
-        """Return whether the node's class is called anywhere in the file."""
-        name = self.node_class.name if self.node_class else ""
-        return any(called == name for _, called in self.calls)
+        """Return whether the node's class is called anywhere in the files."""
+        return any(self.is_node_class(call.func) for call, _ in self.calls)
 
 
-def read_node(found: bytes) -> NodeSource | None:
-    """Return the facts of a file; None if Python cannot read it, or if it is too large."""
-    if len(found) > MOST_BYTES:
+def _without(module: Module, left_out: set[ast.ClassDef]) -> Iterator[ast.AST]:
+    """Yield the parts of a file in the order of ast.walk, without these classes."""
+    waiting: list[ast.AST] = [module.tree]
+    for node in waiting:
+        yield node
+        waiting += [n for n in ast.iter_child_nodes(node) if n not in left_out]
+
+
+def read_node(read: Read, path: str, function: str) -> NodeSource | None:
+    """Return the facts of the node whose entry point names the file at `path`.
+
+    `read` returns the bytes of a file of the package, None if there is none. The modules that the
+    file imports from its own package are read too. None if Python cannot read the file, or if it
+    is too large.
+    """
+    entry = _module(read, path)
+    if entry is None:
         return None
     try:
-        return NodeSource(parse_python(found))
+        return NodeSource(_with_imports(entry, read), function)
+    except RecursionError:
+        return None
+
+
+def _with_imports(entry: Module, read: Read) -> list[Module]:
+    """Return a module and those that it imports from its own package, directly or not."""
+    modules = [entry]
+    tried = {entry.path}
+    for module in modules:
+        for path in (path for found in own_imports(module) for path in found.paths):
+            size = sum(len(each.text.text) for each in modules)
+            if path not in tried and len(modules) <= MOST_MODULES and size < MOST_OF_ALL:
+                tried.add(path)
+                other = _module(read, path)
+                modules += [other] if other is not None else []
+    return modules
+
+
+def _module(read: Read, path: str) -> Module | None:
+    found = read(path)
+    if found is None or len(found) > MOST_BYTES:
+        return None
+    try:
+        return parse_module(path, found)
     except (PythonFault, RecursionError, MemoryError):
         return None

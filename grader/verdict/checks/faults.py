@@ -9,7 +9,7 @@ from grader.base.i18n.message import Value, say
 from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
 from grader.verdict.checks.build import limit_name, python_error
-from grader.verdict.node_files import file_with_node
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
@@ -26,10 +26,14 @@ def node_file(evidence: Evidence) -> Where:
 
 
 def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
-    """Return the line of the node's file that logged a record; only the file if it is unknown."""
+    """Return the line of the source that logged a record; only the node's file if it is unknown."""
     place = node_file(evidence)
-    if record is not None and record.line > 0 and record.file.endswith(place.file):
-        return Where(file=place.file, line=record.line)
+    if record is None or record.line <= 0:
+        return place
+    source = source_of_node(evidence)
+    for path in (place.file, *(source.paths if source is not None else ())):
+        if record.file.endswith(path):
+            return Where(file=path, line=record.line)
     return place
 
 
@@ -45,8 +49,7 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
 
 def words(evidence: Evidence) -> dict[str, Value]:
     """Return the values of assignment and node source for the texts of a mistake."""
-    within = file_with_node(evidence)
-    return placeholder_values(evidence.assignment, within.source if within is not None else None)
+    return placeholder_values(evidence.assignment, source_of_node(evidence))
 
 
 def flood(evidence: Evidence, expected: str) -> Failed:

@@ -9,7 +9,6 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
-from grader.package.source.node import NodeSource
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.report.model import Where
 from grader.verdict.checks.declare import check
@@ -54,7 +53,7 @@ def node_file(evidence: Evidence) -> Passed:
         parsed = parse_python(file.data)
     except PythonFault as fault:
         raise _not_python(path, fault) from None
-    advice = hints(NodeSource(parsed))
+    advice = hints(parsed.tree)
     inner = evidence.assignment.package
     if evidence.submission.file(f"{inner}/__init__.py") is None:
         no_init = say(

@@ -11,7 +11,7 @@ from grader.base.i18n.message import say
 from grader.mistakes.from_source import longest_sleep
 from grader.verdict.checks.declare import check
 from grader.verdict.checks.faults import line_of, words
-from grader.verdict.node_files import file_with_node
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
@@ -70,8 +70,8 @@ def _kept_apart(evidence: Evidence, on_time: Sequence[Event]) -> float:
     Only a sleep in the source counts: any other delay may be the machine's load. 0 if there is
     none.
     """
-    within = file_with_node(evidence)
-    slept = longest_sleep(within.source) if within is not None else None
+    source = source_of_node(evidence)
+    slept = longest_sleep(source) if source is not None else None
     gaps = [after.wall - before.wall for before, after in pairwise(on_time)]
     if slept is None or slept[1] <= evidence.assignment.output.period or not gaps:
         return 0.0

@@ -1,0 +1,156 @@
+"""A node's counters: attributes of the node or of its class, and variables outside the callback."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from grader.package.source.module import Function
+from grader.package.source.names import dotted
+from grader.package.source.node import NodeSource
+
+
+def starts_of(source: NodeSource, kind: type = int) -> dict[str, ast.Constant]:
+    """Return the literals with which counters start, by name as the callback writes it.
+
+    `self.n` is set in __init__ or in the class, `MyNode.n` in the class, and `n` at module level
+    or in a function around the callback.
+    """
+    found: dict[str, ast.Constant] = {}
+    init = source.method("__init__")
+    for name, value in _numbers(init.body if init else [], kind):
+        if name.startswith("self.") and name.count(".") == 1:
+            found[name] = value
+    used = set(_counted_names(source))
+    for name, value in _numbers(source.class_body, kind):
+        for written in (f"self.{name}", *(f"{known}.{name}" for known in source.class_names)):
+            if written in used:
+                found.setdefault(written, value)
+    for name in used:
+        outer = outer_start(source, name, kind)
+        if outer is not None and not _is_local(source.callback, name):
+            found[name] = outer
+    return found
+
+
+def _numbers(body: Iterable[ast.stmt], kind: type = int) -> Iterator[tuple[str, ast.Constant]]:
+    """Yield the names that statements set to a literal of this type."""
+    for statement in body:
+        targets = list(targets_of(statement))
+        value = getattr(statement, "value", None)
+        if isinstance(statement, ast.AugAssign) or not isinstance(value, ast.Constant):
+            continue
+        if type(value.value) is kind and len(targets) == 1:
+            yield targets[0], value
+
+
+def targets_of(statement: ast.AST) -> Iterator[str]:
+    """Yield the names that a statement assigns to, with their dots."""
+    if isinstance(statement, ast.Assign):
+        yield from filter(None, map(dotted, statement.targets))
+    elif isinstance(statement, ast.AugAssign | ast.AnnAssign):
+        yield from filter(None, [dotted(statement.target)])
+
+
+def _counted_names(source: NodeSource) -> Iterator[str]:
+    """Yield the names that the callback assigns to or logs."""
+    callback = source.callback
+    if callback is None:
+        return
+    for node in ast.walk(callback):
+        yield from targets_of(node)
+    for call in [*source.logs(callback), *source.prints(callback)]:
+        yield from names_given(call)
+
+
+def names_given(call: ast.Call) -> Iterator[str]:
+    """Yield the names in the arguments of a call, with their dots."""
+    for given in (*call.args, *(keyword.value for keyword in call.keywords)):
+        yield from filter(None, (dotted(n) for n in ast.walk(given) if not isinstance(n, ast.Call)))
+
+
+def outer_start(source: NodeSource, name: str, kind: type = int) -> ast.Constant | None:
+    """Return the literal that a variable outside the callback starts with, or None.
+
+    Such a variable is assigned once, at module level or in a function around the callback.
+    """
+    if source.callback is None or "." in name:
+        return None
+    for scope in source.module_of(source.callback).around(source.callback):
+        if isinstance(scope, Function | ast.Module):
+            set_here = [s for s in scope.body if name in targets_of(s)]
+            if set_here:
+                return dict(_numbers(set_here, kind)).get(name) if len(set_here) == 1 else None
+    return None
+
+
+def _is_local(function: Function | None, name: str) -> bool:
+    """Return whether a name is a variable or a parameter of the function itself."""
+    if function is None or declares(function, name):
+        return False
+    bound = [given.arg for given in function.args.args]
+    return name in bound or any(name in targets_of(node) for node in _scope(function))
+
+
+def declares(function: Function, name: str) -> bool:
+    """Return whether a function declares a name with `global` or `nonlocal`."""
+    declared = [n for n in _scope(function) if isinstance(n, ast.Global | ast.Nonlocal)]
+    return any(name in node.names for node in declared)
+
+
+def _scope(function: Function) -> Iterator[ast.AST]:
+    """Yield the parts of a function, without those of functions in it."""
+    waiting: list[ast.AST] = list(function.body)
+    for node in waiting:
+        yield node
+        if not isinstance(node, Function):
+            waiting += ast.iter_child_nodes(node)
+
+
+def local_start(function: Function, name: str) -> ast.Assign | None:
+    """Return the line of a function that sets its own variable to a number, if it counts it up."""
+    numbers = [s for s in function.body if isinstance(s, ast.Assign) and dict(_numbers([s]))]
+    found = [s for s in numbers if name in targets_of(s)]
+    added = [n for n in ast.walk(function) if isinstance(n, ast.AugAssign)]
+    counted = any(name in targets_of(node) for node in added) and not declares(function, name)
+    return found[0] if len(found) == 1 and counted and "." not in name else None
+
+
+def changes_of(source: NodeSource, name: str) -> list[ast.stmt]:
+    """Return the statements outside of __init__ that assign to a counter."""
+    init = source.method("__init__")
+    found: list[ast.stmt] = []
+    for node in source.own_nodes:
+        if not isinstance(node, ast.stmt) or name not in targets_of(node):
+            continue
+        function = source.function_around(node)
+        if function is init if "." in name else function is None or not declares(function, name):
+            continue
+        found.append(node)
+    return found
+
+
+def logged_counter(source: NodeSource) -> tuple[ast.Call, str] | None:
+    """Return the first log call of the callback, and the counter that it shows."""
+    callback = source.callback
+    if callback is None:
+        return None
+    calls = [*source.logs(callback), *source.prints(callback)]
+    starts = starts_of(source)
+    for call in calls:
+        names = list(names_given(call))
+        known = [n for n in names if n in starts]
+        own = [n for n in names if n.startswith("self.") and n.count(".") == 1]
+        for name in (*known, *own):
+            if "get_logger" not in name and name not in source.loggers:
+                return call, name
+        for name in names:
+            if local_start(callback, name) is not None:
+                return call, name
+    # (the text is built on a line before the call: the incremented name is the counter)
+    for call in calls[:1]:
+        for node in ast.walk(callback):
+            name = dotted(node.target) if isinstance(node, ast.AugAssign) else ""
+            if name.startswith("self.") or name in starts:
+                return call, name
+    return None

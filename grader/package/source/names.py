@@ -1,0 +1,53 @@
+"""Names as Python code writes them: of variables, attributes and called functions."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+LONGEST_NAME = 20  # names, dots and calls; longer ones are ignored
+
+
+def dotted(named: ast.AST) -> str:
+    """Return a name as written: `rclpy.spin`, `self.get_logger().info`; "" for anything else."""
+    node: ast.AST = named
+    after = ""
+    for _ in range(LONGEST_NAME):
+        if isinstance(node, ast.Name):
+            return node.id + after
+        if isinstance(node, ast.Attribute):
+            after = f".{node.attr}{after}"
+            node = node.value
+        elif isinstance(node, ast.Call):
+            after = f"(){after}"
+            node = node.func
+        else:
+            break
+    return ""
+
+
+def last_part(name: str) -> str:
+    """Return the part of a dotted name after its last dot."""
+    return name.rpartition(".")[2]
+
+
+def called_name(call: ast.Call) -> str:
+    """Return the last part of the name of the called function, whatever it is called on."""
+    function = call.func
+    return function.attr if isinstance(function, ast.Attribute) else dotted(function)
+
+
+def own_name(node: ast.AST | None) -> str:
+    """Return x of `self.x`; "" for anything else."""
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+        return node.attr if node.value.id == "self" else ""
+    return ""
+
+
+def calls_in(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
+    """Yield every call in a part of the source, in order, with the called name."""
+    for found in sorted(
+        (n for n in ast.walk(node) if isinstance(n, ast.Call)),
+        key=lambda n: (n.lineno, n.col_offset),
+    ):
+        yield found, dotted(found.func)
