@@ -143,7 +143,7 @@ def test_the_column_and_accept_variables_reach_the_command(tmp_path: Path) -> No
     assert "no column 'None such'" in make("grade-all", *both)[2]
     (tmp_path / "canvas.csv").write_text("Student,ID,Section,A (1),A (2)\nAnn,1,A,,\n")
     canvas = [*words, f"CANVAS={tmp_path / 'canvas.csv'}"]
-    assert "called 'A'" in make("grade-all", *canvas, "CANVAS_COLUMN=A")[2]
+    assert "column named 'A'" in make("grade-all", *canvas, "CANVAS_COLUMN=A")[2]
     assert "Did you mean 'lower'?" in make("grade-all", *words, "ACCEPT=join,lowr")[2]
 
 

@@ -173,7 +173,7 @@ def test_a_path_that_is_not_a_class_is_a_usage_error(tmp_path: Path, name: str) 
 
 
 def test_an_unknown_system_is_a_usage_error(course: Path, tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="no course system 'modle'") as error:
+    with pytest.raises(UsageError, match="no system 'modle'") as error:
         found_in(course, tmp_path, "modle")
     assert "did you mean 'moodle'?" in error.value.remedy
     with pytest.raises(UsageError, match="is not Moodle's download"):

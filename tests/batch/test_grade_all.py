@@ -217,7 +217,7 @@ def test_a_group_is_marked_once_and_each_member_has_the_report(
         (("Bela Nagy", "--check", "run.outptu", "--points", "1"), "Did you mean 'run.output'?"),
         (("Bela Nagy", "--check", "run.output", "--points", "11", "--because", "x"), "--force"),
         (("Bela Nagy", "--check", "run.output", "--points", "1"), "--because"),
-        (("Bela Nagy",), "how many"),
+        (("Bela Nagy",), "--points are required"),
         (("Bela Nagy", "--remove"), "was not corrected"),
     ],
 )

@@ -85,8 +85,8 @@ def test_every_spreadsheet_encoding_is_read_and_written_as_utf8(
 @pytest.mark.parametrize(
     ("content", "output"),
     [
-        (b"\xff\xfea", "UTF-16, and is not"),
-        (b"PK\x03\x04\x00\x00", "is no CSV"),
+        (b"\xff\xfea", "is not valid UTF-16"),
+        (b"PK\x03\x04\x00\x00", "is not a CSV file"),
         (b"", "is empty"),
         (b"\n\n", "is empty"),
     ],
