@@ -16,7 +16,8 @@ BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # one process more than cores: a node under observation leaves them mostly idle
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 # the tests whose verdicts are from recorded evidence
-RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py
+RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py \
+  tests/batch/test_grade_all.py tests/batch/test_language.py
 GRADER := .venv/bin/python -m grader
 OPTIONS := $${ASSIGNMENT:+--assignment "$$ASSIGNMENT"} $${DISTRO:+--distro "$$DISTRO"} \
   $${SANDBOX:+--sandbox "$$SANDBOX"}

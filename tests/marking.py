@@ -29,28 +29,37 @@ def taken_in(path: Path, assignment: Assignment = ASSIGNMENT) -> Submission:
     return take_in(path, package=assignment.package, node_file=assignment.node_file)
 
 
-def mark(
+def order(
     path: Path,
     *,
     assignment: Assignment = ASSIGNMENT,
     distro: str = "jazzy",
     sandbox: str = "bubblewrap",
-    listener: Listener = unheard,
     lang: str = "en",
-    limits: Limits = LIMITS,
-    recordings: list[Recording] | None = None,
-) -> Report:
-    """Build and run a package and return the report; its evidence is appended to `recordings`."""
-    order = Order(
+) -> Order:
+    """Return the order to mark a package."""
+    return Order(
         path=path,
         assignment=assignment,
         distro=find_distro(distro),
         sandbox=sandbox,
-        limits=limits,
+        limits=LIMITS,
         lang=lang,
     )
+
+
+def mark(
+    path: Path,
+    *,
+    distro: str = "jazzy",
+    sandbox: str = "bubblewrap",
+    listener: Listener = unheard,
+    recordings: list[Recording] | None = None,
+) -> Report:
+    """Build and run a package and return the report; its evidence is appended to `recordings`."""
     keep = None if recordings is None else recordings.append
-    return mark_submission(taken_in(path, assignment), order, listener, keep=keep)
+    wanted = order(path, distro=distro, sandbox=sandbox)
+    return mark_submission(taken_in(path), wanted, listener, keep=keep)
 
 
 def summary(report: Report) -> str:

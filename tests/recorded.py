@@ -8,6 +8,7 @@ GRADER_TESTS_EVIDENCE chooses otherwise: `record` marks for real and writes the 
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from grader.base.unheard import unheard
@@ -16,7 +17,9 @@ from grader.package.submission import Submission
 from grader.report.events import Listener
 from grader.report.model import Report
 from grader.sandbox.limits import Limits
+from grader.verdict.mark import mark as mark_for_real
 from grader.verdict.mark import replay
+from grader.verdict.order import Order
 from grader.verdict.recording import Recording
 from tests import marking, processes
 
@@ -34,17 +37,31 @@ def mark(
     lang: str = "en",
 ) -> Report:
     """Return the report of a package, by default from its recording."""
-    submission = marking.taken_in(path, assignment)
+    order = marking.order(path, assignment=assignment, lang=lang)
+    return mark_submission(marking.taken_in(path, assignment), order, listener)
+
+
+def mark_submission(
+    submission: Submission, order: Order, listener: Listener = unheard, **_: object
+) -> Report:
+    """Return the report of a submission, with the arguments of `grader.verdict.mark.mark`."""
     file = file_of(submission)
     if MODE == "record":
         if not file.exists():
-            _record(path, assignment, file)
+            _record(submission, order, file)
     elif not file.exists():
         raise AssertionError(f"there is no recording of {submission.name}: run make recordings")
     recording = Recording.from_bytes(file.read_bytes(), name=str(file))
-    report = replay(recording, submission, assignment, listener, lang=lang)
+    report = replay(
+        recording,
+        submission,
+        order.assignment,
+        listener,
+        lang=order.lang,
+        student_id=order.student_id,
+    )
     if MODE == "real":
-        real = marking.outcomes(marking.mark(path, assignment=assignment))
+        real = marking.outcomes(mark_for_real(submission, order, unheard))
         assert real == marking.outcomes(report), f"{file.name} is not what happens now"
     return report
 
@@ -54,10 +71,10 @@ def file_of(submission: Submission) -> Path:
     return FOLDER / f"{submission.sha256[:24]}.json"
 
 
-def _record(path: Path, assignment: Assignment, file: Path) -> None:
+def _record(submission: Submission, order: Order, file: Path) -> None:
     recordings: list[Recording] = []
     # the default limits: a busy machine must not reach them
-    marking.mark(path, assignment=assignment, limits=Limits(), recordings=recordings)
+    mark_for_real(submission, replace(order, limits=Limits()), unheard, keep=recordings.append)
     file.parent.mkdir(parents=True, exist_ok=True)
     part = file.with_suffix(f".{os.getpid()}")
     part.write_bytes(recordings[0].to_bytes())

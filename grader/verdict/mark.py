@@ -111,6 +111,7 @@ def replay(
     listener: events.Listener = unheard,
     *,
     lang: str = "en",
+    student_id: str = "",
 ) -> model.Report:
     """Judge recorded evidence again and return the report; its times are 0.
 
@@ -121,7 +122,7 @@ def replay(
     return compose(
         evidence,
         _decide(evidence, listener, translate),
-        student_id="",
+        student_id=student_id,
         environment=recording.environment,
         timing=model.Timing(),
         started=datetime.now(timezone.utc),

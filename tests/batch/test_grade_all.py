@@ -1,4 +1,7 @@
-"""`grader grade-all` on a real class: outputs are complete and nothing is marked twice."""
+"""`grader grade-all` on a class: outputs are complete and nothing is marked twice.
+
+The workers mark from recorded evidence, except in the last test.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ import pytest
 
 from grader.batch.ledger import Ledger
 from grader.ros.prefix import Ros
-from tests.batch.classes import corpus_class, count_verdicts, grade_all
+from tests.batch.classes import corpus_class, count_verdicts, grade_all, replay_all
 from tests.batch.downloads import KOREAN, moodle_zip, people, worksheet
 from tests.batch.pool_tasks import workers_of
 from tests.processes import ROOT, grader, run
@@ -44,7 +47,7 @@ class Class:
     first: subprocess.CompletedProcess[str]
 
     def again(self, *words: str) -> subprocess.CompletedProcess[str]:
-        return grade_all(self.folder, self.out, "--roster", str(self.roster), *words)
+        return replay_all(self.folder, self.out, "--roster", str(self.roster), *words)
 
     def override(self, *words: str) -> subprocess.CompletedProcess[str]:
         return run(grader("override", *words, "--out", self.out))
@@ -67,7 +70,7 @@ def marked(ros_jazzy: Ros, tmp_path_factory: pytest.TempPathFactory) -> Class:
     roster = place / "roster.csv"
     roster.write_text(ROSTER, encoding="utf-8")
     out = place / "out"
-    first = grade_all(folder, out, "--roster", str(roster))
+    first = replay_all(folder, out, "--roster", str(roster))
     return Class(folder, roster, out, first)
 
 
@@ -195,7 +198,7 @@ def test_a_group_is_marked_once_and_each_member_has_the_report(
         if path.is_file()
     }
     path = moodle_zip(tmp_path / "class.zip", [("Team_1", 1001, files)])
-    done = grade_all(path, tmp_path / "out", "--worksheet", str(tmp_path / "worksheet.csv"))
+    done = replay_all(path, tmp_path / "out", "--worksheet", str(tmp_path / "worksheet.csv"))
     assert done.returncode == 1, done.stderr
     assert "1 to mark, 0 marked before" in done.stderr
     made = Class(path, tmp_path / "worksheet.csv", tmp_path / "out", done)
@@ -237,7 +240,7 @@ def test_a_regrade_of_one_student_leaves_the_others_unchanged(copy: Class) -> No
 
 
 def test_a_dry_run_marks_nothing(marked: Class, tmp_path: Path) -> None:
-    done = grade_all(marked.folder, tmp_path / "out", "--dry-run")
+    done = replay_all(marked.folder, tmp_path / "out", "--dry-run")
     assert done.returncode == 0
     assert "4 to mark" in done.stderr
     assert "s0-solution" in done.stdout.splitlines()

@@ -13,7 +13,7 @@ from grader.batch.verdict_key import surroundings_key
 from grader.batch.work import Job
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
-from tests.batch.classes import grade_all
+from tests.batch.classes import replay_all
 from tests.batch.pool_tasks import JOB, package
 
 ROSTER = "id,name\nan,김하나\nabsent,이두리\n"
@@ -34,10 +34,10 @@ def test_a_class_marked_in_english_and_then_in_korean_is_korean(
     roster = tmp_path / "roster.csv"
     roster.write_text(ROSTER, encoding="utf-8")
     words = ("--roster", str(roster))
-    assert "1 to mark, 0 marked before" in grade_all(folder, out, *words, "--lang", "en").stderr
+    assert "1 to mark, 0 marked before" in replay_all(folder, out, *words, "--lang", "en").stderr
     english = report_of(out)
 
-    done = grade_all(folder, out, *words, "--lang", "ko")
+    done = replay_all(folder, out, *words, "--lang", "ko")
     assert "1 to mark, 0 marked before" in done.stderr
     korean = report_of(out)
     assert (english["lang"], korean["lang"]) == ("en", "ko")
@@ -53,9 +53,9 @@ def test_a_class_marked_in_english_and_then_in_korean_is_korean(
     assert rows[0]["status"] == "graded"
     assert "setup.no_entry" in rows[0]["mistakes"]
 
-    again = grade_all(folder, out, *words, env={"LC_ALL": "", "LANG": "ko_KR.UTF-8"})
+    again = replay_all(folder, out, *words, env={"LC_ALL": "", "LANG": "ko_KR.UTF-8"})
     assert "0 to mark, 1 marked before" in again.stderr
-    back = grade_all(folder, out, *words, "--lang", "en")
+    back = replay_all(folder, out, *words, "--lang", "en")
     assert "0 to mark, 1 marked before" in back.stderr
     assert report_of(out) == english
 
