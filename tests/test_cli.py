@@ -169,6 +169,7 @@ def test_a_self_check_runs_without_a_sandbox_and_says_so(tmp_path: Path) -> None
     assert "No sandbox was used" in done.stderr
 
 
+@pytest.mark.full
 def test_two_distros_give_a_matrix(tmp_path: Path) -> None:
     package = solution(tmp_path)
     done = processes.run(

@@ -43,6 +43,7 @@ def test_thirty_verdicts_on_a_busy_machine_are_equal(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("busy_cores")
+@pytest.mark.full
 def test_a_busy_machine_changes_no_verdict(tmp_path: Path) -> None:
     root = write(RIGHT[0], tmp_path)
     assert [mark(root).score for _ in range(3)] == [100, 100, 100]

@@ -197,6 +197,7 @@ def copy_checkout(folder: Path) -> Path:
     return folder
 
 
+@pytest.mark.full
 def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
     """A set-up that was killed half-way has no stamp, so it does not count as complete."""
     checkout = copy_checkout(tmp_path / "checkout")

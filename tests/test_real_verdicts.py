@@ -97,6 +97,7 @@ def test_the_command_in_the_report_is_the_one_that_ran(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["solution", "text_capital", "marker_missing", "spin_missing"])
+@pytest.mark.full
 def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -> None:
     package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
     root = write(package, tmp_path)

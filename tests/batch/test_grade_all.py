@@ -290,6 +290,7 @@ def running(ros_jazzy: Ros, tmp_path: Path) -> Iterator[tuple[subprocess.Popen[s
         process.kill()
 
 
+@pytest.mark.full
 def test_an_interrupted_run_resumes(
     running: tuple[subprocess.Popen[str], Path, Path],
 ) -> None:

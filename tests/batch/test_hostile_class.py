@@ -36,6 +36,7 @@ def hostile_class(tmp_path: Path) -> Path:
     return folder
 
 
+@pytest.mark.full
 def test_a_class_with_hostile_students_ends_with_a_verdict_on_each(
     ros_jazzy: Ros, hostile_class: Path, tmp_path: Path
 ) -> None:

@@ -78,6 +78,7 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
     assert not alive(str(tmp_path)), "something of it still runs"
 
 
+@pytest.mark.full
 def test_killing_the_coordinator_loses_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=3, kills=3, seed=random.randrange(10**6))
 

@@ -45,6 +45,7 @@ def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path
     assert own_workers() == []
 
 
+@pytest.mark.full
 def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     """Both workers are killed in the middle of a verdict and replaced."""
     killed: list[int] = []
@@ -66,6 +67,7 @@ def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) 
     assert _sandbox_processes() == {}
 
 
+@pytest.mark.full
 def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
@@ -110,6 +112,7 @@ def test_an_invalid_answer_is_not_a_verdict(tmp_path: Path) -> None:
     assert "sent an invalid answer" in done.answer.fault
 
 
+@pytest.mark.full
 def test_stopping_early_ends_every_worker_and_its_sandbox(ros_jazzy: Ros, tmp_path: Path) -> None:
     with contextlib.closing(
         LocalPool(JOB, 2).run(

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import pytest
+
 from grader.ros.prefix import Ros
 from tests import processes
 from tests.lab import ten_steps
@@ -38,6 +40,7 @@ def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
         assert lab.leave() == 0
 
 
+@pytest.mark.full
 def test_an_ordinary_user_can_do_the_steps_and_owns_the_files(ros_jazzy: Ros) -> None:
     with open_to_all() as folder:
         workspace = folder / "ros2_ws"
@@ -49,6 +52,7 @@ def test_an_ordinary_user_can_do_the_steps_and_owns_the_files(ros_jazzy: Ros) ->
         }
 
 
+@pytest.mark.long
 def test_another_distro_has_another_lab_with_its_own_commands(
     ros_kilted: Ros, tmp_path: Path
 ) -> None:
