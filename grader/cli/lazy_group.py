@@ -44,7 +44,7 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Import the command that the arguments name; its help is translated until `ctx` closes."""
         name, command, rest = super().resolve_command(ctx, args)
-        if name in self.lazy:
+        if name is not None and name in self.lazy:
             command = self.lazy[name].load()
             ctx.with_resource(translated_texts(command, ctx.obj or SOURCE))
         return name, command, rest
