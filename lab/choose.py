@@ -10,6 +10,9 @@ from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro
+from grader.ros.images import connect, find_image
+from grader.sandbox.proof import proven_ros
+from lab.bubblewrap import BubblewrapLab
 from lab.config import LabConfig
 
 KINDS = ("auto", "docker", "bubblewrap")
@@ -44,8 +47,7 @@ def choose(kind: str, distro: Distro, *, notify: Notify) -> Enter:
 
 
 def _docker(distro: Distro) -> tuple[Enter, str]:
-    # imported lazily: neither kind of lab needs the other's libraries
-    from grader.ros.images import connect, find_image  # noqa: PLC0415
+    # imports docker, which the lab with bubblewrap does not need
     from lab.container import ContainerLab  # noqa: PLC0415
 
     client = connect()
@@ -60,9 +62,6 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
 
 
 def _bubblewrap(distro: Distro, notify: Notify) -> Enter:
-    from grader.sandbox.proof import proven_ros  # noqa: PLC0415
-    from lab.bubblewrap import BubblewrapLab  # noqa: PLC0415
-
     return BubblewrapLab(proven_ros(distro, notify=notify)).enter
 
 

@@ -17,6 +17,7 @@ from grader.base.i18n.message import msg
 from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
+from grader.cli.main import main as run_grader
 
 OF_A_DISTRO = ("check", "fix")
 
@@ -31,8 +32,6 @@ def run_in_lab(name: str) -> int:
 
     `check` and `fix` use the distro of this terminal unless --distro is given.
     """
-    from grader.cli.main import main as run_grader  # noqa: PLC0415
-
     words = sys.argv[1:]
     if name in OF_A_DISTRO and not any(word.startswith("--distro") for word in words):
         words = ["--distro", os.environ.get("ROS_DISTRO", "jazzy"), *words]

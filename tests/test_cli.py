@@ -188,6 +188,15 @@ def test_start_up_imports_only_what_a_help_text_needs() -> None:
     assert done.stdout.strip() == "[]"
 
 
+def test_the_help_of_the_grader_imports_no_command() -> None:
+    code = (
+        "import sys; from grader.cli.main import COMMANDS, main; main(['--help']); "
+        "print([c.target for c in COMMANDS.values() if c.target.split(':')[0] in sys.modules])"
+    )
+    done = processes.run([sys.executable, "-c", code])
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
 def _cache() -> Path:
     from grader.base.cache import cache_root
 

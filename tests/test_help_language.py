@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gettext
+import inspect
 import os
 import re
 import sys
@@ -10,8 +11,9 @@ import sys
 import click
 import pytest
 
+from grader.base.i18n.translator import LANGUAGES, translated
 from grader.cli.localized import language_of, translated_help
-from grader.cli.main import commands
+from grader.cli.main import COMMANDS, commands, main
 from tests import processes
 
 KOREAN = {"LANG": "ko_KR.UTF-8", "LC_ALL": "", "LANGUAGE": "", "GRADER_LANG": ""}
@@ -98,3 +100,33 @@ def test_the_language_lasts_as_long_as_the_block() -> None:
         assert all(now != then for now, then in zip(state(), before))
         raise KeyError
     assert state() == before
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_list_of_commands_has_the_first_line_of_each_commands_own_help(
+    name: str, lang: str
+) -> None:
+    command = COMMANDS[name].load()
+    assert command.name == name
+    assert command.help is not None
+    own = translated(inspect.cleandoc(command.help), lang)
+    assert translated(COMMANDS[name].help, lang) == own.partition("\n\n")[0]
+
+
+def test_the_help_of_a_command_is_english_again_after_a_run(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    command = COMMANDS["check"].load()
+    before = command.help
+    assert main(["check", "--lang", "ko", "--help"]) == 0
+    assert HANGUL.search(capsys.readouterr().out)
+    assert command.help == before
+
+
+def test_a_command_imported_for_korean_help_keeps_its_metavars() -> None:
+    """click translates the name of a path's type once, when the option is made."""
+    status, korean = run("grader", "grade", "--lang", "ko", "--help", env=ENGLISH)
+    assert status == 0
+    assert HANGUL.search(korean)
+    assert "--out DIRECTORY" in korean

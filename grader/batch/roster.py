@@ -112,7 +112,7 @@ def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> 
 def _evidence(sheet: Sheet, row: int, columns: RosterColumns) -> str:
     """Return which submission or grade of a student the system knows, in words; "" if none."""
     form = form_of(columns.kind)
-    cells = {field: _cell(sheet, row, columns, field) for field in form.fields()}
+    cells = {field: _cell(sheet, row, columns, field) for field in form.fields}
     return form.evidence(cells)
 
 

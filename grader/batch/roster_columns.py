@@ -103,7 +103,7 @@ def columns_of(sheet: Sheet, *, exported: tuple[str, int] | None = None) -> Rost
     if "key" in guesses:  # by its content: `Participant 123`
         kind = MOODLE.name
     form = form_of(kind)
-    own = {field: _named(header, tuple(names)) for field, names in form.fields().items()}
+    own = {field: _named(header, tuple(names)) for field, names in form.fields.items()}
     fields |= {field: columns or fields.get(field, ()) for field, columns in own.items()}
     described = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
     rest = tuple(index for index in unknown if index not in guesses.values())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING
 
 import click
 
@@ -12,9 +11,11 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import msg
 from grader.base.i18n.translator import chosen_language, errors_in
 from grader.cli import options
-
-if TYPE_CHECKING:
-    from grader.course.assignment import Assignment
+from grader.course.assignment import Assignment
+from grader.course.find import assignment_file
+from grader.course.load import load_assignment
+from grader.mistakes import explanation
+from grader.ros.distro import find_distro, sourced
 
 
 @click.command(
@@ -35,37 +36,28 @@ def explain(
     mistake: str | None, assignment: str | None, distro: str | None, lang: str | None
 ) -> int:
     """Explain a mistake of the catalogue, or the output of a terminal."""
-    from grader.mistakes import explanation as texts  # noqa: PLC0415
-    from grader.ros.distro import find_distro, sourced  # noqa: PLC0415
-
     lang = lang or chosen_language(os.environ)
     with errors_in(lang):
-        reader = texts.Reader(
+        reader = explanation.Reader(
             lang,
             find_distro(distro) if distro else sourced(os.environ),
             _lesson(assignment),
         )
     if mistake is None:
-        texts.print_list(file=sys.stdout, reader=reader)
+        explanation.print_list(file=sys.stdout, reader=reader)
         return 0
     if mistake == "-":
-        text = sys.stdin.buffer.read(texts.MOST_BYTES).decode("utf-8", "replace")
-        return 0 if texts.print_recognised(text, file=sys.stdout, reader=reader) else 1
-    texts.print_entry(mistake, file=sys.stdout, reader=reader)
+        text = sys.stdin.buffer.read(explanation.MOST_BYTES).decode("utf-8", "replace")
+        return 0 if explanation.print_recognised(text, file=sys.stdout, reader=reader) else 1
+    explanation.print_entry(mistake, file=sys.stdout, reader=reader)
     return 0
 
 
 def _lesson(assignment: str | None) -> Assignment | None:
     """Return the chosen lesson; None if none was named and the course has no single lesson."""
-    from grader.course.find import assignment_file  # noqa: PLC0415
-    from grader.course.load import load_assignment  # noqa: PLC0415
-
     try:
         return load_assignment(assignment_file(assignment))
     except UsageError:
         if assignment is None:
             return None
         raise
-
-
-COMMANDS = (explain,)

@@ -10,6 +10,8 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
+from grader.cli.fix_package import FixRequest, fix_package
+from grader.verdict.order import default_path, make_orders
 
 
 @click.command(
@@ -49,9 +51,6 @@ def fix(
     lang: str | None,
 ) -> int:
     """Fix a student's own package."""
-    from grader.cli.fix_package import FixRequest, fix_package  # noqa: PLC0415
-    from grader.verdict.order import default_path, make_orders  # noqa: PLC0415
-
     with errors_in(lang):
         place = path or default_path()
         if path is None and not dry_run and place != Path.home() / "ros2_ws":
@@ -64,6 +63,3 @@ def fix(
             raise UsageError(say("fix runs the node on one distro: name one"))
         request = FixRequest(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
         return fix_package(request, notify=lambda text: click.echo(text, err=True))
-
-
-COMMANDS = (fix,)

@@ -1,4 +1,4 @@
-"""The commands for a class: mark it, and correct a verdict by hand."""
+"""The command that marks a class."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ import click
 
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import errors_in
+from grader.batch.accept import accepted
+from grader.batch.override import LEDGER
+from grader.batch.sheets import SheetOptions
 from grader.batch.systems.known import READABLE, sheet_forms
 from grader.cli import options
+from grader.publish import class_run
+from grader.verdict.order import make_orders
 
 _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
-_ledger = click.option(
-    "--ledger",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="The file that stores every verdict (default: ledger.sqlite in the --out folder).",
-)
 
 
 def _sheets(command: Callable[..., int]) -> Callable[..., int]:
@@ -42,7 +42,7 @@ def _sheets(command: Callable[..., int]) -> Callable[..., int]:
     type=click.Path(path_type=Path, file_okay=False),
     help="The folder for all output (default: reports/<name of the class folder>).",
 )
-@_ledger
+@options.ledger
 @click.option(
     "--roster", type=_file, help="A CSV of the class; shows students without a submission."
 )
@@ -104,13 +104,6 @@ def grade_all(
     Stop it with Ctrl+C and run it again to continue: submissions that are already marked and
     have not changed are not marked again. The texts for students are in the language of --lang.
     """
-    # imported here to keep --help fast
-    from grader.batch.accept import accepted  # noqa: PLC0415
-    from grader.batch.override import LEDGER  # noqa: PLC0415
-    from grader.batch.sheets import SheetOptions  # noqa: PLC0415
-    from grader.publish import class_run as run  # noqa: PLC0415
-    from grader.verdict.order import make_orders  # noqa: PLC0415
-
     with errors_in(lang):
         orders = make_orders(path, assignment, distro, sandbox, limits, keys=keys, lang=lang)
     if len(orders) > 1:
@@ -124,7 +117,7 @@ def grade_all(
         columns={name: value for name, value in of_sheets.items() if isinstance(value, str)},
         show_hidden=show_hidden,
     )
-    class_options = run.ClassOptions(
+    class_options = class_run.ClassOptions(
         order=orders[0],
         out=out,
         ledger=ledger or out / LEDGER,
@@ -138,67 +131,4 @@ def grade_all(
         accepts=accepted(accepts),
         quiet=quiet,
     )
-    return run.grade_all(class_options, dry_run=dry_run)
-
-
-@click.command("override")
-@click.argument("student", required=False)
-@click.option("--check", "check_id", default="", metavar="ID", help="The check (default: all).")
-@click.option("--points", type=float, help="The points for this student.")
-@click.option("--because", default="", help="The reason; the student reads it.")
-@click.option("--remove", is_flag=True, help="Remove the correction.")
-@click.option("--list", "list_all", is_flag=True, help="List the corrections in effect.")
-@click.option("--force", is_flag=True, help="Allow points below 0 or above the maximum.")
-@options.assignment
-@options.keys
-@_ledger
-@click.option(
-    "--out", type=click.Path(path_type=Path, file_okay=False), help="The class' --out folder."
-)
-def override(
-    student: str | None,
-    check_id: str,
-    points: float | None,
-    because: str,
-    remove: bool,
-    list_all: bool,
-    force: bool,
-    assignment: str | None,
-    keys: Path | None,
-    ledger: Path | None,
-    out: Path | None,
-) -> int:
-    """Correct a verdict by hand: grader override STUDENT --check ID --points N --because WHY.
-
-    The correction survives reruns and regrades; the next `grader grade-all` writes it into every
-    output. Without --check it corrects the total.
-    """
-    from grader.batch import override as corrections  # noqa: PLC0415
-    from grader.batch.ledger import Ledger  # noqa: PLC0415
-    from grader.verdict.order import load_with_hidden  # noqa: PLC0415
-
-    wanted = load_with_hidden(assignment, keys)
-    place = corrections.find_ledger(ledger, out, Path.cwd())
-    with Ledger(place, makes=False) as opened:
-        if list_all:
-            for line in corrections.listed(opened, wanted):
-                click.echo(line)
-            return 0
-        if student is None or (points is None and not remove):
-            raise UsageError(
-                "STUDENT and --points are required",
-                remedy="For example: grader override kim --check run.output --points 10 "
-                '--because "seen in class"',
-            )
-        if remove:
-            corrections.remove(opened, wanted, student, check_id, notify=click.echo)
-        else:
-            assert points is not None
-            corrections.put(
-                opened, wanted, student, check_id, points, because, force=force, notify=click.echo
-            )
-    click.echo("Run the same `grader grade-all` again: it writes this into every output.")
-    return 0
-
-
-COMMANDS = (grade_all, override)
+    return class_run.grade_all(class_options, dry_run=dry_run)

@@ -34,13 +34,14 @@ def run(command: click.Command, name: str, argv: list[str] | None) -> int:
     signal.signal(signal.SIGTERM, _terminated)
     signal.signal(signal.SIGHUP, _terminated)
     words = sys.argv[1:] if argv is None else argv
-    with gated_output(), translated_help(language_of(words), command):
-        return _run(command, name, words)
+    lang = language_of(words)
+    with gated_output(), translated_help(lang, command):
+        return _run(command, name, words, lang)
 
 
-def _run(command: click.Command, name: str, argv: list[str]) -> int:
+def _run(command: click.Command, name: str, argv: list[str], lang: str) -> int:
     try:
-        status = command.main(args=argv, prog_name=name, standalone_mode=False)
+        status = command.main(args=argv, prog_name=name, standalone_mode=False, obj=lang)
         return status if isinstance(status, int) else 0
     except click.exceptions.Exit as done:
         return done.exit_code

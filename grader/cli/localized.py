@@ -24,6 +24,7 @@ from grader.base.i18n.translator import (
     translated,
 )
 
+NO_DOMAIN = "messages"  # gettext's default, which has no catalogue
 VARIABLE = "LANGUAGE"  # the environment variable that gettext reads first
 CLICK = (  # click's own texts that a student may see
     msg("Usage:"),
@@ -59,14 +60,39 @@ CLICK_PLURALS = (  # click's texts with a plural form
 
 @contextmanager
 def translated_help(lang: str, command: click.Command) -> Iterator[None]:
-    """Within this context, translate the texts of a command and its subcommands."""
+    """Within this context, translate click's own texts and those of a command."""
     if lang == SOURCE:
         yield
         return
-    helps, domain, languages = list(_helps(command)), gettext.textdomain(), os.environ.get(VARIABLE)
+    domain, languages = gettext.textdomain(), os.environ.get(VARIABLE)
     os.environ[VARIABLE] = lang
     gettext.bindtextdomain(DOMAIN, str(FOLDER))
     gettext.textdomain(DOMAIN)
+    try:
+        with translated_texts(command, lang):
+            yield
+    finally:
+        gettext.textdomain(domain)
+        os.environ.pop(VARIABLE)
+        if languages is not None:
+            os.environ[VARIABLE] = languages
+
+
+@contextmanager
+def untranslated() -> Iterator[None]:
+    """Within this context, click's own texts are English."""
+    domain = gettext.textdomain()
+    gettext.textdomain(NO_DOMAIN)
+    try:
+        yield
+    finally:
+        gettext.textdomain(domain)
+
+
+@contextmanager
+def translated_texts(command: click.Command, lang: str) -> Iterator[None]:
+    """Within this context, translate the help of a command, its options and its subcommands."""
+    helps = list(_helps(command))
     for owner, text in helps:
         owner.help = translated(inspect.cleandoc(text), lang)
     try:
@@ -74,10 +100,6 @@ def translated_help(lang: str, command: click.Command) -> Iterator[None]:
     finally:
         for owner, text in helps:
             owner.help = text
-        gettext.textdomain(domain)
-        os.environ.pop(VARIABLE)
-        if languages is not None:
-            os.environ[VARIABLE] = languages
 
 
 def _helps(command: click.Command) -> Iterator[tuple[click.Command | click.Option, str]]:

@@ -51,3 +51,17 @@ lang = click.option(
     type=click.Choice(["en", "ko"]),
     help=msg("The language of the texts (default: from LC_ALL, LANG and LANGUAGE)."),
 )
+verbose = click.option(
+    "-v", "--verbose", is_flag=True, help=msg("Show the evidence of every check.")
+)
+ledger = click.option(
+    "--ledger",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="The file that stores every verdict (default: ledger.sqlite in the --out folder).",
+)
+container_sandbox = click.option(
+    "--sandbox",
+    default="account",
+    show_default=True,
+    help="Where the student's code runs in Gradescope's container.",
+)

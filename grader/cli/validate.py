@@ -8,6 +8,9 @@ import click
 
 from grader.base.errors import UsageError
 from grader.cli import options
+from grader.course.find import assignment_file, own_keys
+from grader.validate import matrix, validation
+from grader.verdict.order import make_orders
 
 
 @click.command()
@@ -46,11 +49,6 @@ def validate(
 
     Exit status: 0 all verdicts are as expected, 1 otherwise.
     """
-    from grader.course.find import assignment_file, own_keys  # noqa: PLC0415
-    from grader.validate import matrix  # noqa: PLC0415
-    from grader.validate import validation as command  # noqa: PLC0415
-    from grader.verdict.order import make_orders  # noqa: PLC0415
-
     file = assignment_file(assignment)
     order, *others = make_orders(Path(), assignment, distro, sandbox, limits, keys=keys, lang="en")
     if others:
@@ -61,21 +59,18 @@ def validate(
             f"no folder is given for the solution of {order.assignment.id}",
             remedy="Give the instructor's folder of the assignment with --keys (make: KEYS=…).",
         )
-    options = command.ValidationOptions(
+    options = validation.ValidationOptions(
         order=order,
         keys=folder,
-        starter=command.starter_of(file),
+        starter=validation.starter_of(file),
         static=static,
         workers=workers or 0,
         only=only,
     )
-    found = command.validate(options, notify=lambda text: click.echo(text, err=True))
+    found = validation.validate(options, notify=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))
     click.echo()
     click.echo(matrix.summary(found))
     if json_file is not None:
-        command.write_json(found, json_file)
+        validation.write_json(found, json_file)
     return 1 if found.faults else 0
-
-
-COMMANDS = (validate,)

@@ -19,6 +19,7 @@ from grader.batch.ledger import Ledger
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.sheets import SheetOptions
 from grader.batch.verdict_key import source_digest
+from grader.report.files import write_report
 
 INDEX = "index.html"
 CLASS_FOLDERS = ("students", "feedback", "unpacked")
@@ -129,8 +130,6 @@ class Outputs:
 
 
 def _write_report(entry: GradebookEntry, out: Path) -> list[Path]:
-    from grader.report.files import write_report  # noqa: PLC0415
-
     report = entry.report
     if report is None:
         return []

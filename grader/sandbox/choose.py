@@ -10,10 +10,13 @@ from pathlib import Path
 from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
+from grader.ros import image_build, images
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError
 from grader.sandbox.base import Sandbox
+from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
+from grader.sandbox.plain import AccountSandbox, NoSandbox
 from grader.sandbox.proof import proven_ros
 
 NAMES = ("auto", "docker", "bubblewrap", "account", "none")
@@ -73,19 +76,12 @@ def _choices(name: str, *, own_code: bool) -> list[str]:
 def _make(
     choice: str, distro: Distro, limits: Limits, notify: Notify, *, required: bool
 ) -> Sandbox | None:
-    # sandboxes are imported lazily to keep `grader --help` fast
     if choice == "docker":
         return _docker(distro, limits, notify, required=required)
     ros = proven_ros(distro, notify=notify)
     if choice == "bubblewrap":
-        from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
-
         return Bubblewrap(ros, limits)
-    from grader.sandbox import plain  # noqa: PLC0415
-
-    return (
-        plain.AccountSandbox(ros, limits) if choice == "account" else plain.NoSandbox(ros, limits)
-    )
+    return AccountSandbox(ros, limits) if choice == "account" else NoSandbox(ros, limits)
 
 
 def _docker(distro: Distro, limits: Limits, notify: Notify, *, required: bool) -> Sandbox | None:
@@ -95,7 +91,7 @@ def _docker(distro: Distro, limits: Limits, notify: Notify, *, required: bool) -
     """
     if not required and not os.environ.get("DOCKER_HOST") and not DOCKER_SOCKET.exists():
         return None
-    from grader.ros import image_build, images  # noqa: PLC0415
+    # imports docker, which the other sandboxes do not need
     from grader.sandbox.docker_sandbox import DockerSandbox  # noqa: PLC0415
 
     try:

@@ -13,7 +13,9 @@ from grader.base.unheard import unheard
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError, Ros, find_ros, is_in_cache
 from grader.sandbox.base import Sandbox
+from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
+from grader.sandbox.plain import NoSandbox
 
 SECONDS = 60.0  # of wall time; the programs take 0.3 s
 MAX_OUTPUT = 2_000  # characters that an error shows
@@ -47,10 +49,6 @@ def prove_ros(ros: Ros) -> None:
     If no sandbox works, they are started without one; that is reported later, when a sandbox is
     opened for a student's code. Raises BrokenRosError if a program does not run.
     """
-    # sandboxes are imported lazily to keep `grader --help` fast
-    from grader.sandbox.bubblewrap import Bubblewrap  # noqa: PLC0415
-    from grader.sandbox.plain import NoSandbox  # noqa: PLC0415
-
     try:
         with Bubblewrap(ros, Limits()) as sandbox:
             _prove(sandbox, OTHER_CACHE)

@@ -2,40 +2,32 @@
 
 from __future__ import annotations
 
+import difflib
 import pkgutil
 from collections.abc import Mapping
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.batch import systems
+from grader.batch.systems import plain
+from grader.batch.systems.layout import Layout
 from grader.batch.systems.system import Reader, ReportForm, SheetForm, System
-
-if TYPE_CHECKING:
-    from grader.batch.systems.layout import Layout
-
-
-def _plain() -> Reader:
-    from grader.batch.systems import plain  # noqa: PLC0415 - not needed for --help
-
-    return plain
-
 
 # without a system: named by the students or the instructor
 FOLDERS = System(
     name="folders",
     title="a folder of folders",
     download="a folder for each student, named after the student",
-    reader=_plain,
+    reader=plain,
     group_folders=True,
 )
 ARCHIVES = System(
     name="archives",
     title="one archive for each student",
     download="an archive for each student, named after the student",
-    reader=_plain,
+    reader=plain,
     group_folders=True,
 )
 
@@ -76,13 +68,11 @@ def report_forms() -> dict[str, ReportForm]:
 def reader_of(system: System) -> Reader:
     """Return what reads a system's download."""
     assert system.reader is not None
-    return system.reader()
+    return system.reader
 
 
 def check_system(name: str) -> None:
     """Raise UsageError (with a "did you mean") if no system has that name."""
-    import difflib  # noqa: PLC0415 - not needed for --help
-
     if name == "auto" or name in READABLE:
         return
     close = difflib.get_close_matches(name.lower(), READABLE, n=1)

@@ -1,7 +1,4 @@
-"""What a learning management system is: the record `SYSTEM` of each folder beside this module.
-
-A record is light: it is imported for `--help`. What reads and writes files is imported when needed.
-"""
+"""What a learning management system is: the record `SYSTEM` of each folder beside this module."""
 
 from __future__ import annotations
 
@@ -108,7 +105,7 @@ class RosterForm:
     key: Callable[[Sheet, Sequence[str]], RosterKey | None]
     number: Callable[[str], str] = str
     is_identity: bool = False
-    fields: Callable[[], Mapping[str, Collection[str]]] = dict
+    fields: Mapping[str, Collection[str]] = field(default_factory=dict)
     is_header: Callable[[str], bool] = frozenset[str]().__contains__
     evidence: Callable[[Mapping[str, str]], str] = _none
 
@@ -118,7 +115,7 @@ class System:
     """A learning management system; its folder has the same name as it.
 
     `title` names it on pages. `download` describes what `grade-all` reads from it ("": nothing),
-    `reader` imports what reads it. Of several systems that recognise a folder or a roster, the one
+    `reader` reads it. Of several systems that recognise a folder or a roster, the one
     with the highest `priority` is taken. `numbered`: the download and the roster have the same
     number for a student. `group_folders`: the download has one folder for each group. `usernames`:
     its folders end with the username. `keeps_modes`: exec bits survive. `sheet` and `gradebook` are
@@ -129,7 +126,7 @@ class System:
     title: str
     priority: int = 0
     download: str = ""
-    reader: Callable[[], Reader] | None = None
+    reader: Reader | None = None
     numbered: bool = False
     group_folders: bool = False
     usernames: bool = False

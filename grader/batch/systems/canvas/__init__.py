@@ -1,36 +1,24 @@
 """Canvas: its download and its gradebook."""
 
-# the modules are imported when needed: --help must not pay for them
-# ruff: noqa: PLC0415
-
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from grader.batch.model import ClassResult, Comment
+from grader.batch.sheet import Filled, Sheet
+from grader.batch.systems.canvas import read
 from grader.batch.systems.system import (
     Columns,
     NewGradebook,
     OpenSheet,
-    Reader,
     RosterForm,
     RosterKey,
     SheetForm,
     System,
 )
-
-if TYPE_CHECKING:
-    from grader.batch.model import ClassResult, Comment
-    from grader.batch.sheet import Filled, Sheet
-    from grader.course.assignment import Assignment
+from grader.course.assignment import Assignment
 
 OUTPUT = "canvas-gradebook.csv"
-
-
-def _reader() -> Reader:
-    from grader.batch.systems.canvas import read
-
-    return read
 
 
 def _roster_key(_sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
@@ -41,15 +29,15 @@ def _roster_key(_sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
 
 
 def _gradebook(content: bytes, columns: Columns, assignment: Assignment) -> OpenSheet:
-    from grader.batch.systems.canvas.write import read_gradebook
+    # imports the roster, which imports all systems
+    from grader.batch.systems.canvas.write import read_gradebook  # noqa: PLC0415
 
     names = (assignment.title, assignment.id)
     return read_gradebook(content, column=columns["canvas_column"], names=names)
 
 
 def _new_gradebook(result: ClassResult, _comment: Comment, columns: Columns) -> Filled:
-    from grader.batch.sheet import Filled
-    from grader.batch.systems.canvas.write import new_gradebook
+    from grader.batch.systems.canvas.write import new_gradebook  # noqa: PLC0415
 
     return Filled(new_gradebook(result, title=columns["canvas_column"]))
 
@@ -59,7 +47,7 @@ SYSTEM = System(
     title="Canvas",
     priority=2,
     download="Canvas' download of all submissions",
-    reader=_reader,
+    reader=read,
     numbered=True,
     roster=RosterForm(key=_roster_key),
     sheet=SheetForm(

@@ -1,24 +1,14 @@
 """GitHub Classroom: its clones, and the results for its reporter."""
 
-# the modules are imported when needed: --help must not pay for them
-# ruff: noqa: PLC0415
-
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from grader.batch.systems.system import Reader, RosterForm, RosterKey, System
-
-if TYPE_CHECKING:
-    from grader.batch.sheet import Sheet
-    from grader.report.model import Report
-
-
-def _reader() -> Reader:
-    from grader.batch.systems.github_classroom import read
-
-    return read
+from grader.batch.points import single
+from grader.batch.sheet import Sheet
+from grader.batch.systems.github_classroom import read, write
+from grader.batch.systems.system import RosterForm, RosterKey, System
+from grader.report.model import Report
 
 
 def _roster_key(_sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
@@ -29,9 +19,6 @@ def _roster_key(_sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
 
 
 def _github(report: Report, show_hidden: bool) -> str:
-    from grader.batch.points import single
-    from grader.batch.systems.github_classroom import write
-
     return write.github_output(write.results(single(report), show_hidden=show_hidden))
 
 
@@ -40,7 +27,7 @@ SYSTEM = System(
     title="GitHub Classroom",
     priority=1,
     download="clones of GitHub Classroom's repositories",
-    reader=_reader,
+    reader=read,
     usernames=True,
     keeps_modes=True,
     roster=RosterForm(key=_roster_key, is_identity=True),

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from datetime import datetime, timezone
 from typing import Any
 
+import yaml
+
 Record = Mapping[str, Any]
 
 STAMP = re.compile(
@@ -59,8 +61,6 @@ def _records(loaded: object) -> dict[str, Record]:
 
 def _load(content: bytes) -> object:
     """Parse YAML; a Ruby object becomes its plain data. Raise ValueError if it is not YAML."""
-    import yaml  # noqa: PLC0415 - slow to import, and rarely needed
-
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     loader = type("Loader", (base,), {})
 

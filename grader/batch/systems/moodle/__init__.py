@@ -1,69 +1,33 @@
 """Moodle: its download, its worksheet and its gradebook import."""
 
-# the modules are imported when needed: --help must not pay for them
-# ruff: noqa: PLC0415
-
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
+from grader.batch.model import ClassResult, Comment
+from grader.batch.sheet import Filled, Sheet
+from grader.batch.systems.moodle import read, roster
+from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.system import (
     Columns,
     NewGradebook,
     OpenSheet,
-    Reader,
     RosterForm,
     RosterKey,
     SheetForm,
     System,
 )
-
-if TYPE_CHECKING:
-    from grader.batch.model import ClassResult, Comment
-    from grader.batch.sheet import Filled, Sheet
-    from grader.course.assignment import Assignment
-
-
-def _reader() -> Reader:
-    from grader.batch.systems.moodle import read
-
-    return read
+from grader.course.assignment import Assignment
 
 
 def _roster_key(sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
-    from grader.batch.systems.moodle.roster import identifier_column
-
-    column = identifier_column(sheet, header)
+    column = roster.identifier_column(sheet, header)
     return None if column is None else RosterKey(column)
 
 
-def _number(cell: str) -> str:
-    from grader.batch.systems.moodle.roster import participant
-
-    return participant(cell)
-
-
-def _fields() -> Mapping[str, Collection[str]]:
-    from grader.batch.systems.moodle.roster import FIELDS
-
-    return FIELDS
-
-
-def _is_header(name: str) -> bool:
-    from grader.batch.systems.moodle.roster import is_header
-
-    return is_header(name)
-
-
-def _evidence(cells: Mapping[str, str]) -> str:
-    from grader.batch.systems.moodle.roster import evidence
-
-    return evidence(cells)
-
-
 def _worksheet(content: bytes, columns: Columns, assignment: Assignment) -> OpenSheet:
-    from grader.batch.systems.moodle.worksheet import read_worksheet
+    # imports the roster, which imports all systems
+    from grader.batch.systems.moodle.worksheet import read_worksheet  # noqa: PLC0415
 
     return read_worksheet(
         content,
@@ -74,8 +38,6 @@ def _worksheet(content: bytes, columns: Columns, assignment: Assignment) -> Open
 
 
 def _import_file(result: ClassResult, comment: Comment, _columns: Columns) -> Filled:
-    from grader.batch.systems.moodle.gradebook_import import moodle_import
-
     return moodle_import(result, comment)
 
 
@@ -84,15 +46,15 @@ SYSTEM = System(
     title="Moodle",
     priority=3,
     download="Moodle's download of all submissions",
-    reader=_reader,
+    reader=read,
     numbered=True,
     group_folders=True,
     roster=RosterForm(
         key=_roster_key,
-        number=_number,
-        fields=_fields,
-        is_header=_is_header,
-        evidence=_evidence,
+        number=roster.participant,
+        fields=roster.FIELDS,
+        is_header=roster.is_header,
+        evidence=roster.evidence,
     ),
     sheet=SheetForm(
         option="worksheet",

@@ -1,0 +1,49 @@
+"""The command that marks one package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from grader.base.i18n.translator import errors_in
+from grader.cli import options
+from grader.cli.mark_orders import mark_orders
+from grader.verdict.order import make_orders
+
+
+@click.command()
+@click.argument("path", type=click.Path(path_type=Path))
+@options.assignment
+@options.keys
+@options.distros
+@options.sandbox
+@click.option("--name", help="The student's name in the report (default: the folder's).")
+@options.limits
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=Path("reports"),
+    show_default=True,
+    help="The folder for reports.",
+)
+@options.lang
+@options.verbose
+def grade(
+    path: Path,
+    assignment: str | None,
+    keys: Path | None,
+    distro: str,
+    sandbox: str,
+    name: str | None,
+    limits: tuple[str, ...],
+    out: Path,
+    lang: str | None,
+    verbose: bool,
+) -> int:
+    """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
+    with errors_in(lang):
+        orders = make_orders(
+            path, assignment, distro, sandbox, limits, name=name, keys=keys, lang=lang
+        )
+        return mark_orders(orders, out, verbose=verbose, show_hidden=True)
