@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.batch.roster_guess import guessed
+from grader.batch.roster_guess import PARTICIPANT_SYSTEM, guessed
 from grader.batch.sheet import Sheet, folded_header
 from grader.batch.systems.known import SYSTEMS
-from grader.batch.systems.moodle import SYSTEM as MOODLE
 from grader.batch.systems.moodle.words import TEAM
 from grader.batch.systems.system import RosterForm
 
@@ -101,7 +100,7 @@ def columns_of(sheet: Sheet, *, exported: tuple[str, int] | None = None) -> Rost
     guesses = guessed(sheet, unknown, {field for field, found in fields.items() if found})
     fields |= {field: (index,) for field, index in guesses.items()}
     if "key" in guesses:  # by its content: `Participant 123`
-        kind = MOODLE.name
+        kind = PARTICIPANT_SYSTEM
     form = form_of(kind)
     own = {field: _named(header, tuple(names)) for field, names in form.fields.items()}
     fields |= {field: columns or fields.get(field, ()) for field, columns in own.items()}

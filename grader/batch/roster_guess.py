@@ -14,6 +14,7 @@ PEEKED = 50  # rows that are examined
 MOST = 0.9  # share of the rows that must fit in a column that people may have typed
 LEAST_COLUMNS = 4  # of a Moodle worksheet: identifier, name, status, grade
 PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word in any script, then the number
+PARTICIPANT_SYSTEM = "moodle"  # writes `Participant 123`
 EMAIL = re.compile(r"[^@\s]+@[^@\s]+\.[^@\s]+")
 NUMBER = re.compile(r"[A-Za-z]{0,3}[-.]?\d[\d.-]{3,14}")
 NAME = re.compile(r"[^\W\d_]+(?:[ ,.'’·-]+[^\W\d_]+)*\.?")
