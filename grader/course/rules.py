@@ -6,17 +6,14 @@ import difflib
 import keyword
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
-from grader.base.errors import AssignmentError
 from grader.base.positioned_yaml import Document, Loc
+from grader.base.yaml_model import Fault, error_of, validated
 from grader.course.assignment import Assignment, CheckUse, Output
 from grader.course.policy import Late, Policy, policy_faults
-
-Fault = tuple[Loc, str]  # the place in the document, and the message
 
 # REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
 NAMES = {  # key: its pattern, and the pattern in words
@@ -36,15 +33,6 @@ NAMES = {  # key: its pattern, and the pattern in words
         "module.path:function, such as my_package.my_node:main",
     ),
 }
-TYPES = {
-    "string": "text (put it in quotes)",
-    "int": "a whole number",
-    "float": "a number",
-    "datetime": "a date and time such as 2026-11-20T23:59:00+09:00, without quotes",
-    "tuple": "a list",
-    "dict": "a block of `key: value`",
-    "model": "a block of `key: value`",
-}
 
 
 class HiddenChecks(BaseModel):
@@ -62,10 +50,7 @@ def check_content(
     content = document.content
     if isinstance(content, dict) and "sha256" in content:
         raise document.error(("sha256",), "unknown key 'sha256'")
-    try:
-        assignment = Assignment.model_validate(content, strict=True)
-    except ValidationError as error:
-        raise _error_of(document, _type_faults(error, Assignment)) from None
+    assignment = validated(document, Assignment, _keys(Assignment))
     found = [
         *_names(assignment),
         *_output(assignment.output),
@@ -77,7 +62,7 @@ def check_content(
         ),
     ]
     if found:
-        raise _error_of(document, found)
+        raise error_of(document, found)
     return assignment
 
 
@@ -85,13 +70,10 @@ def merge_hidden(
     assignment: Assignment, document: Document, hidden: Document, *, known_checks: Sequence[str]
 ) -> Assignment:
     """Return the assignment with the hidden checks added after the visible ones."""
-    try:
-        extra = HiddenChecks.model_validate(hidden.content, strict=True).checks
-    except ValidationError as error:
-        raise _error_of(hidden, _type_faults(error, HiddenChecks)) from None
+    extra = validated(hidden, HiddenChecks, _keys(HiddenChecks)).checks
     found = list(_check_uses(extra, known_checks, taken=[use.id for use in assignment.checks]))
     if found:
-        raise _error_of(hidden, found)
+        raise error_of(hidden, found)
     if len(extra) != assignment.hidden_checks:
         raise document.error(
             ("hidden_checks",),
@@ -105,75 +87,6 @@ def merge_hidden(
 
 def _as_hidden(use: CheckUse) -> CheckUse:
     return CheckUse(id=use.id, points=use.points, visibility="hidden")
-
-
-def _error_of(document: Document, faults: Iterable[Fault]) -> AssignmentError:
-    rows = {(document.line(loc), text) for loc, text in faults}
-    return AssignmentError(
-        "\n".join(f"{document.path}:{line}: {text}" for line, text in sorted(rows))
-    )
-
-
-def _type_faults(error: ValidationError, model: type[BaseModel]) -> Iterator[Fault]:
-    """Yield pydantic's errors in our words; a misspelt key is not reported as missing too."""
-    known = _keys(model)
-    meant: set[Loc] = set()
-    rest = []
-    for item in error.errors(include_url=False, include_input=True):
-        loc: Loc = item["loc"]
-        if item["type"] != "extra_forbidden":
-            rest.append(item)
-            continue
-        name = str(loc[-1])
-        candidates = known.get(_shape(loc[:-1]), ())
-        close = difflib.get_close_matches(name, candidates, n=1)
-        hint = f" (did you mean '{close[0]}'?)" if close else f"; known: {', '.join(candidates)}"
-        meant |= {(*loc[:-1], key) for key in close}
-        yield loc, f"unknown key '{name}'{hint}"
-    for item in rest:
-        loc = item["loc"]
-        if item["type"] == "missing":
-            if loc not in meant:
-                yield loc[:-1], f"missing key '{loc[-1]}'"
-        else:
-            yield loc, _wrong_value(loc, item)
-
-
-def _wrong_value(loc: Loc, item: Any) -> str:
-    where = ".".join(str(part) for part in loc) or "the file"
-    kind = str(item["type"])
-    given = _shown(item.get("input"))
-    wanted = TYPES.get(kind.partition("_")[0])
-    if kind.endswith("_type") and wanted:
-        return f"{where} must be {wanted}, not {given}"
-    bounds = item.get("ctx", {})
-    if kind == "greater_than":
-        return f"{where} must be above {bounds['gt']:g}, not {given}"
-    if kind == "greater_than_equal":
-        return f"{where} must be at least {bounds['ge']:g}, not {given}"
-    if kind == "literal_error":
-        close = difflib.get_close_matches(str(item.get("input")), _choices(bounds), n=1)
-        hint = f" (did you mean '{close[0]}'?)" if close else ""
-        return f"{where} must be {bounds['expected']}, not {given}{hint}"
-    return f"{where}: {item['msg']}, not {given}"
-
-
-def _choices(bounds: Any) -> list[str]:
-    return re.findall(r"'([^']+)'", str(bounds.get("expected", "")))
-
-
-def _shown(value: Any) -> str:
-    if value is None:
-        return "empty"
-    if isinstance(value, dict | tuple):
-        return "a block of `key: value`" if isinstance(value, dict) else "a list"
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "…'"
-
-
-def _shape(loc: Loc) -> Loc:
-    """Return a place with `*` for each index: all members of a list have the same keys."""
-    return tuple("*" if isinstance(part, int) else part for part in loc)
 
 
 def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:

@@ -19,31 +19,28 @@ from __future__ import annotations
 import base64
 import binascii
 import difflib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Annotated, Any, Literal, NoReturn
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    model_validator,
+)
 
 from grader.base.errors import AssignmentError
 from grader.base.positioned_yaml import Document, Loc, read_yaml
+from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, validated
 from grader.validate import tree
 from grader.validate.mutant import Mutant
 
 MUTANTS = "mutants.yaml"
-# each edit: its other required keys, its optional keys
-VERBS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "replace": (("old", "new"), ()),
-    "write": ((), ("text", "base64", "mode")),
-    "delete": ((), ()),
-    "rename": (("to",), ()),
-    "copy": (("to",), ()),
-    "chmod": (("mode",), ()),
-    "crlf": ((), ()),
-    "link": (("to",), ()),
-    "nest": ((), ()),
-}
-NAMED = ("name", "check", "mistake", "edits")
-EXPLAINED = ("mutant", "why")
 
 
 @dataclass(frozen=True)
@@ -80,152 +77,255 @@ class MutantsFile:
 def read_mutants(path: Path, *, checks: Iterable[str], mistakes: Iterable[str]) -> MutantsFile:
     """Read mutants.yaml.
 
-    Raises AssignmentError, whose message reads `file:line: what is wrong`.
+    Raises AssignmentError; each line of its message reads `file:line: what is wrong`.
     """
-    return _Reader(read_yaml(path), tuple(checks), tuple(mistakes)).read()
+    document = read_yaml(path)
+    content = validated(document, _Content, KEYS)
+    if found := list(_faults(content, tuple(checks), tuple(mistakes))):
+        raise error_of(document, found)
+    return MutantsFile(
+        mutants=tuple(
+            Mutant(
+                name=named.name,
+                edits=tuple(edit.made() for edit in named.edits),
+                families=(named.check,),
+                mistake=named.mistake,
+                where=_where(document, ("mutants", n)),
+            )
+            for n, named in enumerate(content.mutants)
+        ),
+        equivalent=tuple(
+            Explained(entry.mutant, entry.why, _where(document, ("equivalent", n)))
+            for n, entry in enumerate(content.equivalent)
+        ),
+    )
 
 
-class _Reader:
-    def __init__(
-        self, document: Document, checks: tuple[str, ...], mistakes: tuple[str, ...]
-    ) -> None:
-        self._document = document
-        self._checks = checks
-        self._mistakes = mistakes
+def _where(document: Document, loc: Loc) -> str:
+    return f"{document.path}:{document.line(loc)}"
 
-    def read(self) -> MutantsFile:
-        content = self._mapping((), self._document.content, ("schema", "mutants", "equivalent"))
-        if content.get("schema") != 1:
-            raise self._document.error(("schema",), "schema must be 1")
-        mutants: dict[str, Mutant] = {}
-        for n, item in enumerate(self._list(("mutants",), content.get("mutants", ()))):
-            mutant = self._mutant(("mutants", n), item)
-            if mutant.name in mutants:
-                text = f"there are two mutants '{mutant.name}'"
-                raise self._document.error(("mutants", n, "name"), text)
-            mutants[mutant.name] = mutant
-        whys: dict[str, Explained] = {}
-        for n, item in enumerate(self._list(("equivalent",), content.get("equivalent", ()))):
-            entry = self._explained(("equivalent", n), item)
-            if entry.mutant in whys:
-                text = f"'{entry.mutant}' is explained twice"
-                raise self._document.error(("equivalent", n, "mutant"), text)
-            whys[entry.mutant] = entry
-        return MutantsFile(tuple(mutants.values()), tuple(whys.values()))
 
-    def _explained(self, loc: Loc, item: Any) -> Explained:
-        fields = self._mapping(loc, item, EXPLAINED)
-        mutant, why = (self._text(loc, fields, key) for key in EXPLAINED)
-        return Explained(mutant, why, self._place(loc))
+def _inside(text: str) -> str:
+    path = PurePosixPath(text)
+    if path.is_absolute() or ".." in path.parts or str(path) != text:
+        raise broken(f"not a path inside the package: {text}")
+    return text
 
-    def _place(self, loc: Loc) -> str:
-        return f"{self._document.path}:{self._document.line(loc)}"
 
-    def _mutant(self, loc: Loc, item: Any) -> Mutant:
-        fields = self._mapping(loc, item, NAMED)
-        check = self._one_of(loc, fields, "check", self._checks, "the assignment has no check")
-        mistake = self._one_of(loc, fields, "mistake", self._mistakes, "there is no mistake")
-        edits = self._list((*loc, "edits"), fields.get("edits", ()))
-        if not edits:
-            raise self._document.error(loc, "a mutant needs at least one edit")
-        return Mutant(
-            name=self._text(loc, fields, "name"),
-            edits=tuple(self._edit((*loc, "edits", n), edit) for n, edit in enumerate(edits)),
-            families=(check,),
-            mistake=mistake,
-            where=self._place(loc),
-        )
+def _octal(text: str) -> str:
+    if not (text.isascii() and len(text) <= 4 and text.strip("01234567") == ""):
+        raise broken('a mode is octal digits in quotes: "0644"')
+    return text
 
-    def _edit(self, loc: Loc, item: Any) -> tree.Edit:
+
+def _base64(text: str) -> str:
+    try:
+        base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError) as error:
+        raise broken(f"not base64: {error}") from None
+    return text
+
+
+_Text = Annotated[str, Field(min_length=1)]
+_InPackage = Annotated[_Text, AfterValidator(_inside)]
+_Mode = Annotated[_Text, AfterValidator(_octal)]
+_Base64 = Annotated[_Text, AfterValidator(_base64)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class _Replace(_Part):
+    path: _InPackage = Field(alias="replace")
+    old: _Text
+    new: str
+
+    def made(self) -> tree.Edit:
+        return tree.Replace(self.path, self.old, self.new)
+
+
+class _Write(_Part):
+    path: _InPackage = Field(alias="write")
+    text: str = ""
+    base64: _Base64 = ""
+    mode: _Mode = ""
+
+    @model_validator(mode="after")
+    def _one_content(self) -> _Write:
+        if len({"text", "base64"} & self.model_fields_set) != 1:
+            raise broken("write needs either 'text' or 'base64'")
+        return self
+
+    def made(self) -> tree.Edit:
+        data = base64.b64decode(self.base64) if self.base64 else self.text.encode()
+        return tree.Write(self.path, data, _bits(self.mode) if self.mode else None)
+
+
+class _Delete(_Part):
+    path: _InPackage = Field(alias="delete")
+
+    def made(self) -> tree.Edit:
+        return tree.Delete(self.path)
+
+
+class _Rename(_Part):
+    path: _InPackage = Field(alias="rename")
+    to: _InPackage
+
+    def made(self) -> tree.Edit:
+        return tree.Move(self.path, self.to)
+
+
+class _Copy(_Part):
+    path: _InPackage = Field(alias="copy")
+    to: _InPackage
+
+    def made(self) -> tree.Edit:
+        return tree.Copy(self.path, self.to)
+
+
+class _Chmod(_Part):
+    path: _InPackage = Field(alias="chmod")
+    mode: _Mode
+
+    def made(self) -> tree.Edit:
+        return tree.Chmod(self.path, _bits(self.mode))
+
+
+class _Crlf(_Part):
+    path: _InPackage = Field(alias="crlf")
+
+    def made(self) -> tree.Edit:
+        return tree.Crlf(self.path)
+
+
+class _Link(_Part):
+    path: _InPackage = Field(alias="link")
+    to: _Text
+
+    def made(self) -> tree.Edit:
+        return tree.Link(self.path, self.to)
+
+
+class _Nest(_Part):
+    folder: _InPackage = Field(alias="nest")
+
+    def made(self) -> tree.Edit:
+        return tree.Nest(self.folder)
+
+
+class _Unknown(_Part):
+    """Refuses an edit that has none of the known keys."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse(cls, item: Any) -> NoReturn:
         if not isinstance(item, dict) or not item:
-            raise self._document.error(loc, "an edit is a mapping, e.g. {delete: setup.py}")
-        verb = next((key for key in item if key in VERBS), "")
-        if not verb:
-            first = next(iter(item))
-            raise self._document.error(loc, f"no such edit: {first}{_hint(first, VERBS)}")
-        needed, others = VERBS[verb]
-        fields = self._mapping(loc, item, (verb, *needed, *others))
-        values = {key: self._text(loc, fields, key, empty=key in ("new", "text")) for key in fields}
-        for key in needed:
-            if key not in values:
-                raise self._document.error(loc, f"{verb} needs '{key}'")
-        for key in {verb, "to"} & set(values):
-            if key != "to" or verb != "link":
-                self._path(loc, key, values[key])
-        return _MADE[verb](self, loc, values)
+            raise broken("an edit is a mapping, e.g. {delete: setup.py}")
+        first = next(iter(item))
+        raise broken(f"no such edit: {first}{_hint(first, VERBS)}")
 
-    def _write(self, loc: Loc, values: Mapping[str, str]) -> tree.Edit:
-        if ("text" in values) == ("base64" in values):
-            raise self._document.error(loc, "write needs either 'text' or 'base64'")
-        if "text" in values:
-            data = values["text"].encode()
-        else:
-            try:
-                data = base64.b64decode(values["base64"], validate=True)
-            except (binascii.Error, ValueError) as error:
-                raise self._document.error((*loc, "base64"), f"not base64: {error}") from None
-        mode = self._mode(loc, values) if "mode" in values else None
-        return tree.Write(values["write"], data, mode)
+    def made(self) -> NoReturn:
+        raise AssertionError("it is never valid")
 
-    def _mode(self, loc: Loc, values: Mapping[str, str]) -> int:
-        text = values["mode"]
-        if not (text.isascii() and len(text) <= 4 and text.strip("01234567") == "" and text):
-            raise self._document.error((*loc, "mode"), 'a mode is octal digits in quotes: "0644"')
-        return int(text, 8) & 0o777
 
-    def _path(self, loc: Loc, key: str, text: str) -> None:
-        path = PurePosixPath(text)
-        if path.is_absolute() or ".." in path.parts or str(path) != text:
-            raise self._document.error((*loc, key), f"not a path inside the package: {text}")
+def _bits(mode: str) -> int:
+    return int(mode, 8) & 0o777
 
-    def _mapping(self, loc: Loc, item: Any, keys: Iterable[str]) -> dict[str, Any]:
-        keys = tuple(keys)
-        if not isinstance(item, dict):
-            raise self._document.error(loc, f"expected a mapping with the keys {', '.join(keys)}")
-        for key in item:
-            if key not in keys:
-                hint = _hint(key, keys)
-                raise self._document.error((*loc, key), f"unknown key '{key}'{hint}")
-        return item
 
-    def _list(self, loc: Loc, item: Any) -> tuple[Any, ...]:
-        if not isinstance(item, tuple):
-            raise self._document.error(loc, f"'{loc[-1]}' must be a list")
-        return item
+EDITS: tuple[type[_Part], ...] = (
+    _Replace,
+    _Write,
+    _Delete,
+    _Rename,
+    _Copy,
+    _Chmod,
+    _Crlf,
+    _Link,
+    _Nest,
+)
 
-    def _text(self, loc: Loc, fields: Mapping[str, Any], key: str, *, empty: bool = False) -> str:
-        if key not in fields:
-            raise self._document.error(loc, f"'{key}' is missing")
-        value = fields[key]
-        if not isinstance(value, str) or not (value or empty):
-            text = f"'{key}' must be a non-empty string (quote numbers)"
-            raise self._document.error((*loc, key), text)
-        return value
 
-    def _one_of(
-        self, loc: Loc, fields: Mapping[str, Any], key: str, known: tuple[str, ...], unknown: str
-    ) -> str:
-        value = self._text(loc, fields, key)
-        if value not in known:
-            hint = _hint(value, known)
-            raise self._document.error((*loc, key), f"{unknown} '{value}'{hint}")
-        return value
+def _keys(model: type[_Part]) -> tuple[str, ...]:
+    return tuple(field.alias or name for name, field in model.model_fields.items())
+
+
+VERBS = {_keys(model)[0]: model for model in EDITS}
+
+
+def _tag(item: Any) -> str:
+    """Return the tag of an edit's model: its verb; only TAG if it has no known verb."""
+    verbs = [key for key in item if key in VERBS] if isinstance(item, dict) else []
+    return TAG + verbs[0] if verbs else TAG
+
+
+_AnyEdit = Annotated[
+    Annotated[_Replace, Tag("|replace")]
+    | Annotated[_Write, Tag("|write")]
+    | Annotated[_Delete, Tag("|delete")]
+    | Annotated[_Rename, Tag("|rename")]
+    | Annotated[_Copy, Tag("|copy")]
+    | Annotated[_Chmod, Tag("|chmod")]
+    | Annotated[_Crlf, Tag("|crlf")]
+    | Annotated[_Link, Tag("|link")]
+    | Annotated[_Nest, Tag("|nest")]
+    | Annotated[_Unknown, Tag("|")],
+    Discriminator(_tag),
+]
+
+
+def _at_least_one(edits: tuple[_AnyEdit, ...]) -> tuple[_AnyEdit, ...]:
+    if not edits:
+        raise broken("a mutant needs at least one edit")
+    return edits
+
+
+class _Named(_Part):
+    name: _Text
+    check: _Text
+    mistake: _Text
+    edits: Annotated[tuple[_AnyEdit, ...], AfterValidator(_at_least_one)]
+
+
+class _Equivalent(_Part):
+    mutant: _Text
+    why: _Text
+
+
+class _Content(_Part):
+    schema_: Literal[1] = Field(alias="schema")
+    mutants: tuple[_Named, ...] = ()
+    equivalent: tuple[_Equivalent, ...] = ()
+
+
+KEYS: Keys = {
+    (): _keys(_Content),
+    ("mutants", "*"): _keys(_Named),
+    ("equivalent", "*"): _keys(_Equivalent),
+    **{("mutants", "*", "edits", "*", TAG + verb): _keys(model) for verb, model in VERBS.items()},
+}
+
+
+def _faults(content: _Content, checks: Sequence[str], mistakes: Sequence[str]) -> Iterator[Fault]:
+    names: set[str] = set()
+    for n, named in enumerate(content.mutants):
+        if named.check not in checks:
+            text = f"the assignment has no check '{named.check}'{_hint(named.check, checks)}"
+            yield ("mutants", n, "check"), text
+        if named.mistake not in mistakes:
+            text = f"there is no mistake '{named.mistake}'{_hint(named.mistake, mistakes)}"
+            yield ("mutants", n, "mistake"), text
+        if named.name in names:
+            yield ("mutants", n, "name"), f"there are two mutants '{named.name}'"
+        names.add(named.name)
+    explained: set[str] = set()
+    for n, entry in enumerate(content.equivalent):
+        if entry.mutant in explained:
+            yield ("equivalent", n, "mutant"), f"'{entry.mutant}' is explained twice"
+        explained.add(entry.mutant)
 
 
 def _hint(word: str, known: Iterable[str]) -> str:
     close = difflib.get_close_matches(word, list(known), n=1)
     return f": did you mean '{close[0]}'?" if close else ""
-
-
-_Maker = Callable[[_Reader, Loc, Mapping[str, str]], tree.Edit]
-_MADE: Mapping[str, _Maker] = {
-    "replace": lambda _r, _l, v: tree.Replace(v["replace"], v["old"], v["new"]),
-    "write": _Reader._write,
-    "delete": lambda _r, _l, v: tree.Delete(v["delete"]),
-    "rename": lambda _r, _l, v: tree.Move(v["rename"], v["to"]),
-    "copy": lambda _r, _l, v: tree.Copy(v["copy"], v["to"]),
-    "chmod": lambda r, loc, v: tree.Chmod(v["chmod"], r._mode(loc, v)),
-    "crlf": lambda _r, _l, v: tree.Crlf(v["crlf"]),
-    "link": lambda _r, _l, v: tree.Link(v["link"], v["to"]),
-    "nest": lambda _r, _l, v: tree.Nest(v["nest"]),
-}

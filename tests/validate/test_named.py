@@ -100,7 +100,13 @@ def test_unknown_names_of_automatic_mutants_are_reported_with_their_line(
         (edits("{chmdo: f}"), 7, "did you mean 'chmod'"),
         (edits("{delete: f}", "{chmod: f}"), 8, "mode"),
         (edits('{chmod: f, mode: "9"}'), 7, "octal"),
-        (edits("{chmod: f, mode: 420}"), 7, "string"),
+        (edits("{chmod: f, mode: 420}"), 7, "text (put it in quotes), not 420"),
+        (edits("chmod: f\n        mod: '0644'"), 8, "did you mean 'mode'"),
+        (edits("{chmod: '', mode: '0644'}"), 7, "chmod must not be empty"),
+        (edits("{chmod: f, mode: '0644', to: g}"), 7, "unknown key 'to'; known: chmod, mode"),
+        (edits("{write: f, text: x, base64: AAE=}"), 7, "'text' or 'base64'"),
+        (edits(), 6, "edits must be a list"),
+        (GOOD[: GOOD.index("    edits")] + "    edits: []\n", 6, "at least one edit"),
         (edits("{delete: ../f}"), 7, "inside"),
         (edits("{delete: /etc/passwd}"), 7, "inside"),
         (edits("{rename: f, to: ../g}"), 7, "inside"),
@@ -118,3 +124,18 @@ def test_an_error_is_reported_with_file_and_line(
         read(tmp_path, textwrap.dedent(text))
     assert str(caught.value).startswith(f"{tmp_path}/mutants.yaml:{line}: ")
     assert says in str(caught.value)
+
+
+def test_all_errors_are_reported_at_once(tmp_path: Path) -> None:
+    text = edits("{delete: ../f}", "{chmod: f, mode: 420}", "{chmdo: f}")
+    with pytest.raises(AssignmentError) as caught:
+        read(tmp_path, text + "equivalent:\n  - {mutant: x}\n")
+    lines = [
+        line.removeprefix(f"{tmp_path}/mutants.yaml:") for line in str(caught.value).split("\n")
+    ]
+    assert lines == [
+        "7: not a path inside the package: ../f",
+        "8: mutants.0.edits.1.mode must be text (put it in quotes), not 420",
+        "9: no such edit: chmdo: did you mean 'chmod'?",
+        "11: missing key 'why'",
+    ]
