@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import say, say_plural
 from grader.base.i18n.translator import Translator
 from grader.report import files, terminal
 from grader.report.model import Report
@@ -58,6 +58,8 @@ def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hi
 def _hidden(count: int) -> str:
     if count == 0:
         return say("There are no hidden checks: your instructor's grader runs the same ones.")
-    if count == 1:
-        return say("Your instructor's grader also runs 1 hidden check.")
-    return say("Your instructor's grader also runs {count} hidden checks.", count=count)
+    return say_plural(
+        "Your instructor's grader also runs 1 hidden check.",
+        "Your instructor's grader also runs {count} hidden checks.",
+        count,
+    )

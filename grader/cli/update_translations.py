@@ -30,9 +30,10 @@ from grader.verdict.checks.all import CHECKS
 
 FOLDERS = ("grader", "lab")  # (the lab has no .po files of its own)
 KEYWORDS = {"say": None, "msg": None}
+PLURAL_KEYWORDS = {"say_plural": (1, 2)}
 TEMPLATE = "jinja2.ext:babel_extract"
 MARKS = "from grader.base.i18n.message import "
-PLURALS = "grader/cli/localized.py"
+CLICK_PLACE = "grader/cli/localized.py"
 MADE = datetime(
     2026, 1, 1, tzinfo=timezone.utc
 )  # constant, so that the files change only if a text changes
@@ -40,9 +41,7 @@ MADE = datetime(
 
 def templates() -> Iterator[tuple[str, str]]:
     """Yield every text that is marked for translation, and its file."""
-    for path in sorted(path for folder in FOLDERS for path in (CHECKOUT / folder).rglob("*.py")):
-        if MARKS not in path.read_text(encoding="utf-8"):
-            continue  # (it may have another function of that name)
+    for path in _sources():
         for _, found, _, _ in extract_from_file("python", path, keywords=KEYWORDS):
             yield str(found), _place(path)
     strict = {"silent": "false"}  # (a template that cannot be parsed is an error)
@@ -51,6 +50,24 @@ def templates() -> Iterator[tuple[str, str]]:
             yield str(found), _place(path)
     for check in CHECKS.values():
         yield check.title, "grader/verdict/checks/all.py"
+
+
+def plurals() -> Iterator[tuple[tuple[str, str], str]]:
+    """Yield every text with a plural form (its texts for 1 and for other counts), and its file."""
+    for path in _sources():
+        for _, found, _, _ in extract_from_file("python", path, keywords=PLURAL_KEYWORDS):
+            assert isinstance(found, tuple)
+            one, many = found
+            yield (one, many), _place(path)
+    for pair in CLICK_PLURALS:
+        yield pair, CLICK_PLACE
+
+
+def _sources() -> Iterator[Path]:
+    """Yield the files that can mark texts; another may have a function of such a name."""
+    for path in sorted(path for folder in FOLDERS for path in (CHECKOUT / folder).rglob("*.py")):
+        if MARKS in path.read_text(encoding="utf-8"):
+            yield path
 
 
 def _place(path: Path) -> str:
@@ -90,9 +107,10 @@ def collect(lang: str, renamed: Mapping[str, str] | None = None) -> Catalog:
     for template, place in templates():
         message = known.get(template) or known.get(before.get(template, template))
         catalog.add(template, message.string if message else "", locations=[(place, 0)])
-    for pair in CLICK_PLURALS:
+    for pair, place in plurals():
         message = known.get(pair)
-        catalog.add(pair, message.string if message else ("",), locations=[(PLURALS, 0)])
+        forms = message.string if message and message.pluralizable else ("",)
+        catalog.add(pair, forms, locations=[(place, 0)])
     return catalog
 
 

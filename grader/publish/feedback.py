@@ -9,7 +9,7 @@ import functools
 import html
 from dataclasses import replace
 
-from grader.base.i18n.message import joined, say
+from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import LANGUAGES, Translator
 from grader.base.plain_text import one_line
 from grader.batch.cells import number
@@ -91,16 +91,18 @@ def short_html(entry: GradebookEntry, *, show_hidden: bool) -> str:
 
 def _more(count: int) -> str:
     """Return a text with the number of checks beyond MOST_CHECKS, "" if none."""
-    if count == 1:
-        return say("1 more check did not pass")
-    return say("{count} more checks did not pass", count=count) if count > 0 else ""
+    if count <= 0:
+        return ""
+    return say_plural("1 more check did not pass", "{count} more checks did not pass", count)
 
 
 def _skipped(count: int) -> str:
     """Return a text with the number of skipped checks, "" if none."""
-    if count == 1:
-        return say("1 check skipped because of these")
-    return say("{count} checks skipped because of these", count=count) if count else ""
+    if count == 0:
+        return ""
+    return say_plural(
+        "1 check skipped because of these", "{count} checks skipped because of these", count
+    )
 
 
 def html_page(entry: GradebookEntry, title: str, *, show_hidden: bool) -> bytes:

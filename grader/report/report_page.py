@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined, say
+from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, one_line, points
 from grader.report.blocks import UNSEEN, WORDS, block, evidence_of, quotation, roots, row
@@ -91,9 +91,7 @@ def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
 
 def hidden_checks(count: int) -> str:
     """Return how many checks are not shown."""
-    if count == 1:
-        return say("1 hidden check: not shown")
-    return say("{count} hidden checks: not shown", count=count)
+    return say_plural("1 hidden check: not shown", "{count} hidden checks: not shown", count)
 
 
 def _counts(checks: Sequence[CheckResult]) -> str:

@@ -19,6 +19,7 @@ from grader.package.submission import take_in
 from grader.verdict.checks.source import exec_bit
 from grader.verdict.diagnose import Diagnosis
 from grader.verdict.outcome import Failed
+from tests.marking_catalogue import MarkingCatalogue
 
 from ..installed import installed
 from ..static_bench import ASSIGNMENT, StandIn
@@ -358,7 +359,7 @@ def test_an_archive_that_cannot_be_opened_is_a_mistake_with_a_fix(
 def test_why_an_archive_is_damaged_can_be_translated(tmp_path: Path) -> None:
     found = hand_in(tmp_path, tarred(package(), "w:xz")[:-20], "a.txz")
     assert isinstance(found.problem, Message)
-    assert "<it ends in the middle>" in found.problem.translated(lambda text: f"<{text}>")
+    assert "<it ends in the middle>" in found.problem.translated(MarkingCatalogue())
 
 
 def test_two_different_broken_archives_have_different_hashes(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import gettext
 import pickle
 import string
 
@@ -10,14 +11,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.base.i18n.message import Message, joined, msg, say
+from grader.base.i18n.message import Message, joined, msg, say, say_plural
 from grader.base.i18n.translator import Translator, chosen_language
 
 DICTIONARY = {"a cat {what}": "eine Katze {what}", "in {place}": "in {place} drin", "red": "rot"}
+PLURALS = {("1 cat {what}", "{count} cats {what}"): ("1 Katze {what}", "{count} Katzen {what}")}
 
 
-def german(template: str) -> str:
-    return DICTIONARY.get(template, template)
+class German(gettext.NullTranslations):
+    def gettext(self, message: str) -> str:
+        return DICTIONARY.get(message, message)
+
+    def ngettext(self, msgid1: str, msgid2: str, n: int) -> str:
+        return PLURALS[msgid1, msgid2][0 if n == 1 else 1]
+
+
+german = German()
 
 
 def test_a_message_can_be_used_as_an_english_string() -> None:
@@ -31,6 +40,21 @@ def test_values_inside_a_message_are_translated_with_it() -> None:
     text = say("a cat {what}", what=say("in {place}", place=say("red")))
     assert text == "a cat in red"
     assert text.translated(german) == "eine Katze in rot drin"
+
+
+@pytest.mark.parametrize(
+    ("count", "english", "translation"),
+    [
+        (0, "0 cats in X", "0 Katzen in X drin"),
+        (1, "1 cat in X", "1 Katze in X drin"),
+        (2, "2 cats in X", "2 Katzen in X drin"),
+    ],
+)
+def test_a_text_with_a_count_has_a_plural_form(count: int, english: str, translation: str) -> None:
+    where = say("in {place}", place="X")
+    text = say_plural("1 cat {what}", "{count} cats {what}", count, what=where)
+    assert text == english
+    assert text.translated(german) == translation
 
 
 def test_joined_messages_are_translated_separately_and_empty_ones_left_out() -> None:
@@ -60,7 +84,14 @@ def test_a_missing_value_is_an_error_when_the_message_is_made() -> None:
         say(msg("there is no {thing}"))
 
 
-@pytest.mark.parametrize("text", [say("in {place}", place="X"), joined(say("red"), "y")])
+@pytest.mark.parametrize(
+    "text",
+    [
+        say("in {place}", place="X"),
+        joined(say("red"), "y"),
+        say_plural("1 cat {what}", "{count} cats {what}", 3, what="x"),
+    ],
+)
 def test_a_message_can_be_copied_and_pickled(text: Message) -> None:
     for again in (copy.deepcopy(text), pickle.loads(pickle.dumps(text))):
         assert again == text

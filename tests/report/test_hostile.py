@@ -15,6 +15,7 @@ from grader.base.i18n.message import Message
 from grader.base.plain_text import first_lines, last_lines, one_line, visible
 from grader.report.model import Report
 from grader.report.terminal import render_matrix, render_report
+from tests.marking_catalogue import MarkingCatalogue
 from tests.report.samples import check, report
 
 OUR_STYLES = re.compile(r"\x1b\[[0-9;]*m")
@@ -161,7 +162,7 @@ def test_a_megabyte_is_cut_and_takes_little_time() -> None:
 
 def test_what_is_left_out_is_said_in_the_readers_language() -> None:
     def translate(text: str) -> str:
-        return text.translated(lambda words: f"<{words}>") if isinstance(text, Message) else text
+        return text.translated(MarkingCatalogue()) if isinstance(text, Message) else text
 
     lines = first_lines("x\n" * 20, lines=4, translate=translate)
     assert lines[2] == "<[... 16 lines left out ...]>"

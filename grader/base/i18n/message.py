@@ -7,10 +7,20 @@ it is English, so it can be used like any string.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from typing import Protocol
 
-Translate = Callable[[str], str]
 Value = str | int | float
+
+
+class Catalogue(Protocol):
+    """The translations into one language, such as `gettext.GNUTranslations`."""
+
+    def gettext(self, template: str, /) -> str:
+        """Return a template in the language."""
+
+    def ngettext(self, one: str, many: str, count: int, /) -> str:
+        """Return the template for a count in the language."""
 
 
 class Message(str):
@@ -37,10 +47,38 @@ class Message(str):
     def __radd__(self, other: str) -> str:
         return joined(other, self, by="")
 
-    def translated(self, translate: Translate) -> str:
+    def translated(self, catalogue: Catalogue) -> str:
         """Return the text in another language; its parameters are translated too."""
-        values = {name: _translated(value, translate) for name, value in self.params.items()}
-        return translate(self.template).format(**values)
+        values = {name: _translated(value, catalogue) for name, value in self.params.items()}
+        return self._translated_template(catalogue).format(**values)
+
+    def _translated_template(self, catalogue: Catalogue) -> str:
+        # (the empty msgid is the catalogue's header)
+        return catalogue.gettext(self.template) if self.template else ""
+
+
+class Plural(Message):
+    """A text with a count: `template` is for 1, `many` for every other count."""
+
+    __slots__ = ("many", "number")
+
+    many: str
+    number: int
+
+    def __new__(
+        cls, one: str, many: str, count: int, params: Mapping[str, Value] | None = None
+    ) -> Plural:
+        """Fill the template for the count; KeyError if a placeholder has no value."""
+        values = {**(params or {}), "count": count}
+        made = str.__new__(cls, (one if count == 1 else many).format(**values))
+        made.template, made.many, made.number, made.params = one, many, count, values
+        return made
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Plural, (self.template, self.many, self.number, dict(self.params))
+
+    def _translated_template(self, catalogue: Catalogue) -> str:
+        return catalogue.ngettext(self.template, self.many, self.number)
 
 
 class Joined(Message):
@@ -61,18 +99,23 @@ class Joined(Message):
     def __reduce__(self) -> tuple[object, ...]:
         return Joined, (self.parts, self.by)
 
-    def translated(self, translate: Translate) -> str:
+    def translated(self, catalogue: Catalogue) -> str:
         """Return the parts in another language, joined in the same way."""
-        return self.by.join(str(_translated(part, translate)) for part in self.parts)
+        return self.by.join(str(_translated(part, catalogue)) for part in self.parts)
 
 
-def _translated(value: Value, translate: Translate) -> Value:
-    return value.translated(translate) if isinstance(value, Message) else value
+def _translated(value: Value, catalogue: Catalogue) -> Value:
+    return value.translated(catalogue) if isinstance(value, Message) else value
 
 
 def say(template: str, **params: Value) -> Message:
     """Return a text for a reader; `{name}` in the template stands for a parameter."""
     return Message(template, params)
+
+
+def say_plural(one: str, many: str, count: int, **params: Value) -> Message:
+    """Return a text with a count: `one` for 1, else `many`; `{count}` stands for the count."""
+    return Plural(one, many, count, params)
 
 
 def msg(template: str) -> str:

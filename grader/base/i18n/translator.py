@@ -29,10 +29,7 @@ class Translator:
         """Return a text in the language; a string that is not a `Message` is returned unchanged."""
         if not isinstance(text, Message):
             return text
-        return text.translated(self._translate) if self.lang != SOURCE else str(text)
-
-    def _translate(self, template: str) -> str:
-        return translated(template, self.lang)
+        return text.translated(_catalogue(self.lang)) if self.lang != SOURCE else str(text)
 
 
 def translated(template: str, lang: str) -> str:
