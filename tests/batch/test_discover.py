@@ -91,6 +91,16 @@ def test_other_files_are_reported_and_left_out(course: Path, tmp_path: Path) -> 
     assert "pipe" in notes_of(found)
 
 
+def test_a_tilde_at_the_end_makes_a_file_a_backup_but_not_a_folder(
+    course: Path, tmp_path: Path
+) -> None:
+    write(course / "kim~", package())
+    (course / "lee.zip~").write_bytes(zipped(package()))
+    found = found_in(course, tmp_path)
+    assert keys(found) == ["ann lee", "joe", "kim~", "zoë"]
+    assert "lee.zip~" in notes_of(found)
+
+
 def test_the_folder_of_unpacked_archives_is_not_a_student(course: Path) -> None:
     found = discover(course, unpack=course / "out" / "work")
     (course / "out" / "work").mkdir(parents=True)

@@ -111,7 +111,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
     items = [
         FolderItem(name, _kind_by_name(name), why)
         for name, why in lost.items()
-        if _why_left_out(name) is None
+        if _why_left_out(name, is_folder=_kind_by_name(name) == "folder") is None
     ]
     left_out: dict[str, list[str]] = {}
     try:
@@ -135,7 +135,7 @@ def look_at(path: Path, *, lost: Mapping[str, str], without: Iterable[Path] = ()
 def _item(entry: os.DirEntry[str]) -> FolderItem | str:
     """Return an item, or the reason why the name is left out."""
     name = entry.name
-    left_out = _why_left_out(name)
+    left_out = _why_left_out(name, is_folder=entry.is_dir(follow_symlinks=False))
     if left_out is not None:
         return left_out
     if entry.is_symlink():
@@ -148,8 +148,9 @@ def _item(entry: os.DirEntry[str]) -> FolderItem | str:
     return NO_SUBMISSION
 
 
-def _why_left_out(name: str) -> str | None:
-    if name in TOOL_NAMES or name.endswith("~"):
+def _why_left_out(name: str, *, is_folder: bool) -> str | None:
+    is_backup = name.endswith("~") and not is_folder  # editors make backups of files only
+    if name in TOOL_NAMES or is_backup:
         return OF_SYSTEM
     return HIDDEN if name.startswith(".") else None
 
