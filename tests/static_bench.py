@@ -9,19 +9,18 @@ from typing import TYPE_CHECKING, cast
 import pytest
 
 from grader.course.assignment import Assignment
-from grader.course.load import load_assignment
 from grader.package.submission import Submission, take_in
 from grader.run.workspace import Build
 from grader.verdict.checks.declare import Check
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.diagnose import Diagnosis
 from grader.verdict.outcome import Failed, Passed
+from tests.marking import ASSIGNMENT
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 ROOT = Path(__file__).resolve().parent.parent
-ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
 NAME = "my_robot_controller"
 NODE = f"{NAME}/my_first_node.py"
 MARKER = f"resource/{NAME}"

@@ -20,10 +20,10 @@ from grader.run.run import Run, observe
 from grader.run.session import Session, Unobserved
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.pool_tasks import ASSIGNMENT, tasks
+from tests.batch.pool_tasks import tasks
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
-from tests.marking import assert_verdict, mark
+from tests.marking import ASSIGNMENT, assert_verdict, mark
 from tests.report.samples import check, report
 
 LIMITS = Limits()

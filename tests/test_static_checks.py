@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from grader.verdict.checks import package, source
+from tests.marking import ASSIGNMENT
 
-from .static_bench import ASSIGNMENT, FILES, MARKER, NAME, Bench, line, mistake
+from .static_bench import FILES, MARKER, NAME, Bench, line, mistake
 
 
 @pytest.fixture

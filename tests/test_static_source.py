@@ -9,8 +9,9 @@ import pytest
 
 from grader.verdict.checks import source
 from grader.verdict.outcome import Blocked
+from tests.marking import ASSIGNMENT
 
-from .static_bench import ASSIGNMENT, NAME, NODE, Bench, line, mistake
+from .static_bench import NAME, NODE, Bench, line, mistake
 
 
 @pytest.fixture

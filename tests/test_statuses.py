@@ -10,15 +10,15 @@ import pytest
 
 from grader.base.errors import SurroundingsError
 from grader.base.unheard import unheard
-from grader.package.submission import Submission, take_in
+from grader.package.submission import Submission
 from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import BUILD, build
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.pool_tasks import ASSIGNMENT
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.hostile import HOSTILE
+from tests.marking import ASSIGNMENT, taken_in
 from tests.test_ceiling import Clock, new_session
 
 LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
@@ -26,11 +26,7 @@ LISTED = b"f 644 3 install/setup.bash\t\0\0\n"
 
 @pytest.fixture
 def submission() -> Submission:
-    return intake(SOLUTION)
-
-
-def intake(path: Path) -> Submission:
-    return take_in(path, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+    return taken_in(SOLUTION)
 
 
 class FakeSandbox:
@@ -75,7 +71,7 @@ def test_a_setup_py_that_exits_early_is_not_a_successful_build(
 ) -> None:
     name, status = "setup_paints_and_ends_with_250", 250
     package = next(package for package in HOSTILE if package.name == name)
-    made = build(sandbox, intake(write(package, tmp_path)), package=ASSIGNMENT.package)
+    made = build(sandbox, taken_in(write(package, tmp_path)), package=ASSIGNMENT.package)
     assert (made.status, made.stopped_by) == (status, "")
     assert "Score 100 / 100" in made.log
     assert not made.is_installed(ASSIGNMENT.package)

@@ -55,24 +55,29 @@ def large_class(folder: Path, count: int) -> Path:
     return folder
 
 
-REPLAYED = """
+WITH_WORKERS = """
 import functools, sys
 from grader.publish import class_run
 from grader.batch.local_pool import LocalPool
 from grader.cli.main import main
-worker = (sys.executable, "-m", "tests.batch.replay_worker")
+worker = (sys.executable, "-m", sys.argv[1])
 class_run.LocalPool = functools.partial(LocalPool, command=worker)
-sys.exit(main(sys.argv[1:]))
+sys.exit(main(sys.argv[2:]))
 """
+
+
+def with_workers(module: str, *words: str | Path) -> list[str]:
+    """Return the command line of a grader whose workers are this module."""
+    return [sys.executable, "-c", WITH_WORKERS, module, *map(str, words)]
 
 
 def replay_all(
     folder: Path, out: Path, *words: str, env: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
     """Run the command on a class; its workers mark from recorded evidence."""
-    words = ("grade-all", str(folder), "--out", str(out), "--sandbox", "bubblewrap", *words)
+    options = ("--out", str(out), "--sandbox", "bubblewrap", *words)
     return subprocess.run(
-        [sys.executable, "-c", REPLAYED, *words],
+        with_workers("tests.batch.replay_worker", "grade-all", folder, *options),
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
         capture_output=True,

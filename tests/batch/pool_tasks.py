@@ -7,16 +7,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from grader.batch.work import Job, Task
-from grader.course.load import load_assignment
-from grader.package.submission import take_in
 from grader.sandbox.limits import Limits
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
-from tests.processes import ROOT
+from tests.marking import ASSIGNMENT, taken_in
 
-ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
 JOB = Job(ASSIGNMENT, "jazzy", "bubblewrap", Limits())
 CORPUS: dict[str, Package] = {package.name: package for package in (*RIGHT, *BROKEN)}
 
@@ -34,7 +31,7 @@ def tasks(folder: Path, names: Sequence[str]) -> Iterator[Task]:
     for number, name in enumerate(names):
         student = f"{name}-{number}"
         place = package(name, folder, called=student)
-        submission = take_in(place, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
+        submission = taken_in(place)
         yield Task(student, student, str(number), f"key-{number}", submission)
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import os
 import re
 import subprocess
@@ -18,18 +17,11 @@ from pathlib import Path
 
 from grader.batch.work import Answer, Task
 from grader.report.model import Report
+from tests.batch.classes import with_workers
 from tests.processes import ROOT
 from tests.report.samples import check, report
 
 SCORE = re.compile(rb"# score: ([\d.]+)")
-COMMAND = """
-import functools, json, sys
-from grader.publish import class_run as g
-from grader.batch.local_pool import LocalPool
-from grader.cli.main import main
-g.LocalPool = functools.partial(LocalPool, command=tuple(json.loads(sys.argv[1])))
-sys.exit(main(sys.argv[2:]))
-"""
 
 
 @dataclass(frozen=True)
@@ -62,10 +54,9 @@ class Run:
 
 def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
     """Run `grader grade-all`."""
-    stub = [sys.executable, "-m", "tests.batch.stub_run"]
-    command = [sys.executable, "-c", COMMAND, json.dumps(stub), "grade-all", path, "--out", out]
+    options = ("--out", out, "--sandbox", "bubblewrap", "--quiet", *words)
     done = subprocess.run(
-        [str(word) for word in (*command, "--sandbox", "bubblewrap", "--quiet", *words)],
+        with_workers("tests.batch.stub_run", "grade-all", path, *options),
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(ROOT), "LC_ALL": "C.UTF-8"},
         capture_output=True,

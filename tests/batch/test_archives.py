@@ -19,10 +19,11 @@ from grader.package.submission import take_in
 from grader.verdict.checks.source import exec_bit
 from grader.verdict.diagnose import Diagnosis
 from grader.verdict.outcome import Failed
+from tests.marking import ASSIGNMENT
 from tests.marking_catalogue import MarkingCatalogue
 
 from ..installed import installed
-from ..static_bench import ASSIGNMENT, StandIn
+from ..static_bench import StandIn
 from .archives import (
     NODE,
     NODE_PATH,

@@ -32,7 +32,8 @@ from grader.ros.prefix import Ros
 from grader.run import probe_link
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
-from tests.batch.pool_tasks import ASSIGNMENT, JOB, package
+from tests.batch.pool_tasks import JOB, package
+from tests.marking import ASSIGNMENT
 from tests.report.samples import report
 
 SETTING = MarkingSetting(

@@ -17,7 +17,8 @@ from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.batch.pool_tasks import ASSIGNMENT, JOB, own_workers, tasks
+from tests.batch.pool_tasks import JOB, own_workers, tasks
+from tests.marking import ASSIGNMENT
 from tests.processes import descendants
 
 pytestmark = pytest.mark.prefix

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from grader.batch.similar import fingerprint, groups
 from grader.package.submission import SourceFile, Submission, take_in
-from tests.batch.pool_tasks import ASSIGNMENT
+from tests.marking import ASSIGNMENT
 from tests.processes import ROOT
 
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"

@@ -7,19 +7,14 @@ import subprocess
 from pathlib import Path
 
 from grader.package.edit.files import Files
-from grader.package.submission import Submission, take_in
 from grader.validate.tree import Edit
 from grader.verdict.fix import FixPlan, fix_files
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.static_bench import ASSIGNMENT
+from tests.marking import ASSIGNMENT, taken_in
 
 NODE = f"{ASSIGNMENT.package}/{ASSIGNMENT.node_file}"
 TOOLS = (("git", "apply", "-"), ("patch", "-p1", "--binary", "--no-backup-if-mismatch"))
-
-
-def taken(path: Path) -> Submission:
-    return take_in(path, package=ASSIGNMENT.package, node_file=ASSIGNMENT.node_file)
 
 
 def edited(folder: Path, *edits: Edit, name: str = "edited") -> Path:
@@ -29,7 +24,7 @@ def edited(folder: Path, *edits: Edit, name: str = "edited") -> Path:
 
 def plan_of(path: Path) -> FixPlan:
     """Return what the files alone have fixed."""
-    return fix_files(taken(path), ASSIGNMENT)
+    return fix_files(taken_in(path), ASSIGNMENT)
 
 
 def contents(files: Files) -> dict[str, bytes]:

@@ -14,7 +14,8 @@ from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.validate.tree import Chmod, Delete, Move, Replace
 from tests.corpus.model import MANIFEST, MARKER, NODE, SETUP
-from tests.fix.corpus_fixes import contents, edited, plan_of, taken
+from tests.fix.corpus_fixes import contents, edited, plan_of
+from tests.marking import taken_in
 
 NAME = Replace(MANIFEST, "<name>my_robot_controller<", "<name>my_robot_controler<")
 ENTRY = Replace(SETUP, "my_first_node:main", "my_frist_node:main")
@@ -44,7 +45,7 @@ def test_the_package_matches_the_plan_and_old_files_are_backed_up(tmp_path: Path
     plan = plan_of(root)
     backups = apply(plan.old, plan.new, root)
     assert backups == [f"{MANIFEST}.~1~", f"{SETUP}.~1~"]
-    after = taken(root)
+    after = taken_in(root)
     assert {f.path: f.data for f in after.files if f.kind == "file"} == contents(plan.new)
     for path in (MANIFEST, SETUP):
         assert (root / f"{path}.~1~").read_bytes() == before[path][0]
@@ -174,7 +175,7 @@ def test_a_mode_that_cannot_be_set_brings_the_old_bytes_back(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root = edited(tmp_path)
-    old = Files.of(taken(root))
+    old = Files.of(taken_in(root))
     new = old.with_data(NODE, b"#!/usr/bin/env python3\n").with_mode(NODE, 0o700)
     before = tree(root)
 
@@ -206,7 +207,7 @@ def test_the_last_backup_is_the_one_that_the_limit_allows(
 
 def test_a_plan_with_a_path_out_of_the_package_is_refused(tmp_path: Path) -> None:
     root = edited(tmp_path)
-    old = Files.of(taken(root))
+    old = Files.of(taken_in(root))
     for path in ("../outside.txt", "a/../../outside.txt", "/outside.txt"):
         with pytest.raises(UsageError):
             apply(old, old.with_data(path, b"x"), root)

@@ -8,7 +8,8 @@ import pytest
 
 from grader.validate.tree import Crlf, Delete, Edit, Replace, Write
 from tests.corpus.model import CFG, MANIFEST, NODE, SETUP
-from tests.fix.corpus_fixes import TOOLS, contents, edited, plan_of, taken, with_tool
+from tests.fix.corpus_fixes import TOOLS, contents, edited, plan_of, with_tool
+from tests.marking import taken_in
 
 OLD = "'test_node = my_robot_controller.my_first_node:main'"
 BAD = OLD.replace("my_first_node:", "my_frist_node:")
@@ -22,7 +23,7 @@ def change(root: Path, path: str) -> tuple[bytes, bytes]:
     plan = plan_of(root)
     assert not plan.left
     for tool in TOOLS:
-        applied = taken(with_tool(tool, plan.patch, root))
+        applied = taken_in(with_tool(tool, plan.patch, root))
         assert {f.path: f.data for f in applied.files if f.kind == "file"} == contents(plan.new)
     return contents(plan.old)[path], contents(plan.new)[path]
 

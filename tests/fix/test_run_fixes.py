@@ -18,9 +18,9 @@ from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.model import NODE, SETUP, Package
-from tests.fix.corpus_fixes import TOOLS, edited, taken, with_tool
+from tests.fix.corpus_fixes import TOOLS, edited, with_tool
+from tests.marking import ASSIGNMENT, taken_in
 from tests.recorded import mark
-from tests.static_bench import ASSIGNMENT
 
 # The only fix of these is exactly the solution.
 BACK_TO_SOLUTION = (
@@ -65,7 +65,7 @@ def package(name: str) -> Package:
 
 def patches(name: str, folder: Path) -> list[str]:
     """Return the patches of a corpus package's failed checks, as in its report."""
-    submission = taken(write(package(name), folder))
+    submission = taken_in(write(package(name), folder))
     found = []
     for check, mistake in package(name).expect_failed.items():
         result = CheckResult(
@@ -109,7 +109,7 @@ def test_an_uncertain_mistake_has_no_patch(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("mistake", sorted(BY_MISTAKE))
 def test_right_code_is_never_changed(mistake: str, tmp_path: Path) -> None:
-    files = Files.of(taken(edited(tmp_path)))
+    files = Files.of(taken_in(edited(tmp_path)))
     case = Case(files, Finding("run.output", mistake), ASSIGNMENT)
     assert first_fix(case, fixes_for(case.finding)) is None
 
@@ -126,7 +126,7 @@ def test_the_real_verdict_has_full_marks_after_the_fix(name: str, tmp_path: Path
     root = write(package(name), tmp_path)
     limits = ("build_seconds=30", "start_seconds=15")
     (order,) = make_orders(root, "hello_time", "jazzy", "bubblewrap", limits, own_code=True)
-    plan = make_plan(FixRequest(order=order), taken(root), notify=print)
+    plan = make_plan(FixRequest(order=order), taken_in(root), notify=print)
     assert not plan.left, plan.left
     assert plan.patch
 
@@ -143,7 +143,7 @@ def test_the_real_verdict_has_full_marks_after_the_fix(name: str, tmp_path: Path
 )
 def test_unrecognised_code_is_left_unchanged(line: str, tmp_path: Path) -> None:
     root = edited(tmp_path, Replace(NODE, "self.create_timer(1.0, self.timer_callback)", line))
-    files = Files.of(taken(root))
+    files = Files.of(taken_in(root))
     for mistake in ("node.callback_called", "run.wrong_period", "node.callback_misspelt"):
         case = Case(files, Finding("run.period", mistake), ASSIGNMENT)
         assert first_fix(case, fixes_for(case.finding)) is None

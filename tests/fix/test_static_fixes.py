@@ -12,8 +12,8 @@ from grader.verdict.static import static_results
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
-from tests.fix.corpus_fixes import NODE, TOOLS, contents, plan_of, taken, with_tool
-from tests.static_bench import ASSIGNMENT
+from tests.fix.corpus_fixes import NODE, TOOLS, contents, plan_of, with_tool
+from tests.marking import ASSIGNMENT, taken_in
 
 STATIC = ("package.", "source.", "entry_point.mapping")
 # Nothing shows what these should be, so no fix is offered.
@@ -50,7 +50,7 @@ def test_most_static_mistakes_are_fixed() -> None:
 def test_every_static_check_passes_after_the_fix(package: Package, tmp_path: Path) -> None:
     plan = plan_of(write(package, tmp_path))
     assert not plan.left
-    results = static_results(plan.new.put_into(taken(tmp_path / package.name)), ASSIGNMENT)
+    results = static_results(plan.new.put_into(taken_in(tmp_path / package.name)), ASSIGNMENT)
     status = {check: result.status for check, result in results.items()}
     assert set(status) >= {"package.manifest", "source.shebang", "entry_point.mapping"}
     assert set(status.values()) == {"passed"}
@@ -61,7 +61,7 @@ def test_every_static_check_passes_after_the_fix(package: Package, tmp_path: Pat
 def test_tools_apply_the_diff(package: Package, tool: tuple[str, ...], tmp_path: Path) -> None:
     root = write(package, tmp_path)
     plan = plan_of(root)
-    after = taken(with_tool(tool, plan.patch, root))
+    after = taken_in(with_tool(tool, plan.patch, root))
     got = {file.path: file for file in after.files if file.kind == "file"}
     assert {path: file.data for path, file in got.items()} == contents(plan.new)
     assert got[NODE].mode & 0o100, "git and a new patch set modes"
@@ -78,7 +78,7 @@ def test_a_fixed_package_is_not_changed_again(package: Package, tmp_path: Path) 
 
 @pytest.mark.parametrize("package", FIXED, ids=named)
 def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_path: Path) -> None:
-    submission = taken(write(package, tmp_path))
+    submission = taken_in(write(package, tmp_path))
     for check_id in package.expect_failed:
         result = static_results(submission, ASSIGNMENT)[check_id]
         patch = patch_for(result, submission, ASSIGNMENT)
@@ -97,7 +97,7 @@ def test_an_uncertain_mistake_leaves_its_file_unchanged(package: Package, tmp_pa
 
 @pytest.mark.parametrize("package", [p for p in BROKEN if p.name in NOTHING_TO_MARK], ids=named)
 def test_without_a_package_there_is_no_patch(package: Package, tmp_path: Path) -> None:
-    submission = taken(write(package, tmp_path))
+    submission = taken_in(write(package, tmp_path))
     result = static_results(submission, ASSIGNMENT)["package.found"]
     assert patch_for(result, submission, ASSIGNMENT) == ""
 
@@ -128,7 +128,7 @@ def test_the_diff_of_a_huge_file_is_left_out_of_a_report(tmp_path: Path) -> None
     for size, has_patch in ((100, True), (1_000, False), (100_000, False)):
         code = b"#!/usr/bin/env python3\r\n" + b"x = 'some text of a line'\r\n" * size
         (root / NODE).write_bytes(code)
-        submission = taken(root)
+        submission = taken_in(root)
         result = static_results(submission, ASSIGNMENT)["source.shebang"]
         assert result.mistakes[0].id == "source.crlf"
         assert bool(patch_for(result, submission, ASSIGNMENT)) is has_patch
@@ -137,7 +137,7 @@ def test_the_diff_of_a_huge_file_is_left_out_of_a_report(tmp_path: Path) -> None
 def test_a_diff_that_json_cannot_hold_is_left_out_of_a_report(tmp_path: Path) -> None:
     code = b"#!/usr/bin/env python3\r\n# -*- coding: latin-1 -*-\r\n# f\xfcr\r\nx = 1\r\n"
     root = write(Package(name="latin", edits=(Write(NODE, code),)), tmp_path)
-    submission = taken(root)
+    submission = taken_in(root)
     result = static_results(submission, ASSIGNMENT)["source.shebang"]
     assert patch_for(result, submission, ASSIGNMENT) == ""
     assert contents(plan_of(root).new)[NODE] == code.replace(b"\r\n", b"\n")

@@ -32,7 +32,7 @@ from grader.verdict.checks.build import python_error
 from grader.verdict.fix import first_fix, fix_files
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import CFG, MANIFEST, MARKER, NODE, SETUP
-from tests.static_bench import ASSIGNMENT
+from tests.marking import ASSIGNMENT
 
 Target = Callable[[bytes], None]
 RIGHT = {path: (SOLUTION / path).read_bytes() for path in (MANIFEST, SETUP, CFG, MARKER, NODE)}

@@ -18,7 +18,8 @@ from grader.verdict.checks import source
 from grader.verdict.diagnose import Diagnosis, diagnose
 from grader.verdict.outcome import Failed
 from tests.corpus.build import SOLUTION
-from tests.static_bench import ASSIGNMENT, NODE, Bench
+from tests.marking import ASSIGNMENT
+from tests.static_bench import NODE, Bench
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence

@@ -17,7 +17,7 @@ from grader.package.source.node import MOST_BYTES, NodeSource, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import NODE
-from tests.static_bench import ASSIGNMENT
+from tests.marking import ASSIGNMENT
 
 FILE = "my_robot_controller/my_first_node.py"
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")

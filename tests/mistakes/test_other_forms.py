@@ -24,6 +24,7 @@ from grader.verdict.checks.faults import line_of as line_in
 from grader.verdict.diagnose import Diagnosis, diagnose
 from grader.verdict.fix import first_fix
 from grader.verdict.outcome import Failed
+from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import (
     CASES,
     END,
@@ -41,7 +42,7 @@ from tests.mistakes.other_forms import (
     lines_with,
     with_slip,
 )
-from tests.static_bench import ASSIGNMENT, NODE
+from tests.static_bench import NODE
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
