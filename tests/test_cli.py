@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import grader
-from grader.validate.tree import Write
+from grader.package.edit.tree import Write
 from tests import processes
 from tests.corpus.build import write
 from tests.corpus.model import Package

@@ -7,7 +7,7 @@ from textwrap import indent
 
 import pytest
 
-from grader.validate.tree import Replace, Write
+from grader.package.edit.tree import Replace, Write
 from tests.corpus.build import write
 from tests.corpus.model import NODE, SETUP, Package
 from tests.marking import mark, summary

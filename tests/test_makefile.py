@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Replace
+from grader.package.edit.tree import Replace
 from tests import processes, weather
 from tests.test_cli import solution
 

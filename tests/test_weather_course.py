@@ -19,13 +19,13 @@ from grader.mistakes.from_terminal import filled
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
 from grader.mistakes.placeholders import placeholder_values
+from grader.package.edit.tree import Delete, Edit, Replace
 from grader.report.model import CheckResult
 from grader.ros.distro import find_distro
 from grader.run.observer import Event, Watch
 from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
 from grader.run.workspace import Build
-from grader.validate.tree import Delete, Edit, Replace
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from grader.course.assignment import Assignment
 from grader.course.load import load_assignment
+from grader.package.edit.tree import Edit, Entry, apply_all, write_tree
 from grader.package.submission import Submission, take_in
-from grader.validate.tree import Edit, Entry, apply_all, write_tree
 
 NAME = "weather_station"
 NODE = f"{NAME}/station.py"

@@ -21,7 +21,6 @@ from grader.base.shown import shown
 from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding, finding_of
-from grader.mistakes.fixes.table import STATIC
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
@@ -29,7 +28,7 @@ from grader.report.model import CheckResult
 from grader.verdict.fix import FixPlan, fix_all, fix_files
 from grader.verdict.mark import grade
 from grader.verdict.order import Order
-from grader.verdict.static import static_results
+from grader.verdict.static import STATIC, static_results
 
 Notify = Callable[[str], None]
 STYLES = {"+": "green", "-": "red", "@": "cyan", "d": "bold"}

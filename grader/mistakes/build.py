@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
+from grader.mistakes.example import CFG, SETUP, example
+from grader.mistakes.fixes import setup_py, syntax
+from grader.mistakes.kind import Kind, Parts
+from grader.package.edit.tree import Replace
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 WHY = msg(
     "colcon runs setup.py to install the package into the workspace's install folder, the only "
@@ -20,7 +28,7 @@ CONFIG = msg(
 )
 
 
-def _build(slug: str, title: str, fix: str, why: str = WHY, seen: str = "") -> Kind:
+def _build(slug: str, title: str, fix: str, why: str = WHY, **parts: Unpack[Parts]) -> Kind:
     return Kind(
         id=f"build.{slug}",
         stage="build",
@@ -28,11 +36,11 @@ def _build(slug: str, title: str, fix: str, why: str = WHY, seen: str = "") -> K
         why=why,
         fix=fix,
         link=links.COLCON,
-        seen=seen,
+        **parts,
     )
 
 
-def _installed(slug: str, title: str, fix: str) -> Kind:
+def _installed(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
     return Kind(
         id=f"entry_point.{slug}",
         stage="build",
@@ -40,54 +48,234 @@ def _installed(slug: str, title: str, fix: str) -> Kind:
         why=LOOKS,
         fix=fix,
         link=links.DEVELOPING,
+        **parts,
     )
 
 
 KINDS = (
-    _build("setup_prints", msg("setup.py prints something"),
-           msg("Remove the print() from setup.py, then build again."),
-           msg("colcon asks setup.py for its data and reads its output as the answer. What print() "
-               "writes ends up in the middle of that answer.")),
+    _build(
+        "setup_prints",
+        msg("setup.py prints something"),
+        msg("Remove the print() from setup.py, then build again."),
+        msg(
+            "colcon asks setup.py for its data and reads its output as the answer. What print() "
+            "writes ends up in the middle of that answer."
+        ),
+        fixed_by=(setup_py.prints,),
+        examples=(
+            example(
+                "setup_prints",
+                Replace(SETUP, "\nsetup(\n", "\nprint('building')\nsetup(\n"),
+                fails="build.colcon",
+                note="colcon reads what setup.py prints as its answer",
+            ),
+        ),
+    ),
     Kind(
         id="build.setup_error",
         stage="build",
         title=msg("setup.py stops with an error"),
         why=WHY,
         fix=msg("Fix what the error names, then build again."),
-        whys={"unreadable": msg("colcon runs setup.py to install the package into the workspace's "
-                                "install folder, the only place where ros2 run looks. Python "
-                                "cannot run a file that it cannot read.")},
-        fixes={"unreadable": msg("Fix that line of setup.py, then build again. Often a comma, a "
-                                 "quote or a bracket is missing in the line above.")},
+        whys={
+            "unreadable": msg(
+                "colcon runs setup.py to install the package into the workspace's "
+                "install folder, the only place where ros2 run looks. Python "
+                "cannot run a file that it cannot read."
+            )
+        },
+        fixes={
+            "unreadable": msg(
+                "Fix that line of setup.py, then build again. Often a comma, a "
+                "quote or a bracket is missing in the line above."
+            )
+        },
         link=links.COLCON,
+        fixed_by=(
+            syntax.setup_py,
+            setup_py.setuptools,
+        ),
+        examples=(
+            example(
+                "setup_syntax_error",
+                Replace(SETUP, "    version='0.0.0',", "    version='0.0.0'"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_indentation",
+                Replace(SETUP, "    zip_safe=True,\n", "    zip_safe=True,\n  )\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_name_error",
+                Replace(SETUP, "\nsetup(\n", "\nprint(pakage_name)\nsetup(\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_import_error",
+                Replace(SETUP, "from setuptools import setup", "from setuptool import setup"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_raises",
+                Replace(SETUP, "\nsetup(\n", "\nraise RuntimeError('not today')\nsetup(\n"),
+                fails="build.colcon",
+            ),
+        ),
     ),
-    _build("entry_unreadable", msg("setuptools stopped at an entry of console_scripts"),
-           msg("Check the entries of console_scripts in setup.py: each is 'name = "
-               "package.module:function', with a comma after it."),
-           msg("setuptools stops at an entry point that it cannot read. colcon then says only that "
-               "distutils.core.setup() was never called."),
-           seen=r"'?distutils\.core\.setup\(\)'? was never called"),
-    _build("exited", msg("setup.py ends before it calls setup()"),
-           msg("Remove the exit from setup.py, and compare the file with the one that ros2 pkg "
-               "create makes."),
-           msg("colcon runs setup.py to install the package into the workspace's install folder, "
-               "the only place where ros2 run looks. It must reach the call of setup(): a "
-               "sys.exit() before or in that call ends it without a message.")),
-    _build("timeout", msg("The build does not finish"),
-           msg("Remove the loop, the sleep or the input() from setup.py."),
-           msg("colcon runs setup.py to install the package into the workspace's install folder, "
-               "the only place where ros2 run looks. A setup.py that loops or waits never "
-               "finishes.")),
-    _build("resource", msg("The build reached a limit of the sandbox"),
-           msg("Use setup.py only to describe the package: no large output, no other programs.")),
-    _build("failed", msg("The build failed"),
-           msg("Read the build log below, starting at its first error. Build again after each "
-               "change.")),
-    _installed("no_exec_bit", msg("The installed executable lost its exec bit"),
-               msg("Remove the code in setup.py that clears the exec bit, then build again. colcon "
-                   "itself writes the file with mode 0755.")),
-    _installed("elsewhere", msg("The executable was installed where ros2 run does not look"),
-               CONFIG),
-    _installed("not_installed", msg("The executable was not installed"),
-               msg("Check that entry_points is an argument of setup(), then build again.")),
-)  # fmt: skip
+    _build(
+        "entry_unreadable",
+        msg("setuptools stopped at an entry of console_scripts"),
+        msg(
+            "Check the entries of console_scripts in setup.py: each is 'name = "
+            "package.module:function', with a comma after it."
+        ),
+        msg(
+            "setuptools stops at an entry point that it cannot read. colcon then says only that "
+            "distutils.core.setup() was never called."
+        ),
+        seen=r"'?distutils\.core\.setup\(\)'? was never called",
+    ),
+    _build(
+        "exited",
+        msg("setup.py ends before it calls setup()"),
+        msg(
+            "Remove the exit from setup.py, and compare the file with the one that ros2 pkg "
+            "create makes."
+        ),
+        msg(
+            "colcon runs setup.py to install the package into the workspace's install folder, "
+            "the only place where ros2 run looks. It must reach the call of setup(): a "
+            "sys.exit() before or in that call ends it without a message."
+        ),
+        examples=(
+            example(
+                "setup_exits",
+                Replace(SETUP, "\nsetup(\n", "\nimport sys\nsys.exit(0)\nsetup(\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_never_called",
+                Replace(SETUP, "\nsetup(\n", "\ndict(\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+        ),
+    ),
+    _build(
+        "timeout",
+        msg("The build does not finish"),
+        msg("Remove the loop, the sleep or the input() from setup.py."),
+        msg(
+            "colcon runs setup.py to install the package into the workspace's install folder, "
+            "the only place where ros2 run looks. A setup.py that loops or waits never "
+            "finishes."
+        ),
+        examples=(
+            example(
+                "setup_loops",
+                Replace(SETUP, "\nsetup(\n", "\nwhile True:\n    pass\n\nsetup(\n"),
+                fails="build.colcon",
+            ),
+        ),
+    ),
+    _build(
+        "resource",
+        msg("The build reached a limit of the sandbox"),
+        msg("Use setup.py only to describe the package: no large output, no other programs."),
+    ),
+    _build(
+        "failed",
+        msg("The build failed"),
+        msg(
+            "Read the build log below, starting at its first error. Build again after each change."
+        ),
+        examples=(
+            example(
+                "setup_data_file_missing",
+                Replace(SETUP, "['package.xml']", "['package.xml', 'launch/hello.launch.py']"),
+                fails="build.colcon",
+                note="error: can't copy 'launch/hello.launch.py'",
+            ),
+        ),
+    ),
+    _installed(
+        "no_exec_bit",
+        msg("The installed executable lost its exec bit"),
+        msg(
+            "Remove the code in setup.py that clears the exec bit, then build again. colcon "
+            "itself writes the file with mode 0755."
+        ),
+        examples=(
+            example(
+                "develop_takes_the_exec_bit",
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    (
+                        "import os\n"
+                        "\n"
+                        "from setuptools.command.develop import develop\n"
+                        "\n"
+                        "\n"
+                        "class Develop(develop):\n"
+                        "    def run(self):\n"
+                        "        super().run()\n"
+                        "        if not self.uninstall:\n"
+                        "            os.chmod(os.path.join(self.script_dir, 'test_node'), 0o644)\n"
+                        "\n"
+                        "\n"
+                        "setup(\n"
+                        "    cmdclass={'develop': Develop},\n"
+                    ),
+                ),
+                fails="entry_point.executable",
+            ),
+        ),
+    ),
+    _installed(
+        "elsewhere",
+        msg("The executable was installed where ros2 run does not look"),
+        CONFIG,
+        examples=(
+            example(
+                "script_dir_twice",
+                Replace(
+                    CFG,
+                    "script_dir=$base/lib/my_robot_controller\n[install]",
+                    ("script_dir=$base/lib/my_robot_controller\nscript-dir=$base/bin\n[install]"),
+                ),
+                fails="entry_point.executable",
+            ),
+        ),
+    ),
+    _installed(
+        "not_installed",
+        msg("The executable was not installed"),
+        msg("Check that entry_points is an argument of setup(), then build again."),
+        examples=(
+            example(
+                "develop_does_nothing",
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    (
+                        "from setuptools.command.develop import develop\n"
+                        "\n"
+                        "\n"
+                        "class Develop(develop):\n"
+                        "    def run(self):\n"
+                        "        pass\n"
+                        "\n"
+                        "\n"
+                        "setup(\n"
+                        "    cmdclass={'develop': Develop},\n"
+                    ),
+                ),
+                fails="entry_point.executable",
+            ),
+        ),
+    ),
+)

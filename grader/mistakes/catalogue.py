@@ -7,15 +7,22 @@ from types import MappingProxyType
 
 from grader.mistakes import (
     build,
+    callback,
+    counter,
     entry_points,
-    node_callbacks,
+    logger,
+    names,
     node_file,
     node_start,
     package,
     run,
+    spin,
     submission,
     terminal,
+    timer,
 )
+from grader.mistakes.example import Example
+from grader.mistakes.fixes.case import Finding, Fix
 from grader.mistakes.kind import Kind
 
 # the order is the rank: of several recognised mistakes, the first is the root cause
@@ -29,7 +36,12 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             build,
             entry_points,
             node_start,
-            node_callbacks,
+            timer,
+            callback,
+            counter,
+            logger,
+            spin,
+            names,
             run,
             terminal,
         )
@@ -37,3 +49,12 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
     }
 )
 RANK: Mapping[str, int] = MappingProxyType({name: n for n, name in enumerate(CATALOGUE)})
+EXAMPLES: tuple[tuple[Kind, Example], ...] = tuple(
+    (kind, example) for kind in CATALOGUE.values() for example in kind.examples
+)
+
+
+def fixes_for(finding: Finding) -> tuple[Fix, ...]:
+    """Return the fixes of the mistake that a check has found, in the order to try them."""
+    kind = CATALOGUE.get(finding.mistake)
+    return kind.fixed_by if kind is not None else ()

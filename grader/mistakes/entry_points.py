@@ -5,9 +5,18 @@ The titles of invalid entries follow the quoted entry and a colon, so they begin
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
+from grader.mistakes.example import SETUP, UNBUILT, UNINSTALLED, UNSTARTED, example
+from grader.mistakes.fixes import entries, layout
+from grader.mistakes.kind import Kind, Parts
+from grader.package.edit.tree import Delete, Replace, Write
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 WHY = msg(
     "An entry of console_scripts has the form name = package.module:function. The build turns it "
@@ -37,8 +46,9 @@ WRITE = msg("Write '{wanted}',")
 OTHERS = {"other": msg("Fix or delete this entry: '{entry}'")}
 
 
-def _stops(slug: str, title: str, seen: str = "") -> Kind:
+def _stops(slug: str, title: str, **parts: Unpack[Parts]) -> Kind:
     """Return an entry that setuptools cannot read."""
+    parts.setdefault("fixed_by", (entries.replaced,))
     return Kind(
         id=f"setup.{slug}",
         stage="entry point",
@@ -47,12 +57,13 @@ def _stops(slug: str, title: str, seen: str = "") -> Kind:
         fix=WRITE,
         fixes=OTHERS,
         link=links.ENTRY_POINTS,
-        seen=seen,
+        **parts,
     )
 
 
-def _raises(slug: str, title: str, seen: str = "") -> Kind:
+def _raises(slug: str, title: str, **parts: Unpack[Parts]) -> Kind:
     """Return an entry that builds, but ends ros2 run with an exception."""
+    parts.setdefault("fixed_by", (entries.replaced,))
     return Kind(
         id=f"setup.{slug}",
         stage="entry point",
@@ -60,20 +71,28 @@ def _raises(slug: str, title: str, seen: str = "") -> Kind:
         why=RAISES,
         fix=WRITE,
         link=links.DEVELOPING,
-        seen=seen,
+        **parts,
     )
 
 
-def _not_found(slug: str, title: str, fix: str = WRITE, **fixes: str) -> Kind:
+def _not_found(
+    slug: str,
+    title: str,
+    fix: str = WRITE,
+    fixes: Mapping[str, str] | None = None,
+    **parts: Unpack[Parts],
+) -> Kind:
     """Return an entry from which no executable with the required name is made."""
+    parts.setdefault("fixed_by", (entries.replaced, entries.added))
     return Kind(
         id=f"setup.{slug}",
         stage="entry point",
         title=title,
         why=NOT_FOUND,
         fix=fix,
-        fixes=fixes,
+        fixes=fixes or {},
         link=links.DEVELOPING,
+        **parts,
     )
 
 
@@ -83,10 +102,15 @@ KINDS = (
         stage="entry point",
         title=msg("There is no setup.py that can be read"),
         why=WHY,
-        fix=msg("Create the package with ros2 pkg create --build-type ament_python: it writes "
-                "setup.py. Then add your entry to console_scripts."),
+        fix=msg(
+            "Create the package with ros2 pkg create --build-type ament_python: it writes "
+            "setup.py. Then add your entry to console_scripts."
+        ),
         link=links.PACKAGE,
         seen=r"can't open file '[^'\n]{0,300}setup\.py'",
+        examples=(
+            example("setup_missing", Delete(SETUP), fails="entry_point.mapping", blocks=UNBUILT),
+        ),
     ),
     Kind(
         id="setup.missing_comma",
@@ -95,15 +119,90 @@ KINDS = (
         why=JOINS,
         fix=msg("Add a comma after '{before}'."),
         link=links.ENTRY_POINTS,
+        fixed_by=(entries.comma,),
+        examples=(
+            example(
+                "comma_missing",
+                Write("my_robot_controller/second.py", "def main():\n    pass\n"),
+                Replace(
+                    SETUP,
+                    "            'test_node = my_robot_controller.my_first_node:main',\n",
+                    (
+                        "            'test_node = my_robot_controller.my_first_node:main'\n"
+                        "            'second = my_robot_controller.second:main',\n"
+                    ),
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+                note="was never called, says colcon",
+            ),
+        ),
     ),
-    _stops("colon_for_equals", msg("after the name comes '=', not ':'")),
+    _stops(
+        "colon_for_equals",
+        msg("after the name comes '=', not ':'"),
+        examples=(
+            example(
+                "colon_for_equals",
+                Replace(SETUP, "test_node = my", "test_node : my"),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
     _stops("no_equals", msg("the '=' between the name and the module is missing")),
     _stops("no_name", msg("the name before the '=' is missing")),
     _stops("no_target", msg("there is nothing after the '='")),
     _stops("two_equals", msg("there is more than one '='")),
-    _stops("slash_in_target", msg("folders are separated by dots, not slashes")),
-    _stops("brackets", msg("the function is named, not called: no ()")),
-    _stops("dash_in_target", msg("a Python module's name cannot contain a dash")),
+    _stops(
+        "slash_in_target",
+        msg("folders are separated by dots, not slashes"),
+        examples=(
+            example(
+                "slash_for_dot",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller/my_first_node:main",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
+    _stops(
+        "brackets",
+        msg("the function is named, not called: no ()"),
+        examples=(
+            example(
+                "function_called",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller.my_first_node:main()",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+                note="brackets behind main",
+            ),
+        ),
+    ),
+    _stops(
+        "dash_in_target",
+        msg("a Python module's name cannot contain a dash"),
+        examples=(
+            example(
+                "dash_in_module",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my-robot-controller.my_first_node:main",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
     _stops("two_colons", msg("there is more than one ':'")),
     _stops("space_in_target", msg("there is a space in the module or function")),
     _stops("bad_entry", msg("it does not have the form name = package.module:function")),
@@ -111,47 +210,247 @@ KINDS = (
         id="setup.duplicate_entry",
         stage="entry point",
         title=msg("the name is used more than once"),
-        why=msg("An entry of console_scripts has the form name = package.module:function. The "
-                "build turns it into the executable that ros2 run starts. A name can refer to one "
-                "function only."),
+        why=msg(
+            "An entry of console_scripts has the form name = package.module:function. The "
+            "build turns it into the executable that ros2 run starts. A name can refer to one "
+            "function only."
+        ),
         fix=msg("Keep only one line: '{wanted}',"),
+        fixed_by=(entries.single,),
         link=links.ENTRY_POINTS,
     ),
     _not_found("space_in_name", msg("there is a space in the executable's name")),
-    _not_found("other_executable", msg("the executable has a different name")),
+    _not_found(
+        "other_executable",
+        msg("the executable has a different name"),
+        examples=(
+            example(
+                "executable_is_file_name",
+                Replace(SETUP, "'test_node =", "'my_first_node ="),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+                note="No executable found",
+            ),
+            example(
+                "executable_misspelt",
+                Replace(SETUP, "'test_node =", "'test_nod ="),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "executable_capital",
+                Replace(SETUP, "'test_node =", "'Test_node ="),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "executable_with_suffix",
+                Replace(SETUP, "'test_node =", "'test_node.py ="),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+        ),
+    ),
     Kind(
         id="setup.group_misspelt",
         stage="entry point",
         title=msg("the group is not called console_scripts"),
-        why=msg("setuptools makes executables only from the group console_scripts. It accepts any "
-                "other group without a message, and ros2 run answers: No executable found."),
+        why=msg(
+            "setuptools makes executables only from the group console_scripts. It accepts any "
+            "other group without a message, and ros2 run answers: No executable found."
+        ),
         fix=msg("Write 'console_scripts', with an s at the end."),
         link=links.ENTRY_POINTS,
+        fixed_by=(entries.group,),
+        examples=(
+            example(
+                "console_script",
+                Replace(SETUP, "'console_scripts'", "'console_script'"),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+                note="a group that nobody reads",
+            ),
+            example(
+                "gui_scripts",
+                Replace(SETUP, "'console_scripts'", "'consol_scripts'"),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+        ),
     ),
-    _not_found("no_entry", msg("there is no entry for the executable"),
-               msg("Add this line to console_scripts, then build again: '{wanted}',"),
-               comment=msg("Remove the # before '{wanted}', then build again."),
-               nothing=msg("Add to setup(): entry_points={{'console_scripts': ['{wanted}']}},")),
-    _raises("no_function", msg("the function is missing: a module cannot be called"),
-            seen=r"TypeError: 'module' object is not callable"),
-    _raises("dot_for_colon", msg("between module and function comes ':', not '.'"),
-            seen=r"No module named '(?P<module>[\w.]{1,200}\.main)'; '[\w.]{1,200}' is not a package"),
-    _raises("py_in_target", msg("a module's name does not include .py"),
-            seen=r"No module named '(?P<module>[\w.]{1,200}\.py)'"),
-    _raises("no_package_prefix", msg("the package's name and a dot are missing")),
-    _raises("other_function", msg("the function has a different name")),
-    _raises("other_package", msg("the package has a different name")),
+    _not_found(
+        "no_entry",
+        msg("there is no entry for the executable"),
+        msg("Add this line to console_scripts, then build again: '{wanted}',"),
+        {
+            "comment": msg("Remove the # before '{wanted}', then build again."),
+            "nothing": msg("Add to setup(): entry_points={{'console_scripts': ['{wanted}']}},"),
+        },
+        fixed_by=(
+            entries.uncommented,
+            entries.added,
+        ),
+        examples=(
+            example(
+                "entry_missing",
+                Replace(
+                    SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_commented_out",
+                Replace(
+                    SETUP,
+                    "            'test_node = my_robot_controller.my_first_node:main',\n",
+                    "            # 'test_node = my_robot_controller.my_first_node:main',\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_lost",
+                Replace(
+                    SETUP,
+                    (
+                        "    entry_points={\n"
+                        "        'console_scripts': [\n"
+                        "            'test_node = my_robot_controller.my_first_node:main',\n"
+                        "        ],\n"
+                        "    },\n"
+                    ),
+                    "",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+        ),
+    ),
+    _raises(
+        "no_function",
+        msg("the function is missing: a module cannot be called"),
+        seen=r"TypeError: 'module' object is not callable",
+        examples=(
+            example(
+                "main_left_out",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller.my_first_node",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    _raises(
+        "dot_for_colon",
+        msg("between module and function comes ':', not '.'"),
+        seen=r"No module named '(?P<module>[\w.]{1,200}\.main)'; '[\w.]{1,200}' is not a package",
+        examples=(
+            example(
+                "dot_for_colon",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller.my_first_node.main",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    _raises(
+        "py_in_target",
+        msg("a module's name does not include .py"),
+        seen=r"No module named '(?P<module>[\w.]{1,200}\.py)'",
+        examples=(
+            example(
+                "suffix_in_module",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller.my_first_node.py:main",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    _raises(
+        "no_package_prefix",
+        msg("the package's name and a dot are missing"),
+        examples=(
+            example(
+                "package_left_out",
+                Replace(SETUP, "my_robot_controller.my_first_node:main", "my_first_node:main"),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    _raises(
+        "other_function",
+        msg("the function has a different name"),
+        examples=(
+            example(
+                "function_misspelt",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller.my_first_node:mian",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    _raises(
+        "other_package",
+        msg("the package has a different name"),
+        examples=(
+            example(
+                "package_misspelt",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controler.my_first_node:main",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
     _raises("other_module", msg("it leads to a different module")),
-    _raises("misspelt_module", msg("there is no module with that name"),
-            seen=r"No module named '(?P<module>\w{1,120}\.[\w.]{1,200})'"),
+    _raises(
+        "misspelt_module",
+        msg("there is no module with that name"),
+        seen=r"No module named '(?P<module>\w{1,120}\.[\w.]{1,200})'",
+        examples=(
+            example(
+                "module_misspelt",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main",
+                    "my_robot_controller.my_frist_node:main",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
     Kind(
         id="setup.not_packaged",
         stage="entry point",
         title=msg("setup.py does not install the Python package"),
-        why=msg("Only the packages in packages= are installed. If yours is not one of them, the "
-                "entry point leads to a module that does not exist."),
+        why=msg(
+            "Only the packages in packages= are installed. If yours is not one of them, the "
+            "entry point leads to a module that does not exist."
+        ),
         fix=msg("Write packages=find_packages(exclude=['test']), in setup(), then build again."),
         link=links.DEVELOPING,
+        fixed_by=(layout.init_file,),
     ),
     Kind(
         id="entry_point.computed_mapping",
@@ -159,6 +458,7 @@ KINDS = (
         title=msg("setup.py computes a different entry than the required one"),
         why=msg("The entry tells ros2 run which function of which module to start."),
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
+        fixed_by=(entries.replaced,),
         link=links.DEVELOPING,
     ),
-)  # fmt: skip
+)

@@ -1,4 +1,4 @@
-"""The data classes of the catalogue: a kind of mistake, and a recognised mistake."""
+"""The record of a mistake: its texts, and how it is recognised, fixed and made."""
 
 from __future__ import annotations
 
@@ -6,10 +6,15 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, TypedDict
 
 from grader.base.i18n.message import Message, Value
-from grader.report.model import Mistake, Where
+from grader.mistakes.example import Example
+from grader.mistakes.fixes.case import Fix
+from grader.mistakes.recognised import FromError, FromSource
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Stage = Literal[
     "terminal",
@@ -40,8 +45,13 @@ class Kind:
     """One kind of mistake. Its texts are templates of `grader.base.i18n.message`.
 
     `why` explains ROS's behaviour, `fix` says what to do; `whys` and `fixes` have other texts for
-    variants, by the variant's name. `link` is a page of the documentation. `seen` is a pattern
-    that recognises the mistake in a terminal's output (its named groups become parameters).
+    variants, by the variant's name. `link` is a page of the documentation.
+
+    How it is recognised: `seen` is a pattern of a terminal's output (its named groups become
+    parameters), `raised` has functions by the pattern of an exception's last line, and `behind`
+    functions by the symptom of a run. What the files alone show is recognised by the check.
+    `fixed_by` are the fixes, in the order in which they are tried. `examples` are edits of a
+    right package that make the mistake.
     """
 
     id: str
@@ -53,6 +63,10 @@ class Kind:
     whys: Mapping[str, str] = field(default_factory=dict)
     fixes: Mapping[str, str] = field(default_factory=dict)
     seen: str = ""
+    raised: Mapping[str, FromError] = field(default_factory=dict)
+    behind: Mapping[str, FromSource] = field(default_factory=dict)
+    fixed_by: tuple[Fix, ...] = ()
+    examples: tuple[Example, ...] = ()
 
     @cached_property
     def pattern(self) -> re.Pattern[str] | None:
@@ -66,6 +80,16 @@ class Kind:
     def fix_text(self, values: Mapping[str, Value], variant: str = "") -> Message:
         """Return what to do. KeyError if a placeholder has no value."""
         return Message(self.fixes.get(variant, self.fix), values)
+
+
+class Parts(TypedDict, total=False):
+    """The parts of a record that are not texts."""
+
+    seen: str
+    raised: Mapping[str, FromError]
+    behind: Mapping[str, FromSource]
+    fixed_by: tuple[Fix, ...]
+    examples: tuple[Example, ...]
 
 
 @dataclass(frozen=True)
@@ -85,7 +109,7 @@ class Family:
         link: str = "",
         *,
         close: str = "",
-        seen: str = "",
+        **parts: Unpack[Parts],
     ) -> Kind:
         """Return the kind `prefix.slug`; `close` is its fix if a similar name is known."""
         return Kind(
@@ -96,24 +120,5 @@ class Family:
             fix=fix,
             fixes={"close": close} if close else {},
             link=link or self.link,
-            seen=seen,
+            **parts,
         )
-
-
-@dataclass(frozen=True, kw_only=True)
-class RecognisedMistake:
-    """A recognised mistake: the id of its kind, the values of the placeholders, and the place.
-
-    `params` go into the report and are the same in every language; `words` only fill the texts.
-    """
-
-    kind: str
-    params: Mapping[str, str | int | float] = field(default_factory=dict)
-    words: Mapping[str, Value] = field(default_factory=dict)
-    variant: str = ""
-    where: Where | None = None
-
-    @property
-    def mistake(self) -> Mistake:
-        """The mistake in the form of the report."""
-        return Mistake(id=self.kind, params=dict(self.params))

@@ -2,9 +2,26 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
+from grader.mistakes.example import (
+    INIT,
+    INNER,
+    NO_FILE,
+    NODE,
+    SETUP,
+    UNINSTALLED,
+    UNSTARTED,
+    example,
+)
+from grader.mistakes.fixes import first_line, layout, syntax
+from grader.mistakes.kind import Kind, Parts
+from grader.package.edit.tree import Chmod, Crlf, Delete, Move, Replace, Write
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
@@ -22,7 +39,7 @@ SHEBANG = msg(
 FIRST = msg("Write as line 1: #!/usr/bin/env python3")
 
 
-def _first_line(slug: str, title: str, fix: str, seen: str = "") -> Kind:
+def _first_line(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
     return Kind(
         id=f"source.{slug}",
         stage="first line",
@@ -30,7 +47,7 @@ def _first_line(slug: str, title: str, fix: str, seen: str = "") -> Kind:
         why=SHEBANG,
         fix=fix,
         link=links.FIRST_NODE,
-        seen=seen,
+        **parts,
     )
 
 
@@ -42,6 +59,30 @@ KINDS = (
         why=PLACE,
         fix=msg("Create the file {path} and write the node in it."),
         link=links.FIRST_NODE,
+        fixed_by=(
+            layout.node_file,
+            layout.node_name,
+        ),
+        examples=(
+            example(
+                "as_created",
+                Delete(NODE),
+                Replace(
+                    SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
+                ),
+                fails="source.node_file",
+                also={"entry_point.mapping": "setup.no_entry"},
+                blocks=(*NO_FILE, *UNINSTALLED),
+                note="only ros2 pkg create and a build",
+            ),
+            example(
+                "node_not_written",
+                Delete(NODE),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+                note="the entry point exists, its file does not",
+            ),
+        ),
     ),
     Kind(
         id="source.misplaced_node_file",
@@ -50,15 +91,50 @@ KINDS = (
         why=PLACE,
         fix=msg("Move it into the inner folder: its path in the package must be {wanted}."),
         link=links.PACKAGE,
+        fixed_by=(
+            layout.inner_folder,
+            layout.node_file,
+        ),
+        examples=(
+            example(
+                "node_in_package_root",
+                Move(NODE, "my_first_node.py"),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+            ),
+            example(
+                "node_in_scripts",
+                Move(NODE, "scripts/my_first_node.py"),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+            ),
+            example(
+                "inner_folder_misnamed",
+                Move(INNER, "my_robot_controler"),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+            ),
+        ),
     ),
     Kind(
         id="source.misnamed_node_file",
         stage="file",
         title=msg("The node's file has a different name"),
-        why=msg("The entry point and the exercise name this file. Every letter counts, and case "
-                "matters."),
+        why=msg(
+            "The entry point and the exercise name this file. Every letter counts, and case "
+            "matters."
+        ),
         fix=msg("Rename it: mv {there} {path}"),
         link=links.FIRST_NODE,
+        fixed_by=(layout.node_name,),
+        examples=(
+            example(
+                "node_misnamed",
+                Move(NODE, "my_robot_controller/my_frist_node.py"),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+            ),
+        ),
     ),
     Kind(
         id="source.node_file_is_link",
@@ -72,10 +148,21 @@ KINDS = (
         id="source.no_init_file",
         stage="file",
         title=msg("The inner folder has no __init__.py"),
-        why=msg("find_packages() in setup.py recognises a Python package by its __init__.py. "
-                "Without it, nothing in the folder is installed."),
+        why=msg(
+            "find_packages() in setup.py recognises a Python package by its __init__.py. "
+            "Without it, nothing in the folder is installed."
+        ),
         fix=msg("Create the empty file: touch {path}"),
         link=links.PACKAGE,
+        fixed_by=(layout.init_file,),
+        examples=(
+            example(
+                "init_missing",
+                Delete(INIT),
+                fails="run.starts",
+                note="find_packages finds nothing; builds, then fails with ModuleNotFoundError",
+            ),
+        ),
     ),
     Kind(
         id="source.unreadable_node_file",
@@ -92,34 +179,109 @@ KINDS = (
         why=msg("What you type in the editor is in the file only after you save it."),
         fix=msg("Save the file in your editor (Ctrl+S), then look at it with: cat {path}"),
         link=links.FIRST_NODE,
+        examples=(
+            example(
+                "node_empty",
+                Write(NODE, b""),
+                fails="source.node_file",
+                also={"source.shebang": "source.no_shebang"},
+                blocks=UNSTARTED,
+                note="not saved in VS Code",
+            ),
+        ),
     ),
     Kind(
         id="source.not_utf8",
         stage="file",
         title=msg("The node's file is not UTF-8 text"),
-        why=msg("Python reads source files as UTF-8; a single invalid byte makes the file "
-                "unreadable."),
+        why=msg(
+            "Python reads source files as UTF-8; a single invalid byte makes the file unreadable."
+        ),
         fix=msg("Save the file as UTF-8. In VS Code: click the encoding at the bottom right."),
         link=links.PYTHON_SYNTAX,
         seen=r"SyntaxError: \(unicode error\)|SyntaxError: Non-UTF-8 code",
+        fixed_by=(syntax.node,),
+        examples=(
+            example(
+                "not_utf8",
+                Write(
+                    NODE, b"#!/usr/bin/env python3\n\n\ndef main():\n    print('f\xfcr den Kurs')\n"
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+                note="latin-1 from an old editor",
+            ),
+        ),
     ),
     Kind(
         id="source.syntax_error",
         stage="file",
         title=msg("Python cannot read the node's file"),
-        why=msg("Python reads the whole file before it runs any of it. If it cannot read a line, "
-                "nothing runs."),
-        fix=msg("Look at that line and the line above it: often a bracket, a quote or a colon is "
-                "missing."),
+        why=msg(
+            "Python reads the whole file before it runs any of it. If it cannot read a line, "
+            "nothing runs."
+        ),
+        fix=msg(
+            "Look at that line and the line above it: often a bracket, a quote or a colon is "
+            "missing."
+        ),
         fixes={
             "tabs": msg("Indent with spaces only. In VS Code: 'Convert Indentation to Spaces'."),
-            "indentation": msg("Indent that line like the other lines of its block, with 4 spaces "
-                               "per level."),
+            "indentation": msg(
+                "Indent that line like the other lines of its block, with 4 spaces per level."
+            ),
             "null": msg("Save the file as UTF-8 text, or write it again: this copy is damaged."),
             "size": msg("Keep the node's file small: it contains the code of one node."),
         },
         link=links.PYTHON_SYNTAX,
         seen=r"^(?P<error>(?:Syntax|Indentation|Tab)Error: .{1,300})",
+        fixed_by=(syntax.node,),
+        examples=(
+            example(
+                "bracket_missing",
+                Replace(NODE, "str(self.counter_))", "str(self.counter_)"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "colon_missing",
+                Replace(NODE, "def timer_callback(self):", "def timer_callback(self)"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "indentation",
+                Replace(NODE, "        self.counter_ += 1", "      self.counter_ += 1"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "tabs_and_spaces",
+                Replace(NODE, "        self.counter_ += 1", "\tself.counter_ += 1"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "python_2_print",
+                Replace(NODE, "        pass\n", "        print 'bye'\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "null_bytes",
+                Write(NODE, b"#!/usr/bin/env python3\n\x00\x00\x00\x00"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+                note="UTF-16, or a damaged copy",
+            ),
+            example(
+                "word_document",
+                Write(NODE, b"PK\x03\x04\x14\x00\x06\x00\x08\x00\x00\x00!\x00"),
+                fails="source.node_file",
+                also={"source.shebang": "source.no_shebang"},
+                blocks=UNSTARTED,
+            ),
+        ),
     ),
     Kind(
         id="source.not_executable",
@@ -129,27 +291,100 @@ KINDS = (
         fix=msg("Run: chmod +x {path}"),
         link=links.FIRST_NODE,
         seen=r"(?:^|[\s:])\./(?P<path>[\w./-]{0,200}\.py): Permission denied",
+        fixed_by=(layout.exec_bit,),
+        examples=(
+            example(
+                "exec_bit_missing",
+                Chmod(NODE, 0o644),
+                fails="source.exec_bit",
+                note="37 of 147 public packages; ros2 run works anyway",
+            ),
+        ),
     ),
     Kind(
         id="source.exec_bit_unknown",
         stage="exec bit",
         title=msg("The submission does not record the exec bit"),
         why=EXEC,
-        fix=msg("Hand in a git repository or a tar archive: both record the exec bit. In git: "
-                "git update-index --chmod=+x {path}"),
+        fix=msg(
+            "Hand in a git repository or a tar archive: both record the exec bit. In git: "
+            "git update-index --chmod=+x {path}"
+        ),
         link=links.FIRST_NODE,
     ),
-    _first_line("byte_order_mark", msg("There is a byte order mark before line 1"),
-                msg("Save the file as UTF-8, not as 'UTF-8 with BOM' (in VS Code: at the bottom "
-                    "right).")),
-    _first_line("crlf", msg("The lines have Windows line endings (CRLF)"),
-                msg("Change CRLF to LF (in VS Code: at the bottom right), or run: "
-                    "sed -i 's/\\r$//' {path}"),
-                seen=r"python3(?:\\r|\r|\^M)['\u2019]?: No such file or directory"),
-    _first_line("shebang_not_first", msg("The shebang is not on line 1"),
-                msg("Move it to line 1: anywhere else it has no effect.")),
-    _first_line("wrong_shebang", msg("Line 1 names a program other than Python 3"), FIRST),
-    _first_line("no_shebang", msg("Line 1 is not a shebang"),
-                msg("Add this as the first line: #!/usr/bin/env python3"),
-                seen=r"(?:^|[\s:])(?:import|from): (?:command )?not found"),
-)  # fmt: skip
+    _first_line(
+        "byte_order_mark",
+        msg("There is a byte order mark before line 1"),
+        msg("Save the file as UTF-8, not as 'UTF-8 with BOM' (in VS Code: at the bottom right)."),
+        fixed_by=(first_line.byte_order_mark,),
+    ),
+    _first_line(
+        "crlf",
+        msg("The lines have Windows line endings (CRLF)"),
+        msg(
+            "Change CRLF to LF (in VS Code: at the bottom right), or run: sed -i 's/\\r$//' {path}"
+        ),
+        seen=r"python3(?:\\r|\r|\^M)['\u2019]?: No such file or directory",
+        fixed_by=(first_line.line_ends,),
+        examples=(
+            example(
+                "shebang_crlf",
+                Crlf(NODE),
+                fails="source.shebang",
+                note="/usr/bin/env: 'python3\\r': No such file or directory",
+            ),
+        ),
+    ),
+    _first_line(
+        "shebang_not_first",
+        msg("The shebang is not on line 1"),
+        msg("Move it to line 1: anywhere else it has no effect."),
+        fixed_by=(first_line.shebang,),
+        examples=(
+            example(
+                "shebang_second_line",
+                Replace(
+                    NODE, "#!/usr/bin/env python3\n", "# my first node\n#!/usr/bin/env python3\n"
+                ),
+                fails="source.shebang",
+            ),
+        ),
+    ),
+    _first_line(
+        "wrong_shebang",
+        msg("Line 1 names a program other than Python 3"),
+        FIRST,
+        fixed_by=(first_line.shebang,),
+        examples=(
+            example(
+                "shebang_python2",
+                Replace(NODE, "#!/usr/bin/env python3\n", "#!/usr/bin/python2\n"),
+                fails="source.shebang",
+            ),
+            example(
+                "shebang_without_slash",
+                Replace(NODE, "#!/usr/bin/env python3\n", "#!usr/bin/env python3\n"),
+                fails="source.shebang",
+            ),
+            example(
+                "shebang_bash",
+                Replace(NODE, "#!/usr/bin/env python3\n", "#!/bin/bash\n"),
+                fails="source.shebang",
+            ),
+        ),
+    ),
+    _first_line(
+        "no_shebang",
+        msg("Line 1 is not a shebang"),
+        msg("Add this as the first line: #!/usr/bin/env python3"),
+        seen=r"(?:^|[\s:])(?:import|from): (?:command )?not found",
+        fixed_by=(first_line.shebang,),
+        examples=(
+            example(
+                "shebang_missing",
+                Replace(NODE, "#!/usr/bin/env python3\n", ""),
+                fails="source.shebang",
+            ),
+        ),
+    ),
+)

@@ -2,10 +2,28 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
+from grader.mistakes.example import (
+    CFG,
+    INNER,
+    MANIFEST,
+    MARKER,
+    NO_FILE,
+    SETUP,
+    UNBUILT,
+    UNINSTALLED,
+    example,
+)
+from grader.mistakes.fixes import layout, manifest, setup_cfg, setup_py
+from grader.mistakes.kind import Kind, Parts
 from grader.mistakes.submission import UNIT
+from grader.package.edit.tree import Delete, Move, Replace, Write
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 DEGRADES = msg(
     "colcon reads the package's name and build type from package.xml. If it cannot use the file, "
@@ -17,11 +35,11 @@ MARKER_MISSING = msg(
     "copies it there from resource/ when you build. If it is missing, the build stops with: can't "
     "copy 'resource/{package}': doesn't exist or not a regular file."
 )
-CFG = msg(
+WITHOUT_CFG = msg(
     "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. Without "
     "these settings they are installed in bin, and ros2 run answers: No executable found."
 )
-CFG_TWO = msg(
+TWO_SECTIONS = msg(
     "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. Without "
     "these settings they are installed in bin, and ros2 run answers: No executable found. "
     "[develop] is for colcon build --symlink-install, [install] for a build without it."
@@ -32,19 +50,28 @@ NEW_CFG = msg(
 )
 
 
-def _manifest(slug: str, title: str, fix: str, why: str = DEGRADES, **fixes: str) -> Kind:
+def _manifest(
+    slug: str,
+    title: str,
+    fix: str,
+    why: str = DEGRADES,
+    *,
+    empty: str = "",
+    **parts: Unpack[Parts],
+) -> Kind:
     return Kind(
         id=f"package.{slug}",
         stage="manifest",
         title=title,
         why=why,
         fix=fix,
-        fixes=fixes,
+        fixes={"empty": empty} if empty else {},
         link=links.MANIFEST,
+        **parts,
     )
 
 
-MANIFEST = (
+KINDS = (
     Kind(
         id="package.no_manifest",
         stage="manifest",
@@ -54,115 +81,414 @@ MANIFEST = (
         fix=msg("Copy the package.xml that ros2 pkg create makes, and set its <name>."),
         fixes={"renamed": msg("Rename {close} to package.xml.")},
         link=links.MANIFEST,
+        fixed_by=(manifest.rename,),
+        examples=(
+            example(
+                "only_a_text",
+                Delete(INNER),
+                Delete("resource"),
+                Delete(MANIFEST),
+                Delete(SETUP),
+                Delete(CFG),
+                Write("submission.txt", "see my repository\n"),
+                fails="package.found",
+            ),
+            example(
+                "manifest_and_setup_missing", Delete(MANIFEST), Delete(SETUP), fails="package.found"
+            ),
+            example(
+                "no_manifest",
+                Delete(MANIFEST),
+                fails="package.manifest",
+                blocks=UNBUILT,
+                note="colcon takes the folder for plain Python",
+            ),
+        ),
     ),
-    _manifest("manifest_unreadable", msg("package.xml cannot be read"),
-              msg("Hand in a package.xml that can be read.")),
-    _manifest("broken_xml", msg("package.xml is not well-formed XML"),
-              msg("Look at that line and the line above it: each <tag> needs its </tag>, and & is "
-                  "written &amp;."),
-              empty=msg("Write the file again: save it in the editor, or copy the one that ros2 "
-                        "pkg create makes.")),
-    _manifest("manifest_doctype", msg("package.xml has a <!DOCTYPE …>"),
-              msg("Delete the <!DOCTYPE …> line: no package.xml needs one.")),
-    _manifest("manifest_tag", msg("A required tag of package.xml is missing or empty"),
-              msg("Add <{tag}>…</{tag}> inside <package>."),
-              empty=msg("Write something between <{tag}> and </{tag}>.")),
-    _manifest("manifest_rules", msg("package.xml breaks a rule of its format"),
-              msg("Correct what the message names, so that colcon accepts the file.")),
+    _manifest(
+        "manifest_unreadable",
+        msg("package.xml cannot be read"),
+        msg("Hand in a package.xml that can be read."),
+    ),
+    _manifest(
+        "broken_xml",
+        msg("package.xml is not well-formed XML"),
+        msg(
+            "Look at that line and the line above it: each <tag> needs its </tag>, and & is "
+            "written &amp;."
+        ),
+        empty=msg(
+            "Write the file again: save it in the editor, or copy the one that ros2 "
+            "pkg create makes."
+        ),
+        fixed_by=(manifest.well_formed,),
+        examples=(
+            example(
+                "manifest_not_xml",
+                Replace(MANIFEST, "</description>", "</decription>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+                note="colcon takes it for plain Python: it builds, and ros2 run does not find it",
+            ),
+            example(
+                "manifest_empty", Write(MANIFEST, ""), fails="package.manifest", blocks=UNBUILT
+            ),
+            example(
+                "manifest_not_utf8",
+                Write(
+                    MANIFEST,
+                    b'<?xml version="1.0"?>\n<package format="3"><name>my_robot_controller</name><version>0.0.0</version><description>f\xfcr</description></package>\n',
+                ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
+    _manifest(
+        "manifest_doctype",
+        msg("package.xml has a <!DOCTYPE …>"),
+        msg("Delete the <!DOCTYPE …> line: no package.xml needs one."),
+    ),
+    _manifest(
+        "manifest_tag",
+        msg("A required tag of package.xml is missing or empty"),
+        msg("Add <{tag}>…</{tag}> inside <package>."),
+        empty=msg("Write something between <{tag}> and </{tag}>."),
+        fixed_by=(manifest.version,),
+    ),
+    _manifest(
+        "manifest_rules",
+        msg("package.xml breaks a rule of its format"),
+        msg("Correct what the message names, so that colcon accepts the file."),
+        fixed_by=(manifest.version,),
+    ),
     Kind(
         id="package.name_mismatch",
         stage="manifest",
         title=msg("The package's names differ"),
-        why=msg("colcon and ros2 run use the name in package.xml. The names in package.xml, "
-                "setup.py, setup.cfg and resource/ must be the same."),
-        whys={"setup": msg("Python installs the package under the name in setup.py, and ROS looks "
-                           "for the name in package.xml: the two must be the same.")},
+        why=msg(
+            "colcon and ros2 run use the name in package.xml. The names in package.xml, "
+            "setup.py, setup.cfg and resource/ must be the same."
+        ),
+        whys={
+            "setup": msg(
+                "Python installs the package under the name in setup.py, and ROS looks "
+                "for the name in package.xml: the two must be the same."
+            )
+        },
         fix=msg("Write <name>{package}</name> in package.xml."),
         fixes={"setup": msg("Set name (or package_name) in setup.py to '{package}'.")},
         link=links.PACKAGE,
+        fixed_by=(
+            manifest.name,
+            setup_py.name,
+        ),
+        examples=(
+            example(
+                "other_name_throughout",
+                Replace(MANIFEST, "<name>my_robot_controller</name>", "<name>my_controller</name>"),
+                Replace(
+                    SETUP, "package_name = 'my_robot_controller'", "package_name = 'my_controller'"
+                ),
+                Replace(SETUP, "test_node = my_robot_controller.", "test_node = my_controller."),
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_controller\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_controller\n"
+                    ),
+                ),
+                Move(MARKER, "resource/my_controller"),
+                Move(INNER, "my_controller"),
+                fails="package.manifest",
+                also={
+                    "package.marker": "package.marker_missing",
+                    "package.setup_cfg": "package.setup_cfg_wrong",
+                    "source.node_file": "source.misplaced_node_file",
+                    "entry_point.mapping": "setup.other_package",
+                },
+                blocks=(*NO_FILE, *UNBUILT),
+                note="a valid package, but not the requested one",
+            ),
+            example(
+                "manifest_other_name",
+                Replace(
+                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_controler</name>"
+                ),
+                fails="package.manifest",
+                note="runs anyway: marker, setup.cfg and setup.py have the right name",
+            ),
+            example(
+                "setup_other_name",
+                Replace(SETUP, "name=package_name", "name='my_robot'"),
+                fails="package.manifest",
+            ),
+            example(
+                "setup_variable_other_name",
+                Replace(
+                    SETUP,
+                    "package_name = 'my_robot_controller'",
+                    "package_name = 'robot_controller'",
+                ),
+                fails="package.manifest",
+                also={"package.marker": "package.marker_missing"},
+                blocks=UNBUILT,
+            ),
+        ),
     ),
     Kind(
         id="package.build_type",
         stage="manifest",
         title=msg("package.xml does not set the build type ament_python"),
-        why=msg("The build type tells colcon how to build. Without ament_python, colcon takes the "
-                "package for a C++ one and looks for a CMakeLists.txt."),
+        why=msg(
+            "The build type tells colcon how to build. Without ament_python, colcon takes the "
+            "package for a C++ one and looks for a CMakeLists.txt."
+        ),
         fix=msg("Write in package.xml: <export><build_type>ament_python</build_type></export>"),
-        fixes={"cmake": msg("If only this line is wrong, write ament_python. Otherwise create a "
-                            "new package with ros2 pkg create --build-type ament_python and copy "
-                            "your code into it.")},
+        fixes={
+            "cmake": msg(
+                "If only this line is wrong, write ament_python. Otherwise create a "
+                "new package with ros2 pkg create --build-type ament_python and copy "
+                "your code into it."
+            )
+        },
         link=links.PACKAGE,
         seen=r"does not appear to contain CMakeLists\.txt",
+        fixed_by=(manifest.build_type,),
+        examples=(
+            example(
+                "cmake_package",
+                Delete(SETUP),
+                Delete(CFG),
+                Delete("resource"),
+                Delete(INNER),
+                Write(
+                    "CMakeLists.txt",
+                    (
+                        "cmake_minimum_required(VERSION 3.8)\n"
+                        "project(my_robot_controller)\n"
+                        "find_package(ament_cmake REQUIRED)\n"
+                        "ament_package()\n"
+                    ),
+                ),
+                Replace(MANIFEST, "ament_python", "ament_cmake"),
+                fails="package.manifest",
+                also={
+                    "package.marker": "package.marker_missing",
+                    "package.setup_cfg": "package.setup_cfg_missing",
+                    "source.node_file": "source.no_node_file",
+                    "entry_point.mapping": "setup.missing",
+                },
+                blocks=(*NO_FILE, *UNBUILT),
+                note="--build-type forgotten",
+            ),
+            example(
+                "build_type_missing",
+                Replace(MANIFEST, "    <build_type>ament_python</build_type>\n", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "build_type_cmake",
+                Replace(MANIFEST, "ament_python", "ament_cmake"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "build_type_misspelt",
+                Replace(MANIFEST, "ament_python", "ament_pyton"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+        ),
     ),
-)  # fmt: skip
-PLACES = (
     Kind(
         id="package.marker_missing",
         stage="marker",
         title=msg("The marker file in resource/ is missing"),
         why=MARKER_MISSING,
-        whys={"other": msg("ROS finds a package by an empty file with the package's name in the "
-                           "package index. The marker's name is the name that ROS uses for the "
-                           "package.")},
-        fix=msg("Create the empty file. In the package's folder, run: mkdir -p resource && touch "
-                "resource/{package}"),
+        whys={
+            "other": msg(
+                "ROS finds a package by an empty file with the package's name in the "
+                "package index. The marker's name is the name that ROS uses for the "
+                "package."
+            )
+        },
+        fix=msg(
+            "Create the empty file. In the package's folder, run: mkdir -p resource && touch "
+            "resource/{package}"
+        ),
         fixes={
-            "folder": msg("Delete that folder and create an empty file with the same name: touch "
-                          "resource/{package}"),
-            "rename": msg("Rename resource/{close} to resource/{package}: the two names must be "
-                          "the same."),
-            "other": msg("Make that line install 'resource/{package}': set package_name in "
-                         "setup.py to '{package}'."),
+            "folder": msg(
+                "Delete that folder and create an empty file with the same name: touch "
+                "resource/{package}"
+            ),
+            "rename": msg(
+                "Rename resource/{close} to resource/{package}: the two names must be the same."
+            ),
+            "other": msg(
+                "Make that line install 'resource/{package}': set package_name in "
+                "setup.py to '{package}'."
+            ),
         },
         link=links.DEVELOPING,
         seen=r"can't copy '[^'\n]{0,300}resource/(?P<package>[^'/\n]{1,120})': doesn't exist",
+        fixed_by=(
+            layout.marker,
+            setup_py.marker,
+        ),
+        examples=(
+            example("marker_missing", Delete(MARKER), fails="package.marker", blocks=UNBUILT),
+            example(
+                "marker_folder_missing",
+                Delete("resource"),
+                fails="package.marker",
+                blocks=UNBUILT,
+                note="git keeps no empty folders, and some tools drop empty files",
+            ),
+            example(
+                "marker_misnamed",
+                Move(MARKER, "resource/my_robot_controler"),
+                fails="package.marker",
+                blocks=UNBUILT,
+            ),
+        ),
     ),
     Kind(
         id="package.marker_not_installed",
         stage="marker",
         title=msg("setup.py does not install the package's marker"),
-        why=msg("ROS finds a package by an empty file with the package's name in the package "
-                "index. setup.py copies it there from resource/ when you build. colcon still adds "
-                "a missing one itself, but warns that it will stop doing so."),
-        whys={"other": msg("ROS finds a package by an empty file with the package's name in the "
-                           "package index. The marker's name is the name that ROS uses for the "
-                           "package.")},
-        fix=msg("Add to data_files: ('share/ament_index/resource_index/packages', ['resource/' + "
-                "package_name]),"),
-        fixes={"other": msg("Make that line install 'resource/{package}': set package_name in "
-                            "setup.py to '{package}'.")},
+        why=msg(
+            "ROS finds a package by an empty file with the package's name in the package "
+            "index. setup.py copies it there from resource/ when you build. colcon still adds "
+            "a missing one itself, but warns that it will stop doing so."
+        ),
+        whys={
+            "other": msg(
+                "ROS finds a package by an empty file with the package's name in the "
+                "package index. The marker's name is the name that ROS uses for the "
+                "package."
+            )
+        },
+        fix=msg(
+            "Add to data_files: ('share/ament_index/resource_index/packages', ['resource/' + "
+            "package_name]),"
+        ),
+        fixes={
+            "other": msg(
+                "Make that line install 'resource/{package}': set package_name in "
+                "setup.py to '{package}'."
+            )
+        },
         link=links.DEVELOPING,
         seen=r"doesn't explicitly install a marker in the package index",
+        fixed_by=(setup_py.marker,),
+        examples=(
+            example(
+                "marker_not_installed",
+                Replace(
+                    SETUP,
+                    (
+                        "        ('share/ament_index/resource_index/packages',\n"
+                        "            ['resource/' + package_name]),\n"
+                    ),
+                    "",
+                ),
+                fails="package.marker",
+                note="colcon warns and makes one itself",
+            ),
+        ),
     ),
     Kind(
         id="package.setup_cfg_missing",
         stage="setup.cfg",
         title=msg("There is no setup.cfg"),
-        why=CFG,
+        why=WITHOUT_CFG,
         fix=NEW_CFG,
         link=links.DEVELOPING,
+        fixed_by=(setup_cfg.missing,),
+        examples=(
+            example(
+                "setup_cfg_missing",
+                Delete(CFG),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+                note="the script lands in bin",
+            ),
+        ),
     ),
     Kind(
         id="package.setup_cfg_syntax",
         stage="setup.cfg",
         title=msg("setup.cfg cannot be parsed"),
-        why=msg("setuptools reads this file in every build and stops at a line that it cannot "
-                "read."),
+        why=msg(
+            "setuptools reads this file in every build and stops at a line that it cannot read."
+        ),
         fix=msg("Fix that line: a line is either [section] or key=value."),
         link=links.SETUP_CFG,
         seen=r"configparser\.\w{1,60}Error|File contains no section headers",
+        fixed_by=(setup_cfg.syntax,),
+        examples=(
+            example(
+                "setup_cfg_not_ini",
+                Replace(CFG, "[develop]", "[develop"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+        ),
     ),
     Kind(
         id="package.setup_cfg_wrong",
         stage="setup.cfg",
         title=msg("setup.cfg installs executables where ros2 run does not look"),
-        why=CFG_TWO,
+        why=TWO_SECTIONS,
         fix=msg("Write {key}={wanted}"),
         fixes={
             "key": msg("Write below [{section}]: {key}={wanted}"),
             "section": msg("Add two lines: [{section}] and below it {key}={wanted}"),
         },
         link=links.DEVELOPING,
+        fixed_by=(setup_cfg.setting,),
+        examples=(
+            example(
+                "setup_cfg_empty", Write(CFG, ""), fails="package.setup_cfg", blocks=UNINSTALLED
+            ),
+            example(
+                "setup_cfg_other_package",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_robot\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_robot\n"
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_without_develop",
+                Write(CFG, "[install]\ninstall_scripts=$base/lib/my_robot_controller\n"),
+                fails="package.setup_cfg",
+                note="colcon 0.21 does not need it",
+            ),
+            example(
+                "setup_cfg_without_install",
+                Write(CFG, "[develop]\nscript_dir=$base/lib/my_robot_controller\n"),
+                fails="package.setup_cfg",
+                note="works with --symlink-install; without, the script lands in bin",
+            ),
+            example(
+                "setup_cfg_bin",
+                Write(
+                    CFG, ("[develop]\nscript_dir=$base/bin\n[install]\ninstall_scripts=$base/bin\n")
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+        ),
     ),
-)  # fmt: skip
-KINDS = (*MANIFEST, *PLACES)
+)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import layout, node_count, node_life, node_log, node_timer
 from grader.mistakes.kind import Family, Kind
+from grader.package.edit.tree import Replace
 
 SPIN = msg(
     "rclpy.spin(node) keeps the node running: it waits, and calls your callbacks when they are due."
@@ -19,88 +22,397 @@ PERIOD = msg("The first argument of create_timer is the period in seconds.")
 
 _run = Family("run", links.FIRST_NODE)
 KINDS = (
-    _run("died_at_start", "start", msg("The node ends with an exception when it starts"),
-         msg("An exception that nothing catches ends the program. The last line of the traceback "
-             "names it; the lines above show where it was raised."),
-         msg("Fix the line shown, then run the node again. After colcon build --symlink-install "
-             "you do not need to build again."), links.PYTHON_ERRORS),
-    _run("exits_at_once", "spin", msg("The node ends immediately"), SPIN,
-         msg("Call rclpy.spin(node) in {function} after creating the node (not spin_once)."),
-         links.EXECUTORS),
-    _run("no_node", "start", msg("No node appears"),
-         msg("A node exists as soon as its class (a Node) is instantiated, after rclpy.init()."),
-         msg("Make sure that {function} creates the node, and that nothing before it waits "
-             "(input(), a loop)."),
-         links.NODES),
-    _run("wrong_node_name", "class", msg("The node has a different name"),
-         msg("ros2 node list, topics and logs show the name that is passed to super().__init__(), "
-             "not the name of the file or the class."),
-         msg("Write super().__init__('{wanted}')."), links.NODES),
-    _run("too_much_output", "limits", msg("The node prints without end"),
-         msg("A loop that prints without waiting fills terminals, logs and disks."),
-         msg("Log only in the timer's callback, once per call.")),
-    _run("resource", "limits", msg("The node reached a limit of the sandbox"),
-         msg("A node that counts needs about 60 MB of memory and one process."),
-         msg("Look for a list that only grows, or for programs and threads started in a loop.")),
-    _run("wrong_text", "text", msg("The text is different"),
-         msg("The text is compared character by character: case, spaces and punctuation count."),
-         msg("Log exactly '{line}', with the counter in place of the number.")),
-    _run("twice", "timer", msg("More than one line comes at a time"), COUNT,
-         msg("Create only one timer, and log once in its callback.")),
-    _run("constant_counter", "counter", msg("The number never changes"), COUNT,
-         msg("Add {counter} += {step} to the callback, and set it to {start} only in __init__.")),
-    _run("wrong_start", "counter", msg("The count starts at a different number"), COUNT,
-         msg("Set the counter to {start} in __init__, and increase it after logging.")),
-    _run("wrong_step", "counter", msg("The count increases by a different number"), COUNT,
-         msg("Add {step} to the counter once in each callback, and nowhere else.")),
-    _run("no_lines", "timer", msg("No line comes"),
-         msg("The timer's callback logs the lines: create_timer({period}, self.{callback}) in "
-             "__init__, with the callback's name and no () after it."),
-         msg("Create the timer in __init__ and log in its callback.")),
-    _run("by_hand", "timer", msg("A line comes before any time has passed"),
-         msg("The timer calls the callback when it is due. Your own call (self.{callback}() in "
-             "__init__) is one too many."),
-         msg("Remove that call. Pass the callback's name to create_timer, which calls it.")),
+    _run(
+        "died_at_start",
+        "start",
+        msg("The node ends with an exception when it starts"),
+        msg(
+            "An exception that nothing catches ends the program. The last line of the traceback "
+            "names it; the lines above show where it was raised."
+        ),
+        msg(
+            "Fix the line shown, then run the node again. After colcon build --symlink-install "
+            "you do not need to build again."
+        ),
+        links.PYTHON_ERRORS,
+        fixed_by=(layout.init_file,),
+        examples=(
+            example(
+                "raises_at_import",
+                Replace(NODE, "class MyFirstNode", "raise OSError('boom')\n\n\nclass MyFirstNode"),
+                fails="run.starts",
+            ),
+            example(
+                "exception_in_init",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = int('zero')"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _run(
+        "exits_at_once",
+        "spin",
+        msg("The node ends immediately"),
+        SPIN,
+        msg("Call rclpy.spin(node) in {function} after creating the node (not spin_once)."),
+        links.EXECUTORS,
+        fixed_by=(node_life.spin,),
+    ),
+    _run(
+        "no_node",
+        "start",
+        msg("No node appears"),
+        msg("A node exists as soon as its class (a Node) is instantiated, after rclpy.init()."),
+        msg(
+            "Make sure that {function} creates the node, and that nothing before it waits "
+            "(input(), a loop)."
+        ),
+        links.NODES,
+    ),
+    _run(
+        "wrong_node_name",
+        "class",
+        msg("The node has a different name"),
+        msg(
+            "ros2 node list, topics and logs show the name that is passed to super().__init__(), "
+            "not the name of the file or the class."
+        ),
+        msg("Write super().__init__('{wanted}')."),
+        links.NODES,
+        fixed_by=(node_life.name,),
+        examples=(
+            example(
+                "wrong_node_name",
+                Replace(NODE, "'my_first_node'", "'my_node'"),
+                fails="run.node_name",
+                note="the logger has the node's name: one mistake, counted once",
+            ),
+            example(
+                "node_name_capital",
+                Replace(NODE, "'my_first_node'", "'My_first_node'"),
+                fails="run.node_name",
+            ),
+            example(
+                "node_in_namespace",
+                Replace(NODE, "'my_first_node')", "'my_first_node', namespace='robot')"),
+                fails="run.node_name",
+            ),
+        ),
+    ),
+    _run(
+        "too_much_output",
+        "limits",
+        msg("The node prints without end"),
+        msg("A loop that prints without waiting fills terminals, logs and disks."),
+        msg("Log only in the timer's callback, once per call."),
+    ),
+    _run(
+        "resource",
+        "limits",
+        msg("The node reached a limit of the sandbox"),
+        msg("A node that counts needs about 60 MB of memory and one process."),
+        msg("Look for a list that only grows, or for programs and threads started in a loop."),
+    ),
+    _run(
+        "wrong_text",
+        "text",
+        msg("The text is different"),
+        msg("The text is compared character by character: case, spaces and punctuation count."),
+        msg("Log exactly '{line}', with the counter in place of the number."),
+        fixed_by=(
+            node_log.f_prefix,
+            node_log.text,
+        ),
+        examples=(
+            example(
+                "text_extra",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: ' + str(self.counter_) + '!'",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "text_capital",
+                Replace(NODE, "'Hello time: '", "'hello time: '"),
+                fails="run.output",
+            ),
+            example(
+                "text_other_capital",
+                Replace(NODE, "'Hello time: '", "'Hello Time: '"),
+                fails="run.output",
+            ),
+            example(
+                "text_blank_missing",
+                Replace(NODE, "'Hello time: '", "'Hello time:'"),
+                fails="run.output",
+            ),
+            example(
+                "text_two_blanks",
+                Replace(NODE, "'Hello time: '", "'Hello time:  '"),
+                fails="run.output",
+            ),
+            example(
+                "text_misspelt",
+                Replace(NODE, "'Hello time: '", "'Helo time: '"),
+                fails="run.output",
+            ),
+            example(
+                "text_of_another_course",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello World'"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _run(
+        "twice",
+        "timer",
+        msg("More than one line comes at a time"),
+        COUNT,
+        msg("Create only one timer, and log once in its callback."),
+        fixed_by=(
+            node_count.twice,
+            node_log.only_logged,
+        ),
+    ),
+    _run(
+        "constant_counter",
+        "counter",
+        msg("The number never changes"),
+        COUNT,
+        msg("Add {counter} += {step} to the callback, and set it to {start} only in __init__."),
+        fixed_by=(node_count.step,),
+    ),
+    _run(
+        "wrong_start",
+        "counter",
+        msg("The count starts at a different number"),
+        COUNT,
+        msg("Set the counter to {start} in __init__, and increase it after logging."),
+        fixed_by=(node_count.start,),
+    ),
+    _run(
+        "wrong_step",
+        "counter",
+        msg("The count increases by a different number"),
+        COUNT,
+        msg("Add {step} to the counter once in each callback, and nowhere else."),
+        fixed_by=(
+            node_count.plus,
+            node_count.by,
+        ),
+    ),
+    _run(
+        "no_lines",
+        "timer",
+        msg("No line comes"),
+        msg(
+            "The timer's callback logs the lines: create_timer({period}, self.{callback}) in "
+            "__init__, with the callback's name and no () after it."
+        ),
+        msg("Create the timer in __init__ and log in its callback."),
+    ),
+    _run(
+        "by_hand",
+        "timer",
+        msg("A line comes before any time has passed"),
+        msg(
+            "The timer calls the callback when it is due. Your own call (self.{callback}() in "
+            "__init__) is one too many."
+        ),
+        msg("Remove that call. Pass the callback's name to create_timer, which calls it."),
+        fixed_by=(
+            node_timer.by_hand,
+            node_timer.callback,
+        ),
+    ),
     Kind(
         id="run.ended_early",
         stage="callback",
         title=msg("The node ends by itself"),
         why=SPIN,
         whys={"callback": msg("A callback that raises an exception ends the node.")},
-        fix=msg("Let the timer keep running: remove any limit on the count and any exit from the "
-                "callback."),
+        fix=msg(
+            "Let the timer keep running: remove any limit on the count and any exit from the "
+            "callback."
+        ),
         fixes={"callback": msg("Fix the line that the traceback shows, and run the node again.")},
         link=links.EXECUTORS,
     ),
-    _run("stops", "timer", msg("The lines stop coming"), SPIN,
-         msg("Let the timer keep running: remove any limit on the count and any exit from the "
-             "callback.")),
-    _run("wrong_period", "timer", msg("The lines come at the wrong times"), PERIOD,
-         msg("Write create_timer({period}, self.{callback}) once.")),
-    _run("print_not_logger", "logger", msg("The lines do not go through the logger"), RECORD, LOG,
-         links.LOGGING),
-    _run("faked_log", "logger", msg("A line looks like a log record, but ROS did not log it"),
-         RECORD, LOG, links.LOGGING),
-    _run("other_logger", "logger", msg("The lines come from a logger that is not the node's"),
-         RECORD, LOG, links.LOGGING),
-    _run("wrong_level", "logger", msg("The records have a level other than INFO"),
-         msg("The level says how urgent a record is; a count is information."), LOG, links.LOGGING),
-    _run("ignores_interrupt", "shutdown", msg("The node keeps running after Ctrl+C"),
-         msg("Ctrl+C sends SIGINT. Python turns it into KeyboardInterrupt, which ends rclpy.spin. "
-             "Code that catches it and goes on, or ignores the signal, leaves the node running."),
-         msg("Catch KeyboardInterrupt only around rclpy.spin, and let {function} end after it."),
-         links.EXECUTORS),
-    _run("error_at_stop", "shutdown", msg("Your code raises an error after Ctrl+C"),
-         msg("The code after rclpy.spin cleans up; an error in it hides how the node ended."),
-         msg("Fix that line or remove it."), links.RCLPY),
-    _run("shutdown_twice", "shutdown", msg("rclpy.shutdown() is called after ROS has shut down"),
-         msg("Ctrl+C has already shut ROS down when your rclpy.shutdown() is called; on humble and "
-             "jazzy that ends with a traceback. The node itself is correct."),
-         msg("Write rclpy.try_shutdown() instead of rclpy.shutdown()."), links.RCLPY,
-         seen=r"rcl_shutdown already called"),
-    _run("interrupt_traceback", "shutdown", msg("Ctrl+C ends the node with a traceback"),
-         msg("This is normal: Ctrl+C raises KeyboardInterrupt, and nothing catches it."),
-         msg("You do not have to fix anything. To avoid the traceback, write try: … except "
-             "KeyboardInterrupt: around rclpy.spin."), links.PYTHON_ERRORS,
-         seen=r"^KeyboardInterrupt$"),
-)  # fmt: skip
+    _run(
+        "stops",
+        "timer",
+        msg("The lines stop coming"),
+        SPIN,
+        msg(
+            "Let the timer keep running: remove any limit on the count and any exit from the "
+            "callback."
+        ),
+    ),
+    _run(
+        "wrong_period",
+        "timer",
+        msg("The lines come at the wrong times"),
+        PERIOD,
+        msg("Write create_timer({period}, self.{callback}) once."),
+        fixed_by=(node_timer.period,),
+        examples=(
+            example("period_half", Replace(NODE, "(1.0,", "(0.5,"), fails="run.period"),
+            example("period_two", Replace(NODE, "(1.0,", "(2.0,"), fails="run.period"),
+            example("period_tenth", Replace(NODE, "(1.0,", "(0.1,"), fails="run.period"),
+            example("period_slightly_long", Replace(NODE, "(1.0,", "(1.1,"), fails="run.period"),
+            example("period_ten", Replace(NODE, "(1.0,", "(10.0,"), fails="run.period"),
+        ),
+    ),
+    _run(
+        "print_not_logger",
+        "logger",
+        msg("The lines do not go through the logger"),
+        RECORD,
+        LOG,
+        links.LOGGING,
+        fixed_by=(node_log.logger,),
+        examples=(
+            example(
+                "python_logging",
+                Replace(NODE, "import rclpy\nfrom", "import logging\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)",
+                    (
+                        "    rclpy.init(args=args)\n"
+                        "    logging.basicConfig(level=logging.INFO, format='%(message)s')"
+                    ),
+                ),
+                Replace(NODE, "self.get_logger().info", "logging.info"),
+                fails="run.logger",
+            ),
+        ),
+    ),
+    _run(
+        "faked_log",
+        "logger",
+        msg("A line looks like a log record, but ROS did not log it"),
+        RECORD,
+        LOG,
+        links.LOGGING,
+        examples=(
+            example(
+                "printed_in_log_form",
+                Replace(NODE, "import rclpy\nfrom", "import sys\nimport time\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "print(f'[INFO] [{time.time():.9f}] [my_first_node]: Hello time: {self.counter_}', file=sys.stderr, flush=True)",
+                ),
+                fails="run.logger",
+            ),
+        ),
+    ),
+    _run(
+        "other_logger",
+        "logger",
+        msg("The lines come from a logger that is not the node's"),
+        RECORD,
+        LOG,
+        links.LOGGING,
+        examples=(
+            example(
+                "logger_of_its_own",
+                Replace(NODE, "import rclpy\nfrom", "import rclpy.logging\nimport rclpy\nfrom"),
+                Replace(
+                    NODE, "self.get_logger().info", "rclpy.logging.get_logger('my_logger').info"
+                ),
+                fails="run.logger",
+            ),
+        ),
+    ),
+    _run(
+        "wrong_level",
+        "logger",
+        msg("The records have a level other than INFO"),
+        msg("The level says how urgent a record is; a count is information."),
+        LOG,
+        links.LOGGING,
+        fixed_by=(node_log.level,),
+        examples=(
+            example(
+                "logged_as_warning",
+                Replace(NODE, "self.get_logger().info", "self.get_logger().warning"),
+                fails="run.logger",
+            ),
+            example(
+                "logged_as_error",
+                Replace(NODE, "self.get_logger().info", "self.get_logger().error"),
+                fails="run.logger",
+            ),
+        ),
+    ),
+    _run(
+        "ignores_interrupt",
+        "shutdown",
+        msg("The node keeps running after Ctrl+C"),
+        msg(
+            "Ctrl+C sends SIGINT. Python turns it into KeyboardInterrupt, which ends rclpy.spin. "
+            "Code that catches it and goes on, or ignores the signal, leaves the node running."
+        ),
+        msg("Catch KeyboardInterrupt only around rclpy.spin, and let {function} end after it."),
+        links.EXECUTORS,
+        examples=(
+            example(
+                "ignores_interrupt",
+                Replace(
+                    NODE,
+                    (
+                        "    try:\n"
+                        "        rclpy.spin(node)\n"
+                        "    except KeyboardInterrupt:\n"
+                        "        pass\n"
+                        "    finally:\n"
+                        "        node.destroy_node()\n"
+                        "        rclpy.try_shutdown()\n"
+                    ),
+                    (
+                        "    import signal\n"
+                        "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+                        "    rclpy.spin(node)\n"
+                    ),
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _run(
+        "error_at_stop",
+        "shutdown",
+        msg("Your code raises an error after Ctrl+C"),
+        msg("The code after rclpy.spin cleans up; an error in it hides how the node ended."),
+        msg("Fix that line or remove it."),
+        links.RCLPY,
+    ),
+    _run(
+        "shutdown_twice",
+        "shutdown",
+        msg("rclpy.shutdown() is called after ROS has shut down"),
+        msg(
+            "Ctrl+C has already shut ROS down when your rclpy.shutdown() is called; on humble and "
+            "jazzy that ends with a traceback. The node itself is correct."
+        ),
+        msg("Write rclpy.try_shutdown() instead of rclpy.shutdown()."),
+        links.RCLPY,
+        seen=r"rcl_shutdown already called",
+    ),
+    _run(
+        "interrupt_traceback",
+        "shutdown",
+        msg("Ctrl+C ends the node with a traceback"),
+        msg("This is normal: Ctrl+C raises KeyboardInterrupt, and nothing catches it."),
+        msg(
+            "You do not have to fix anything. To avoid the traceback, write try: … except "
+            "KeyboardInterrupt: around rclpy.spin."
+        ),
+        links.PYTHON_ERRORS,
+        seen=r"^KeyboardInterrupt$",
+    ),
+)

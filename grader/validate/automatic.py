@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
+from grader.package.edit.tree import Edit, Tree, Write, text_of
 from grader.package.source.node import read_node
 from grader.validate import in_files, in_setup, in_source
 from grader.validate.mutant import Mutant
 from grader.validate.spots import Code
-from grader.validate.tree import Edit, Tree, Write, text_of
 
 
 def generate(original: Tree, assignment: Assignment) -> Iterator[Mutant]:

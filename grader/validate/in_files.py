@@ -9,8 +9,19 @@ import re
 from collections.abc import Iterator
 
 from grader.course.assignment import Assignment
+from grader.package.edit.tree import (
+    Chmod,
+    Copy,
+    Crlf,
+    Delete,
+    Edit,
+    Move,
+    Nest,
+    Tree,
+    Write,
+    text_of,
+)
 from grader.validate.spots import misspelt
-from grader.validate.tree import Chmod, Copy, Crlf, Delete, Edit, Move, Nest, Tree, Write, text_of
 
 Made = tuple[str, tuple[Edit, ...], tuple[str, ...]]
 ANY = ("package.", "source.", "build.", "entry_point.", "run.")

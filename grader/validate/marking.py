@@ -13,10 +13,10 @@ from grader.base.unheard import unheard
 from grader.batch.local_pool import LocalPool
 from grader.batch.run import cores_here, prepare
 from grader.batch.work import Done, Task
+from grader.package.edit.tree import Tree, write_tree
 from grader.package.submission import Submission, take_in
 from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult, CheckStatus
-from grader.validate.tree import Tree, write_tree
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import Order
 from grader.verdict.static import evaluate_static

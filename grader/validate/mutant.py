@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from grader.base.errors import AssignmentError
-from grader.validate.tree import Edit, EditError, Tree, apply_all
+from grader.package.edit.tree import Edit, EditError, Tree, apply_all
 
 STATIC = ("package.", "source.")
 

@@ -9,6 +9,11 @@
           - {chmod: my_package/my_node.py, mode: "0644"}
     equivalent:
       - {mutant: "name of an automatic mutant", why: "why it is correct nevertheless"}
+    catalogue: true
+
+With `catalogue: true` the examples of the catalogue's mistakes are mutants too: they are edits of
+the tutorial's package, so this is for an assignment with that solution. Examples for checks that
+the assignment does not have are left out.
 
 An edit is one of: `replace` (with old, new), `write` (text or base64, mode), `delete`, `rename`
 (to), `copy` (to), `chmod` (mode), `crlf`, `link` (to), `nest`. Paths are relative to the package.
@@ -19,7 +24,7 @@ from __future__ import annotations
 import base64
 import binascii
 import difflib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Any, Literal, NoReturn
@@ -37,7 +42,8 @@ from pydantic import (
 from grader.base.errors import AssignmentError
 from grader.base.positioned_yaml import Document, Loc, read_yaml
 from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, validated
-from grader.validate import tree
+from grader.mistakes.kind import Kind
+from grader.package.edit import tree
 from grader.validate.mutant import Mutant
 
 MUTANTS = "mutants.yaml"
@@ -74,31 +80,48 @@ class MutantsFile:
         return {entry.mutant: entry.why for entry in self.equivalent}
 
 
-def read_mutants(path: Path, *, checks: Iterable[str], mistakes: Iterable[str]) -> MutantsFile:
-    """Read mutants.yaml.
+def read_mutants(path: Path, *, checks: Iterable[str], kinds: Mapping[str, Kind]) -> MutantsFile:
+    """Read mutants.yaml; `kinds` are the catalogue's mistakes by id.
 
     Raises AssignmentError; each line of its message reads `file:line: what is wrong`.
     """
     document = read_yaml(path)
     content = validated(document, _Content, KEYS)
-    if found := list(_faults(content, tuple(checks), tuple(mistakes))):
+    checks = tuple(checks)
+    examples = tuple(_examples(kinds, checks)) if content.catalogue else ()
+    names = [mutant.name for mutant in examples]
+    if found := list(_faults(content, checks, tuple(kinds), names)):
         raise error_of(document, found)
+    written = (
+        Mutant(
+            name=named.name,
+            edits=tuple(edit.made() for edit in named.edits),
+            families=(named.check,),
+            mistake=named.mistake,
+            where=_where(document, ("mutants", n)),
+        )
+        for n, named in enumerate(content.mutants)
+    )
     return MutantsFile(
-        mutants=tuple(
-            Mutant(
-                name=named.name,
-                edits=tuple(edit.made() for edit in named.edits),
-                families=(named.check,),
-                mistake=named.mistake,
-                where=_where(document, ("mutants", n)),
-            )
-            for n, named in enumerate(content.mutants)
-        ),
+        mutants=(*examples, *written),
         equivalent=tuple(
             Explained(entry.mutant, entry.why, _where(document, ("equivalent", n)))
             for n, entry in enumerate(content.equivalent)
         ),
     )
+
+
+def _examples(kinds: Mapping[str, Kind], checks: Sequence[str]) -> Iterator[Mutant]:
+    for kind in kinds.values():
+        for example in kind.examples:
+            if example.fails in checks:
+                yield Mutant(
+                    name=example.name,
+                    edits=example.edits,
+                    families=(example.fails,),
+                    mistake=kind.id,
+                    where=f"catalogue: {kind.id}",
+                )
 
 
 def _where(document: Document, loc: Loc) -> str:
@@ -297,6 +320,7 @@ class _Content(_Part):
     schema_: Literal[1] = Field(alias="schema")
     mutants: tuple[_Named, ...] = ()
     equivalent: tuple[_Equivalent, ...] = ()
+    catalogue: bool = False
 
 
 KEYS: Keys = {
@@ -307,8 +331,10 @@ KEYS: Keys = {
 }
 
 
-def _faults(content: _Content, checks: Sequence[str], mistakes: Sequence[str]) -> Iterator[Fault]:
-    names: set[str] = set()
+def _faults(
+    content: _Content, checks: Sequence[str], mistakes: Sequence[str], taken: Iterable[str]
+) -> Iterator[Fault]:
+    names = set(taken)
     for n, named in enumerate(content.mutants):
         if named.check not in checks:
             text = f"the assignment has no check '{named.check}'{_hint(named.check, checks)}"

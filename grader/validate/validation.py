@@ -10,13 +10,13 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.mistakes.catalogue import CATALOGUE
+from grader.package.edit.tree import Tree, digest, read_tree
 from grader.package.submission import Submission
 from grader.validate.automatic import generate
 from grader.validate.marking import Marked, mark_all, mark_files, submit, submit_path
 from grader.validate.matrix import Matrix, MutantResult, as_json
 from grader.validate.mutant import Mutant
 from grader.validate.named import MUTANTS, MutantsFile, read_mutants
-from grader.validate.tree import Tree, digest, read_tree
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import Order
 
@@ -76,9 +76,7 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     automatic = tuple(generate(original, assignment))
     ids = [use.id for use in assignment.checks]
     path = options.keys / MUTANTS
-    written = (
-        read_mutants(path, checks=ids, mistakes=CATALOGUE) if path.is_file() else MutantsFile()
-    )
+    written = read_mutants(path, checks=ids, kinds=CATALOGUE) if path.is_file() else MutantsFile()
     seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
     made = []
     for mutant in automatic:

@@ -11,10 +11,8 @@ from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import compared, meant
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE, RANK
-from grader.mistakes.from_source import BY_SYMPTOM
-from grader.mistakes.from_traceback import recognise
-from grader.mistakes.kind import RecognisedMistake
-from grader.mistakes.symptoms import Raised, Suspect, place_of
+from grader.mistakes.recognise import behind_error, behind_symptom
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import traceback_of
 from grader.verdict.node_files import source_around, source_of_node
@@ -85,20 +83,17 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     source = source_of_node(evidence)
     if source is None:
         return None
-    suspect = Suspect(source, evidence.assignment)
-    if symptom == "run.wrong_text":
-        return _text(diagnosis, suspect)
     if symptom == "run.wrong_node_name" and source.super_init is not None:
         diagnosis.where = place_of(source, source.super_init)
     if symptom == "run.wrong_period" and source.timers:
         diagnosis.where = place_of(source, source.timers[0].call)
-    look = BY_SYMPTOM.get(symptom)
-    return look(suspect) if look is not None else None
+    text = str(diagnosis.mistakes[0].params.get("text", ""))
+    return behind_symptom(symptom, Suspect(source, evidence.assignment, text, diagnosis.where))
 
 
 def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
     source = source_around(evidence, where)
-    return recognise(Raised(error, where, source, evidence.assignment)) if source else None
+    return behind_error(Raised(error, where, source, evidence.assignment)) if source else None
 
 
 def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
@@ -113,20 +108,6 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
             kind="source.no_init_file", words={"path": init}, where=Where(file=init)
         )
     return RecognisedMistake(kind="setup.not_packaged", where=Where(file="setup.py"))
-
-
-def _text(diagnosis: Diagnosis, suspect: Suspect) -> RecognisedMistake | None:
-    """Return the mistake in the number of a wrong text; None if the rest of the text differs."""
-    text = str(diagnosis.mistakes[0].params.get("text", ""))
-    where = diagnosis.where
-    place = where if where and where.line else place_of(suspect.source, None)
-    head, tail = suspect.output.text.split("{n}")
-    if re.search(r"\{[\w.]{1,80}\}", text):
-        return suspect.finding("f_prefix", place)
-    if text.split() == f"{head}{tail}".split():
-        return suspect.finding("text_without_number", place)
-    number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
-    return suspect.finding("number_format", place) if re.fullmatch(number, text) else None
 
 
 def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:

@@ -7,19 +7,21 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.translator import SOURCE
 from grader.course.assignment import Assignment
-from grader.mistakes.fixes import syntax
+from grader.mistakes.catalogue import fixes_for
+from grader.mistakes.fixes import layout, manifest, setup_cfg, syntax
 from grader.mistakes.fixes.case import Case, Finding, Fix, finding_of
-from grader.mistakes.fixes.table import ADVISED, STATIC, fixes_for
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
-from grader.verdict.static import static_findings
+from grader.verdict.static import STATIC, static_findings
 
 MOST_STEPS = 30
 """The most fixes of one package: each mistake needs one, and a package has 16 checks."""
 MOST_PATCH = 50_000
 """Bytes of a diff in a report: twice the size of a diff that changes all lines of an exercise."""
+ADVISED: tuple[Fix, ...] = (manifest.depend, layout.init_file, setup_cfg.dashes)
+"""Fixes of what costs no points by itself, or only when the node runs."""
 Judge = Callable[[Files], list[Finding]]
 
 

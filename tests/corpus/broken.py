@@ -1,22 +1,18 @@
-"""Packages with mistakes that beginners make, by the stage at which they show."""
+"""Packages with mistakes that beginners make: the examples of the catalogue."""
 
 from __future__ import annotations
 
-from .broken_build import BUILD
-from .broken_callback import CALLBACK
-from .broken_entry import ENTRY_POINT
-from .broken_output import OUTPUT
-from .broken_package import PACKAGES
-from .broken_source import SOURCE
-from .broken_start import START
+from grader.mistakes.catalogue import EXAMPLES
+
 from .model import Package
 
-BROKEN: tuple[Package, ...] = (
-    *PACKAGES,
-    *SOURCE,
-    *BUILD,
-    *ENTRY_POINT,
-    *START,
-    *CALLBACK,
-    *OUTPUT,
+BROKEN: tuple[Package, ...] = tuple(
+    Package(
+        name=example.name,
+        edits=example.edits,
+        expect_failed={example.fails: kind.id, **example.also},
+        blocked=frozenset(example.blocks),
+        note=example.note,
+    )
+    for kind, example in EXAMPLES
 )

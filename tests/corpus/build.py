@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.validate.tree import EditError, apply_all, read_tree, write_tree
+from grader.package.edit.tree import EditError, apply_all, read_tree, write_tree
 
 from .model import Package
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Replace
+from grader.package.edit.tree import Replace
 
 from .model import BUILT, INSTALLED, SETUP, Package, hostile
 
@@ -100,25 +100,25 @@ def _setup(code: str) -> Replace:
 
 
 SETUPS: tuple[Package, ...] = (
-    hostile("setup_writes_outside", _setup(OUTSIDE), score=100,
+    hostile("setup_writes_outside", _setup(OUTSIDE),
             note=f"writes {ESCAPED} wherever it can"),
-    hostile("setup_reads_secrets", _setup(SECRETS), score=100),
-    hostile("setup_outlives_us", _setup(DAEMON), score=100, note="a daemon that sleeps"),
+    hostile("setup_reads_secrets", _setup(SECRETS)),
+    hostile("setup_outlives_us", _setup(DAEMON), note="a daemon that sleeps"),
     hostile("setup_holds_the_build", _setup(HOLDER), failed={"build.colcon": "build.timeout"},
-            skipped=INSTALLED, score=55,
+            skipped=INSTALLED,
             note="a child keeps setup.py's output open, and colcon waits for its end"),
     hostile("setup_forges_a_report", _setup(FORGED), failed={"build.colcon": "build.exited"},
-            skipped=INSTALLED, score=55),
+            skipped=INSTALLED),
     hostile("setup_prints_megabytes", _setup(FLOOD), undecided=BUILT),
     hostile("setup_fork_bomb", _setup(FORKS), undecided=BUILT),
     hostile("setup_eats_memory", _setup(MEMORY), undecided=BUILT, note="3 GB at most"),
     hostile("setup_deaf", _setup(DEAF), failed={"build.colcon": "build.timeout"},
-            skipped=INSTALLED, score=55),
+            skipped=INSTALLED),
     hostile("setup_kills_its_group", _setup(KILL), failed={"build.colcon": None},
-            skipped=INSTALLED, score=55, note="kills colcon as well"),
+            skipped=INSTALLED, note="kills colcon as well"),
     hostile("setup_paints_and_ends_with_250", _setup(PAINTS.format(status=250)),
-            failed={"build.colcon": "build.failed"}, skipped=INSTALLED, score=55,
+            failed={"build.colcon": "build.failed"}, skipped=INSTALLED,
             note="a forged score, escape sequences, and a status that was the grader's own"),
     hostile("setup_paints_and_ends_with_251", _setup(PAINTS.format(status=251)),
-            failed={"build.colcon": "build.failed"}, skipped=INSTALLED, score=55),
+            failed={"build.colcon": "build.failed"}, skipped=INSTALLED),
 )  # fmt: skip

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
-from grader.validate.tree import Edit
+from grader.course.load import load_assignment
+from grader.mistakes.example import CFG, INIT, INNER, MANIFEST, MARKER, NODE, PACKAGE, SETUP
+from grader.package.edit.tree import Edit
+from grader.verdict.checks.all import CHECKS
 
-PACKAGE = "my_robot_controller"
-INNER = PACKAGE
-NODE = f"{INNER}/my_first_node.py"
-INIT = f"{INNER}/__init__.py"
-MARKER = f"resource/{PACKAGE}"
-MANIFEST = "package.xml"
-SETUP = "setup.py"
-CFG = "setup.cfg"
+__all__ = ["CFG", "INIT", "INNER", "MANIFEST", "MARKER", "NODE", "PACKAGE", "SETUP"]
+
+ROOT = Path(__file__).parents[2]
+POINTS = {
+    use.id: use.points
+    for use in load_assignment(ROOT / "lab/course/hello_time/assignment.yaml").checks
+}
 
 STATIC = frozenset(
     {
@@ -41,44 +44,42 @@ class Package:
     """One package of the corpus.
 
     `expect_failed` names the checks that fail, each with the mistake that the verdict must name
-    (None: any). `undecided` are checks whose outcome depends on the machine's limits; if there are
-    any, `expect_score` is None. Every other check passes. `wall_clock` means that the node does
-    not follow `/clock`; `hostile`, that it needs a sandbox.
+    (None: any). `blocked` are checks that are skipped because of what the build or the run does.
+    `undecided` are checks whose outcome depends on the machine's limits. Every other check passes,
+    if none that it depends on fails. `wall_clock` means that the node does not follow `/clock`;
+    `hostile`, that it needs a sandbox.
     """
 
     name: str
     edits: tuple[Edit, ...]
     expect_failed: Mapping[str, str | None] = field(default_factory=dict)
-    expect_skipped: frozenset[str] = frozenset()
-    expect_score: float | None = None
+    blocked: frozenset[str] = frozenset()
     undecided: frozenset[str] = frozenset()
     wall_clock: bool = False
     hostile: bool = False
     note: str = ""
 
+    @property
+    def expect_skipped(self) -> frozenset[str]:
+        """The checks that are skipped: the blocked ones, and all that depend on a lost check."""
+        lost = {*self.expect_failed, *self.blocked}
+        for check in CHECKS.values():  # in the order of their dependencies
+            if lost & set(check.depends):
+                lost.add(check.id)
+        return frozenset(lost) - set(self.expect_failed) - self.undecided
+
+    @property
+    def expect_score(self) -> float | None:
+        """The points of all checks that pass; None if the limits decide about some."""
+        if self.undecided:
+            return None
+        lost = {*self.expect_failed, *self.expect_skipped}
+        return sum(points for check, points in POINTS.items() if check not in lost)
+
 
 def right(name: str, *edits: Edit, note: str = "", wall_clock: bool = False) -> Package:
     """Return a package that deserves full marks."""
-    return Package(name=name, edits=edits, expect_score=100, note=note, wall_clock=wall_clock)
-
-
-def broken(
-    name: str,
-    *edits: Edit,
-    failed: Mapping[str, str | None],
-    skipped: frozenset[str] = frozenset(),
-    score: float,
-    note: str = "",
-) -> Package:
-    """Return a package with a mistake: the failed checks, the skipped ones and the score."""
-    return Package(
-        name=name,
-        edits=edits,
-        expect_failed=failed,
-        expect_skipped=skipped,
-        expect_score=score,
-        note=note,
-    )
+    return Package(name=name, edits=edits, note=note, wall_clock=wall_clock)
 
 
 def hostile(
@@ -87,7 +88,6 @@ def hostile(
     failed: Mapping[str, str | None] | None = None,
     skipped: frozenset[str] = frozenset(),
     undecided: frozenset[str] = frozenset(),
-    score: float | None = None,
     note: str = "",
 ) -> Package:
     """Return a package that tries to harm the grader or to gain points."""
@@ -95,8 +95,7 @@ def hostile(
         name=name,
         edits=edits,
         expect_failed=failed or {},
-        expect_skipped=skipped,
-        expect_score=score,
+        blocked=skipped,
         undecided=undecided,
         hostile=True,
         note=note,

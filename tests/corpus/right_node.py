@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Replace, Write
+from grader.package.edit.tree import Replace, Write
 
 from .model import INNER, NODE, right
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Chmod, Copy, Crlf, Nest, Replace, Write
+from grader.package.edit.tree import Chmod, Copy, Crlf, Nest, Replace, Write
 
 from .model import CFG, INNER, MANIFEST, NODE, PACKAGE, SETUP, right
 

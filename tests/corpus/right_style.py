@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit, Replace, Write
+from grader.package.edit.tree import Edit, Replace, Write
 
 from .model import INNER, NODE, SETUP, right
 from .right_node import CATCH, COUNT, LINE, NO_CLASS, STEP, TEXT, TIMER

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Edit, Replace, Write
+from grader.package.edit.tree import Edit, Replace, Write
 
 from .model import NODE, right
 from .right_node import CATCH, LINE, STEP, TIMER

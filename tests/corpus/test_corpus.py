@@ -7,24 +7,16 @@ import stat
 from pathlib import Path
 
 import pytest
-import yaml
 
-from grader.validate.tree import Chmod, Crlf, EditError, Link, Nest, Replace
+from grader.package.edit.tree import Chmod, Crlf, EditError, Link, Nest, Replace
 
 from .broken import BROKEN
-from .build import ROOT, SOLUTION, write
+from .build import SOLUTION, write
 from .hostile import HOSTILE
-from .model import NODE, SETUP, Package
+from .model import NODE, POINTS, SETUP, Package
 from .right import RIGHT
 
 CORPUS = (*RIGHT, *BROKEN, *HOSTILE)
-ASSIGNMENT = ROOT / "lab/course/hello_time/assignment.yaml"
-
-
-@pytest.fixture(scope="module")
-def points() -> dict[str, float]:
-    checks = yaml.safe_load(ASSIGNMENT.read_text(encoding="utf-8"))["checks"]
-    return {check["id"]: check["points"] for check in checks}
 
 
 def named(package: Package) -> str:
@@ -46,16 +38,29 @@ def test_right_packages_parse_and_are_executable(package: Package, tmp_path: Pat
 
 
 @pytest.mark.parametrize("package", CORPUS, ids=named)
-def test_its_expectations_add_up(package: Package, points: dict[str, float]) -> None:
-    groups = (set(package.expect_failed), package.expect_skipped, package.undecided)
+def test_it_names_checks_of_the_assignment_once(package: Package) -> None:
+    groups = (set(package.expect_failed), package.blocked, package.undecided)
     named_checks = [check for group in groups for check in group]
     assert len(named_checks) == len(set(named_checks)), "a check has one outcome"
-    assert set(named_checks) <= set(points)
-    lost = sum(points[check] for check in named_checks)
-    if package.undecided:
-        assert package.expect_score is None
-    else:
-        assert package.expect_score == sum(points.values()) - lost
+    assert set(named_checks) <= set(POINTS)
+
+
+@pytest.mark.parametrize(
+    ("name", "score"),
+    [
+        ("empty_folder", 0),
+        ("entry_missing", 50),
+        ("exec_bit_missing", 90),
+        ("spin_missing", 70),
+        ("timer_missing", 83),
+        ("tutorial", 100),
+        ("fork_bomb", None),
+    ],
+)
+def test_the_expected_score_follows_from_points_and_dependencies(
+    name: str, score: float | None
+) -> None:
+    assert [p.expect_score for p in CORPUS if p.name == name] == [score]
 
 
 def test_names_are_unique_and_valid_folder_names() -> None:
@@ -72,9 +77,9 @@ def test_there_are_enough_of_each() -> None:
     assert all(package.hostile for package in HOSTILE)
 
 
-def test_every_check_fails_somewhere(points: dict[str, float]) -> None:
+def test_every_check_fails_somewhere() -> None:
     failed = {check for package in CORPUS for check in package.expect_failed}
-    assert failed >= set(points) - {"entry_point.executable"}
+    assert failed >= set(POINTS)
 
 
 def test_an_edit_that_does_not_fit_is_an_error(tmp_path: Path) -> None:

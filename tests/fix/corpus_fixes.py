@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 from grader.package.edit.files import Files
-from grader.validate.tree import Edit
+from grader.package.edit.tree import Edit
 from grader.verdict.fix import FixPlan, fix_files
 from tests.corpus.build import write
 from tests.corpus.model import Package

@@ -10,7 +10,7 @@ from pathlib import Path
 import pexpect
 import pytest
 
-from grader.validate.tree import Chmod, Delete, Replace, Write
+from grader.package.edit.tree import Chmod, Delete, Replace, Write
 from tests import processes
 from tests.corpus.model import INNER, MANIFEST, MARKER, NODE, SETUP
 from tests.fix.corpus_fixes import TOOLS, edited, plan_of, with_tool

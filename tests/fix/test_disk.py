@@ -12,7 +12,7 @@ from grader.base.errors import UsageError
 from grader.package.edit import disk
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
-from grader.validate.tree import Chmod, Delete, Move, Replace
+from grader.package.edit.tree import Chmod, Delete, Move, Replace
 from tests.corpus.model import MANIFEST, MARKER, NODE, SETUP
 from tests.fix.corpus_fixes import contents, edited, plan_of
 from tests.marking import taken_in

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Delete, Edit, Move, Replace, Write
+from grader.package.edit.tree import Delete, Edit, Move, Replace, Write
 from tests.corpus.model import CFG, INNER, MANIFEST, MARKER, NODE, SETUP
 from tests.fix.corpus_fixes import contents, edited, plan_of
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Delete, Replace, Write
+from grader.package.edit.tree import Delete, Replace, Write
 from tests import processes
 from tests.corpus.model import MANIFEST, MARKER, NODE
 from tests.fix.corpus_fixes import edited

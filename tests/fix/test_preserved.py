@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Crlf, Delete, Edit, Replace, Write
+from grader.package.edit.tree import Crlf, Delete, Edit, Replace, Write
 from tests.corpus.model import CFG, MANIFEST, NODE, SETUP
 from tests.fix.corpus_fixes import TOOLS, contents, edited, plan_of, with_tool
 from tests.marking import taken_in

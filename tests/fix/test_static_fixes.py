@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import Crlf, Write
+from grader.package.edit.tree import Crlf, Write
 from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from tests.corpus.broken import BROKEN

@@ -52,7 +52,7 @@ def seed(folder: Path, names: list[str], seeds: dict[str, bytes]) -> None:
     short = importlib.import_module("tests.fuzz.test_short")
     broken = importlib.import_module("tests.corpus.broken").BROKEN
     model = importlib.import_module("tests.corpus.model")
-    tree = importlib.import_module("grader.validate.tree")
+    tree = importlib.import_module("grader.package.edit.tree")
     paths = {seeds["manifest"]: model.MANIFEST, seeds["setup_py"]: model.SETUP,
              seeds["setup_cfg"]: model.CFG, seeds["python"]: model.NODE}  # fmt: skip
     for number, name in enumerate(names):

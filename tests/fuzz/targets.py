@@ -13,10 +13,8 @@ from pathlib import Path
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.fixes.syntax import fault_of
-from grader.mistakes.fixes.table import BY_MISTAKE
-from grader.mistakes.from_source import BY_SYMPTOM
-from grader.mistakes.from_traceback import recognise
-from grader.mistakes.symptoms import Raised, Suspect
+from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
+from grader.mistakes.recognised import Raised, Suspect
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile, Submission
@@ -109,15 +107,15 @@ def terminal(found: bytes) -> None:
     error, _ = python_error(shown.transcript, "my_first_node.py")
     source = read_node(RIGHT.get, NODE, ASSIGNMENT.function)
     assert source is not None
-    recognise(Raised(error, None, source, ASSIGNMENT))
+    behind_error(Raised(error, None, source, ASSIGNMENT))
 
 
 def diagnosis(found: bytes) -> None:
     source = read_node({NODE: found}.get, NODE, ASSIGNMENT.function)
     if source is not None:
         suspect = Suspect(source, ASSIGNMENT)
-        for look in BY_SYMPTOM.values():
-            mistake = look(suspect)
+        for symptom in SYMPTOMS:
+            mistake = behind_symptom(symptom, suspect)
             assert mistake is None or mistake.kind in CATALOGUE
 
 
@@ -151,8 +149,9 @@ def _fixed(path: str, check: str) -> Target:
 
 def node_fixes(found: bytes) -> None:
     files = Files.of(_with(NODE, found))
-    for mistake, fixes in BY_MISTAKE.items():
-        new = first_fix(Case(files, Finding("run.output", mistake), ASSIGNMENT), fixes)
+    for kind in CATALOGUE.values():
+        case = Case(files, Finding("run.output", kind.id), ASSIGNMENT)
+        new = first_fix(case, kind.fixed_by)
         if new is not None:
             diff(files, new)
 

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.validate.tree import Replace
+from grader.package.edit.tree import Replace
 from tests.corpus.broken import BROKEN
 from tests.fuzz.targets import SEEDS, TARGETS
 

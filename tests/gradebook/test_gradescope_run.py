@@ -22,11 +22,11 @@ import pytest
 from grader.base.errors import SurroundingsError, UsageError
 from grader.batch.systems.gradescope import container as gradescope_run
 from grader.batch.systems.gradescope.archive import gradescope_zip
+from grader.package.edit.tree import Replace
 from grader.package.submission import take_in
 from grader.report import events
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from grader.validate.tree import Replace
 from grader.verdict.mark import grade
 from grader.verdict.order import Order, make_orders
 from tests import processes, weather

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import UsageError
+from grader.package.edit.tree import Replace
 from grader.ros.distro import find_distro
-from grader.validate.tree import Replace
 from lab import container
 from lab.config import LabConfig
 from lab.lesson import chosen_lesson

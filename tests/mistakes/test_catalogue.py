@@ -11,10 +11,10 @@ import pytest
 
 from grader.base.i18n.translator import Translator
 from grader.mistakes.catalogue import CATALOGUE, RANK
-from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_terminal import filled
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
+from grader.mistakes.recognise import SYMPTOMS
 from grader.ros.distro import distros
 from tests.corpus.broken import BROKEN
 from tests.corpus.hostile import HOSTILE
@@ -43,7 +43,7 @@ def named_in_the_code() -> set[str]:
                     first = node.args[0]
                     if isinstance(first, ast.Constant) and isinstance(first.value, str):
                         slug = first.value
-                        if called in ("finding", "_always"):
+                        if called in ("finding", "always"):
                             named.add(f"node.{slug}")
                         elif called in ("Failed", "Problem", "_failed"):
                             named.add(slug)
@@ -102,7 +102,7 @@ def test_an_entry_links_to_the_documentation(kind: Kind) -> None:
 
 
 def test_a_cause_comes_before_what_it_causes() -> None:
-    for symptom in BY_SYMPTOM:
+    for symptom in SYMPTOMS:
         for name, rank in RANK.items():
             if name.startswith(("node.", "setup.", "source.", "package.")):
                 assert rank < RANK[symptom]

@@ -9,10 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.from_source import BY_SYMPTOM
-from grader.mistakes.from_traceback import RECOGNISERS, recognise
-from grader.mistakes.kind import RecognisedMistake
-from grader.mistakes.symptoms import Raised, Suspect
+from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.source.node import MOST_BYTES, NodeSource, read_node
 from grader.report.model import Where
 from tests.corpus.build import SOLUTION
@@ -56,12 +54,12 @@ def node_in(text: str) -> NodeSource:
 
 
 def look(symptom: str, text: str) -> RecognisedMistake | None:
-    return BY_SYMPTOM[symptom](Suspect(node_in(text), ASSIGNMENT))
+    return behind_symptom(symptom, Suspect(node_in(text), ASSIGNMENT))
 
 
 def raised(error: str, text: str, line: int | None) -> RecognisedMistake | None:
     where = Where(file=FILE, line=line) if line else None
-    return recognise(Raised(error, where, node_in(text), ASSIGNMENT))
+    return behind_error(Raised(error, where, node_in(text), ASSIGNMENT))
 
 
 def line_of(text: str, part: str) -> int:
@@ -246,12 +244,12 @@ def test_any_source_is_examined_without_an_error(data: st.DataObject) -> None:
     source = read_node({FILE: "\n".join(kept).encode()}.get, FILE, "main")
     if source is None:
         return
-    for find in BY_SYMPTOM.values():
-        found = find(Suspect(source, ASSIGNMENT))
+    for symptom in SYMPTOMS:
+        found = behind_symptom(symptom, Suspect(source, ASSIGNMENT))
         assert found is None or found.kind in CATALOGUE
-    errors = [pattern.replace("\\", "") for pattern, _ in RECOGNISERS]
+    errors = [p.replace("\\", "") for kind in CATALOGUE.values() for p in kind.raised]
     error = data.draw(st.sampled_from(errors) | st.text(max_size=80))
-    found = recognise(Raised(error, Where(file=FILE, line=3), source, ASSIGNMENT))
+    found = behind_error(Raised(error, Where(file=FILE, line=3), source, ASSIGNMENT))
     assert found is None or found.kind in CATALOGUE
 
 

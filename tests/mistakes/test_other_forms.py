@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, cast
 import pytest
 
 from grader.course.assignment import Assignment
+from grader.mistakes.catalogue import fixes_for
 from grader.mistakes.fixes.case import Case, Finding
-from grader.mistakes.fixes.table import fixes_for
 from grader.mistakes.placeholders import placeholder_values
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile, Submission

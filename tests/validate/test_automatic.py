@@ -8,10 +8,10 @@ import pytest
 
 from grader.course.find import KEYS
 from grader.course.load import load_assignment
+from grader.package.edit.tree import Write, apply_all, digest, read_tree
 from grader.validate import in_source
 from grader.validate.automatic import generate
 from grader.validate.spots import Code
-from grader.validate.tree import Write, apply_all, digest, read_tree
 from tests.processes import ROOT
 
 ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")

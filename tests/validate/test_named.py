@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError
+from grader.mistakes.catalogue import CATALOGUE
+from grader.package.edit.tree import Chmod, Copy, Delete, Move, Replace, Write
 from grader.validate.named import MutantsFile, read_mutants
-from grader.validate.tree import Chmod, Copy, Delete, Move, Replace, Write
 
 CHECKS = ("package.found", "source.exec_bit")
-MISTAKES = ("package.empty", "source.not_executable")
+MISTAKES = {name: CATALOGUE[name] for name in ("package.empty", "source.not_executable")}
 GOOD = """\
 schema: 1
 mutants:
@@ -27,7 +28,7 @@ mutants:
 def read(folder: Path, text: str) -> MutantsFile:
     path = folder / "mutants.yaml"
     path.write_text(text)
-    return read_mutants(path, checks=CHECKS, mistakes=MISTAKES)
+    return read_mutants(path, checks=CHECKS, kinds=MISTAKES)
 
 
 def edits(*lines: str) -> str:
@@ -139,3 +140,23 @@ def test_all_errors_are_reported_at_once(tmp_path: Path) -> None:
         "9: no such edit: chmdo: did you mean 'chmod'?",
         "11: missing key 'why'",
     ]
+
+
+def test_examples_of_the_catalogue_are_mutants_too(tmp_path: Path) -> None:
+    mutants = read(tmp_path, GOOD + "catalogue: true\n").mutants
+    assert [mutant.name for mutant in mutants] == ["empty_folder", "exec_bit_missing", "no_bit"]
+    assert mutants[1].mistake == "source.not_executable"
+    assert mutants[1].families == ("source.exec_bit",)
+
+
+def test_examples_for_a_check_that_the_assignment_lacks_are_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "mutants.yaml"
+    path.write_text(GOOD + "catalogue: true\n")
+    mutants = read_mutants(path, checks=["source.exec_bit"], kinds=MISTAKES).mutants
+    assert [mutant.name for mutant in mutants] == ["exec_bit_missing", "no_bit"]
+
+
+def test_a_mutant_has_no_name_of_the_catalogue(tmp_path: Path) -> None:
+    text = GOOD.replace("no_bit", "exec_bit_missing") + "catalogue: true\n"
+    with pytest.raises(AssignmentError, match="two mutants 'exec_bit_missing'"):
+        read(tmp_path, text)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.validate.tree import (
+from grader.package.edit.tree import (
     Chmod,
     Copy,
     Crlf,

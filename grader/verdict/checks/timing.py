@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.mistakes.from_source import longest_sleep
+from grader.mistakes.callback import longest_sleep
 from grader.verdict.checks.declare import check
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.node_files import source_of_node

@@ -1,18 +1,37 @@
-"""What the recognisers look at: an exception that ended a node, or a source with a symptom."""
+"""A recognised mistake, and what recognises one."""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
-from dataclasses import dataclass
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
-from grader.mistakes.kind import RecognisedMistake
 from grader.mistakes.placeholders import placeholder_values
 from grader.package.source.module import Function, Module
 from grader.package.source.node import NodeSource
-from grader.report.model import Where
+from grader.report.model import Mistake, Where
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecognisedMistake:
+    """A recognised mistake: the id of its kind, the values of the placeholders, and the place.
+
+    `params` go into the report and are the same in every language; `words` only fill the texts.
+    """
+
+    kind: str
+    params: Mapping[str, str | int | float] = field(default_factory=dict)
+    words: Mapping[str, Value] = field(default_factory=dict)
+    variant: str = ""
+    where: Where | None = None
+
+    @property
+    def mistake(self) -> Mistake:
+        """The mistake in the form of the report."""
+        return Mistake(id=self.kind, params=dict(self.params))
 
 
 @dataclass(frozen=True)
@@ -61,10 +80,15 @@ class Raised:
 
 @dataclass(frozen=True)
 class Suspect:
-    """A source with a known symptom, and its assignment."""
+    """A source with a known symptom, and its assignment.
+
+    If a line of the output is wrong, `text` is that line and `place` is where it was logged.
+    """
 
     source: NodeSource
     assignment: Assignment
+    text: str = ""
+    place: Where | None = None
 
     @property
     def output(self) -> Output:
@@ -106,3 +130,32 @@ def place_of(source: NodeSource, node: ast.stmt | ast.expr | None) -> Where:
     if node is None:
         return Where(file=source.module.path)
     return Where(file=source.module_of(node).path, line=node.lineno)
+
+
+FromError = Callable[[Raised, re.Match[str]], "RecognisedMistake | None"]
+"""Recognises a mistake by an exception; the match is that of its pattern with the error's line."""
+FromSource = Callable[[Suspect], "RecognisedMistake | None"]
+"""Recognises in the node's source the mistake behind a symptom."""
+
+
+def always(slug: str) -> FromError:
+    """Return a function that finds `node.slug` whatever the source is."""
+
+    def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+        return raised.finding(slug, params=match.groupdict(""))
+
+    return found
+
+
+NAME_ERROR = r"NameError: (?:free variable|name) '(?P<name>\w{1,120})'"
+OWN_ATTRIBUTE = (
+    r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '(?P<name>\w{1,120})'"
+)
+
+
+def of_self(raised: Raised, match: re.Match[str]) -> bool:
+    """Whether a missing attribute is one of the student's class, accessed through self."""
+    if match["type"] not in raised.source.known_classes:
+        return False
+    line = raised.module.line(raised.line)
+    return not line or f"self.{match['name']}" in line

@@ -1,0 +1,155 @@
+"""Mistakes in the callback: its parameters, and what keeps it from returning in time."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.fixes import node_timer
+from grader.mistakes.kind import Family
+from grader.mistakes.node_start import SLEEPS
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.names import calls_in, dotted
+from grader.package.source.node import NodeSource
+
+ONLY_SELF = msg("The timer passes no argument to your callback except self.")
+
+
+def _no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    del match
+    return raised.finding("callback_no_self", at=raised.source.callback)
+
+
+def _parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    method = raised.source.methods.get(match["function"])
+    if method is None or method is not raised.source.callback:
+        return None
+    return raised.finding("callback_parameter", at=method, name=match["name"])
+
+
+def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
+    """Return the callback's longest sleep of those with a literal number of seconds."""
+    calls = calls_in(source.callback) if source.callback is not None else ()
+    found = [
+        (call, float(call.args[0].value))
+        for call, name in calls
+        if name in SLEEPS
+        and call.args
+        and isinstance(call.args[0], ast.Constant)
+        and isinstance(call.args[0].value, int | float)
+    ]
+    return max(found, key=lambda sleep: sleep[1], default=None)
+
+
+def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a sleep that delays the lines although the timer's period is right."""
+    slept = longest_sleep(suspect.source)
+    timers = [timer.seconds for timer in suspect.source.timers]
+    if (
+        slept is None
+        or slept[1] <= suspect.output.period
+        or timers not in ([suspect.output.period], [None])
+    ):
+        return None
+    return suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
+
+
+def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
+    callback = suspect.source.callback
+    for node in ast.walk(callback) if callback is not None else ():
+        if isinstance(node, ast.Call) and dotted(node.func) == "input":
+            return suspect.finding("callback_never_ends", node, name="input()")
+        if isinstance(node, ast.While) and _goes_on(node):
+            return suspect.finding("callback_never_ends", node, name="while")
+    return None
+
+
+def _goes_on(loop: ast.While) -> bool:
+    left = any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))
+    return isinstance(loop.test, ast.Constant) and bool(loop.test.value) and not left
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "callback_no_self",
+        "callback",
+        msg("The callback has no parameter self"),
+        ONLY_SELF,
+        msg("Write: def {callback}(self):"),
+        links.PYTHON_CLASSES,
+        seen=r"(?<!__init__\(\) )takes 0 positional arguments but 1 was given|ValueError: invalid method signature",
+        raised={"takes 0 positional arguments but 1 was given|invalid method signature": _no_self},
+        fixed_by=(node_timer.callback_self,),
+        examples=(
+            example(
+                "callback_without_self",
+                Replace(NODE, "def timer_callback(self)", "def timer_callback()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "callback_parameter",
+        "callback",
+        msg("The callback has more parameters than self"),
+        ONLY_SELF,
+        msg("Write: def {callback}(self): (only a subscription passes a message to its callback)."),
+        seen=r"TypeError: [\w.]{0,200}\(\) missing \d{1,3} required positional arguments?: "
+        r"'(?P<name>\w{1,120})'",
+        raised={
+            r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _parameter
+        },
+        fixed_by=(node_timer.callback_self,),
+        examples=(
+            example(
+                "callback_wants_message",
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(self, msg)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "sleeps_in_callback",
+        "callback",
+        msg("The callback sleeps for longer than the period"),
+        msg(
+            "While a callback sleeps, nothing else in the node runs: the timer has to wait, and "
+            "each line comes late."
+        ),
+        msg("Remove the sleep from {callback}: the timer alone makes the pauses."),
+        links.EXECUTORS,
+        behind={"run.wrong_period": _sleeps},
+        examples=(
+            example(
+                "sleeps_in_callback",
+                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(2)"),
+                fails="run.period",
+            ),
+        ),
+    ),
+    _node(
+        "callback_never_ends",
+        "callback",
+        msg("The callback does not return"),
+        msg("The timer can call a callback again only after it has returned."),
+        msg("Remove {name} from {callback}: the timer does the repeating."),
+        links.EXECUTORS,
+        behind={"run.no_lines": _never_ends, "run.stops": _never_ends},
+        examples=(
+            example(
+                "asks_in_callback",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        input('more?')"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+)

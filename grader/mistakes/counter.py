@@ -1,0 +1,439 @@
+"""Mistakes in the counter and in the text that shows it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import dataclass
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import node_count, node_log
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, place_of
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import logged_counter, starts_of, targets_of
+from grader.package.source.names import dotted
+from grader.report.model import Where
+
+COUNTER = msg(
+    "An attribute (self.…) keeps its value from one callback to the next; a name without self. is "
+    "gone when the function ends."
+)
+
+
+@dataclass(frozen=True)
+class Counter:
+    """The counter of a callback: its name, and the statements that change it."""
+
+    name: str
+    added: list[ast.AugAssign]
+    set: list[ast.Assign]
+    logged: ast.Call  # the first log call
+
+
+def _counter(suspect: Suspect) -> Counter | None:
+    callback, logged = suspect.source.callback, logged_counter(suspect.source)
+    if callback is None or logged is None:
+        return None
+    call, name = logged
+    found = [n for n in ast.walk(callback) if name in targets_of(n)]
+    added = [n for n in found if isinstance(n, ast.AugAssign)]
+    return Counter(
+        name,
+        sorted(added, key=lambda n: n.lineno),
+        [n for n in found if isinstance(n, ast.Assign)],
+        call,
+    )
+
+
+def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    del match
+    name = str(raised.words["counter"])
+    for node in raised.module.nodes:
+        if isinstance(node, ast.BinOp) and raised.line in range(
+            node.lineno, (node.end_lineno or node.lineno) + 1
+        ):
+            name = dotted(node.right) or dotted(node.left) or name
+    return raised.finding("str_plus_int", name=name)
+
+
+def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    for node in raised.source.all_nodes:
+        if isinstance(node, ast.AugAssign) and isinstance(node.value, ast.Constant):
+            step, name = node.value.value, dotted(node.target)
+            if isinstance(step, str) and name:
+                return raised.finding("step_is_text", at=node, name=name, step=step)
+    return None
+
+
+def _place_of_text(suspect: Suspect) -> Where:
+    where = suspect.place
+    return where if where is not None and where.line else place_of(suspect.source, None)
+
+
+def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
+    if not re.search(r"\{[\w.]{1,80}\}", suspect.text):
+        return None
+    return suspect.finding("f_prefix", _place_of_text(suspect))
+
+
+def _without_number(suspect: Suspect) -> RecognisedMistake | None:
+    if suspect.text.split() != suspect.output.text.replace("{n}", "").split():
+        return None
+    return suspect.finding("text_without_number", _place_of_text(suspect))
+
+
+def _number_format(suspect: Suspect) -> RecognisedMistake | None:
+    head, tail = suspect.output.text.split("{n}")
+    number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
+    if not re.fullmatch(number, suspect.text):
+        return None
+    return suspect.finding("number_format", _place_of_text(suspect))
+
+
+def _plus_reversed(suspect: Suspect) -> RecognisedMistake | None:
+    counter = _counter(suspect)
+    for node in counter.set if counter is not None else ():
+        if isinstance(node.value, ast.UnaryOp) and isinstance(node.value.op, ast.UAdd):
+            return suspect.finding("plus_reversed", node, name=counter.name if counter else "")
+    return None
+
+
+def _reset(suspect: Suspect) -> RecognisedMistake | None:
+    counter = _counter(suspect)
+    if counter is None:
+        return None
+    for node in counter.set:
+        if isinstance(node.value, ast.Constant):
+            value = str(node.value.value)[:40]
+            return suspect.finding("counter_reset", node, name=counter.name, value=value)
+    return None
+
+
+def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
+    counter = _counter(suspect)
+    if counter is None or counter.added or counter.set:
+        return None
+    return suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+
+
+def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
+    counter, step = _counter(suspect), suspect.output.step
+    if counter is None or len(counter.added) < 2:
+        return None
+    return suspect.finding("adds_twice", counter.added[1], name=counter.name, step=step)
+
+
+def _other_step(suspect: Suspect) -> RecognisedMistake | None:
+    counter, step = _counter(suspect), suspect.output.step
+    for node in counter.added if counter is not None else ():
+        added = isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
+        if not added or getattr(node.value, "value", 1) != step:
+            name = counter.name if counter else ""
+            return suspect.finding("other_step", node, name=name, step=step)
+    return None
+
+
+def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
+    counter = _counter(suspect)
+    if counter is None or not counter.added or counter.added[0].lineno >= counter.logged.lineno:
+        return None
+    return suspect.finding("adds_before_log", counter.added[0], name=counter.name)
+
+
+def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
+    counter = _counter(suspect)
+    if counter is None:
+        return None
+    init = suspect.source.methods.get("__init__")
+    at: ast.stmt | ast.expr | None = starts_of(suspect.source).get(counter.name)
+    for node in ast.walk(init) if init else ():
+        if isinstance(node, ast.Assign) and counter.name in targets_of(node):
+            at = node
+            break
+    if at is None:
+        return None
+    start = suspect.output.start
+    return suspect.finding("starts_elsewhere", at, name=counter.name, start=start)
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "counter_local",
+        "counter",
+        msg("The counter is used without self."),
+        COUNTER,
+        msg("Write self.{name} in the callback and in __init__."),
+        links.PYTHON_CLASSES,
+        seen=r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'",
+        raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": always("counter_local")},
+        fixed_by=(
+            node_count.self_dot,
+            node_count.outer,
+        ),
+        examples=(
+            example(
+                "counter_local",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "self.get_logger().info('Hello time: ' + str(counter_))",
+                ),
+                Replace(NODE, "self.counter_ += 1", "counter_ += 1"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "str_plus_int",
+        "text",
+        msg("A string and a number are added"),
+        msg("Python's + joins a string only with another string."),
+        msg("Convert the number to a string with str({name}), or use an f-string."),
+        links.PYTHON_STRINGS,
+        seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
+        r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
+        raised={
+            r"can only concatenate str|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
+        },
+        fixed_by=(node_log.number_as_text,),
+        examples=(
+            example(
+                "str_missing",
+                Replace(NODE, "str(self.counter_)", "self.counter_"),
+                fails="run.output",
+                blocks=DEAD,
+                note='can only concatenate str (not "int") to str',
+            ),
+        ),
+    ),
+    _node(
+        "step_is_text",
+        "counter",
+        msg("A string is added to the counter"),
+        msg("A number in quotes is a string, and Python cannot add a string to a number."),
+        msg("Write {name} += {step}, without quotes."),
+        links.PYTHON_CLASSES,
+        seen=r"TypeError: unsupported operand type\(s\) for \+=: '(?:int|float)' and 'str'",
+        raised={r"unsupported operand type\(s\) for \+=: '(?:int|float)' and 'str'": _step_is_text},
+        examples=(
+            example(
+                "step_is_text",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += '1'"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "f_prefix",
+        "text",
+        msg("The f before the string is missing"),
+        msg("Python replaces {{…}} with a value only in a string that begins with f."),
+        msg("Write an f before the first quote: {f_string}"),
+        links.PYTHON_STRINGS,
+        seen=r"^\[[A-Z]{4,5}\] \[\d{1,12}\.\d{9}\] \[[^\]\n]{1,100}\]: [^\n{]{0,200}\{self\.\w{1,60}\}",
+        behind={"run.wrong_text": _f_prefix},
+        fixed_by=(node_log.f_prefix,),
+        examples=(
+            example(
+                "f_prefix_missing",
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_without_number",
+        "text",
+        msg("The counter is not in the text"),
+        msg("The number in the line is the counter's value at that moment."),
+        msg("Add the counter to the text: {sum}"),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _without_number},
+        fixed_by=(node_log.number,),
+        examples=(
+            example(
+                "text_without_number",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: '"),
+                fails="run.output",
+                note="21 of 147 log a constant",
+            ),
+        ),
+    ),
+    _node(
+        "number_format",
+        "text",
+        msg("The number is written in a different form"),
+        msg(
+            "The counter is an integer, and str() writes it without a decimal point and leading "
+            "zeros."
+        ),
+        msg("Begin with {counter} = {start} (not {start}.0), and log str({counter})."),
+        behind={"run.wrong_text": _number_format},
+        fixed_by=(node_log.plain_number,),
+        examples=(
+            example(
+                "number_as_float",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0.0"),
+                fails="run.output",
+            ),
+            example(
+                "number_padded",
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: {self.counter_:02}'"
+                ),
+                fails="run.output",
+                note="Hello time: 00",
+            ),
+        ),
+    ),
+    _node(
+        "plus_reversed",
+        "counter",
+        msg("=+ is written instead of +="),
+        msg("x =+ 1 sets x to +1; x += 1 adds one to it."),
+        msg("Write {name} += {step}"),
+        links.PYTHON_CLASSES,
+        behind={"run.constant_counter": _plus_reversed, "run.wrong_step": _plus_reversed},
+        fixed_by=(node_count.plus,),
+        examples=(
+            example(
+                "counter_plus_is_plus",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ =+ 1"),
+                fails="run.output",
+                note="0, 1, 1, 1: =+ for +=",
+            ),
+        ),
+    ),
+    _node(
+        "counter_reset",
+        "counter",
+        msg("The callback resets the counter"),
+        msg(
+            "A value that the callback sets is set again in each call. The first value belongs "
+            "in __init__."
+        ),
+        msg("Move {name} = {value} to __init__."),
+        behind={"run.constant_counter": _reset},
+        fixed_by=(node_count.kept,),
+        examples=(
+            example(
+                "counter_reset",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    (
+                        "self.counter_ = 0\n"
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
+                    ),
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "counter_not_increased",
+        "counter",
+        msg("Nothing is added to the counter"),
+        msg("The callback logs the counter; without += every line shows the same number."),
+        msg("Add to the callback, after the log line: {name} += {step}"),
+        behind={"run.constant_counter": _not_increased},
+        fixed_by=(node_count.step,),
+        examples=(
+            example(
+                "counter_constant",
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "adds_before_log",
+        "counter",
+        msg("The callback adds to the counter before it logs"),
+        msg("The first line must show the counter's first value."),
+        msg("Log first, and put {name} += {step} after it."),
+        behind={"run.wrong_start": _adds_before_log},
+        fixed_by=(node_count.start,),
+        examples=(
+            example(
+                "adds_before_logging",
+                Replace(
+                    NODE,
+                    (
+                        "self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "        self.counter_ += 1"
+                    ),
+                    (
+                        "self.counter_ += 1\n"
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
+                    ),
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "starts_elsewhere",
+        "counter",
+        msg("The counter starts at a different number"),
+        msg("The first line shows the value that __init__ gives to the counter."),
+        msg("Write in __init__: {name} = {start}"),
+        behind={"run.wrong_start": _starts_elsewhere},
+        fixed_by=(node_count.start,),
+        examples=(
+            example(
+                "starts_at_one",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 1"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "adds_twice",
+        "counter",
+        msg("The counter is increased more than once in the callback"),
+        msg("Each += counts."),
+        msg("Keep only one {name} += {step}."),
+        behind={"run.wrong_step": _adds_twice},
+        fixed_by=(node_count.twice,),
+        examples=(
+            example(
+                "adds_twice",
+                Replace(
+                    NODE, "self.counter_ += 1", "self.counter_ += 1\n        self.counter_ += 1"
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "other_step",
+        "counter",
+        msg("A different number is added to the counter"),
+        msg("The number after += is what each line increases by."),
+        msg("Write {name} += {step}"),
+        behind={"run.wrong_step": _other_step},
+        fixed_by=(node_count.by,),
+        examples=(
+            example(
+                "counts_by_two",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 2"),
+                fails="run.output",
+            ),
+            example(
+                "counts_down",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ -= 1"),
+                fails="run.output",
+            ),
+        ),
+    ),
+)

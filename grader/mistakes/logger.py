@@ -1,0 +1,205 @@
+"""Mistakes in logging: the logger, its calls, their level and their number."""
+
+from __future__ import annotations
+
+import re
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.fixes import node_count, node_log
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
+from grader.package.edit.tree import Replace
+from grader.package.source.names import dotted
+
+
+def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The logger gets several strings, which only print accepts."""
+    del match
+    calls = (call for call, _ in raised.source.calls if raised.source.is_log(call))
+    logs = [call for call in calls if len(call.args) > 1]
+    return raised.finding("logger_arguments", at=logs[0]) if logs else None
+
+
+def _missing(suspect: Suspect) -> RecognisedMistake | None:
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None or source.logs(callback) or source.prints(callback):
+        return None
+    return suspect.finding("log_missing", callback)
+
+
+def _debug(suspect: Suspect) -> RecognisedMistake | None:
+    callback = suspect.source.callback
+    logs = suspect.source.logs(callback) if callback is not None else []
+    debug = [log for log in logs if dotted(log.func).endswith(".debug")]
+    return suspect.finding("debug_level", debug[0]) if debug else None
+
+
+def _twice(suspect: Suspect) -> RecognisedMistake | None:
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None:
+        return None
+    logs = [*source.logs(callback), *source.prints(callback)]
+    if len(logs) <= 1:
+        return None
+    return suspect.finding("logs_twice", sorted(logs, key=lambda call: call.lineno)[1])
+
+
+def _printed(suspect: Suspect) -> RecognisedMistake | None:
+    callback = suspect.source.callback
+    prints = suspect.source.prints(callback) if callback is not None else []
+    prints = prints or [call for call, name in suspect.source.calls if name == "print"]
+    return suspect.finding("print_used", prints[0]) if prints else None
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "logger_not_called",
+        "logger",
+        msg("The () after get_logger is missing"),
+        msg("get_logger is a method: only calling it gives the logger."),
+        msg("Write self.get_logger().info(…)."),
+        links.LOGGING,
+        seen=r"AttributeError: '(?:function|method)' object has no attribute "
+        r"'(?:info|debug|warn|warning|error|fatal)'",
+        raised={
+            r"'(?:function|method)' object has no attribute '(?:info|debug|warn|warning|error|fatal)'": always(
+                "logger_not_called"
+            )
+        },
+        fixed_by=(node_log.logger_call,),
+        examples=(
+            example(
+                "get_logger_not_called",
+                Replace(NODE, "self.get_logger().info", "self.get_logger.info"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "logger_arguments",
+        "logger",
+        msg("The logger gets more than one string"),
+        msg("info() takes one string. print() takes several with commas, the logger does not."),
+        msg("Make one string of them: {sum}, or an f-string."),
+        links.LOGGING,
+        seen=r"\.info\(\) takes 2 positional arguments but \d{1,3} were given",
+        raised={
+            r"takes (?:from \d{1,3} to )?\d{1,3} positional arguments? but \d{1,3} were given": _arguments
+        },
+        fixed_by=(node_log.comma,),
+        examples=(
+            example(
+                "logger_with_comma",
+                Replace(NODE, "'Hello time: ' + str", "'Hello time: ', str"),
+                fails="run.output",
+                blocks=DEAD,
+                note="as print would take it",
+            ),
+        ),
+    ),
+    _node(
+        "log_missing",
+        "logger",
+        msg("The callback logs nothing"),
+        msg("The timer calls the callback, but only what the callback logs is seen."),
+        msg("Write self.get_logger().info(…) in the callback."),
+        links.LOGGING,
+        behind={"run.no_lines": _missing},
+        examples=(
+            example(
+                "log_line_forgotten",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "debug_level",
+        "logger",
+        msg("The line is logged at level DEBUG"),
+        msg("By default, records of level DEBUG are neither shown nor published."),
+        msg("Write self.get_logger().info(…) instead of .debug(…)."),
+        links.LOGGING,
+        behind={"run.no_lines": _debug},
+        fixed_by=(node_log.level,),
+        examples=(
+            example(
+                "logged_as_debug",
+                Replace(NODE, "self.get_logger().info", "self.get_logger().debug"),
+                fails="run.output",
+                blocks=SILENT,
+                note="below the default level: neither on the terminal nor on /rosout",
+            ),
+        ),
+    ),
+    _node(
+        "logs_twice",
+        "logger",
+        msg("The callback logs more than once"),
+        msg("Each call of the logger writes its own line."),
+        msg("Keep only one self.get_logger().info(…) in the callback."),
+        links.LOGGING,
+        behind={"run.twice": _twice},
+        fixed_by=(
+            node_count.twice,
+            node_log.only_logged,
+        ),
+        examples=(
+            example(
+                "logs_twice",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    (
+                        "self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
+                    ),
+                ),
+                fails="run.output",
+            ),
+            example(
+                "printed_and_logged",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    (
+                        "print('Hello time: ' + str(self.counter_))\n"
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
+                    ),
+                ),
+                fails="run.output",
+                also={"run.logger": "node.print_used"},
+            ),
+        ),
+    ),
+    _node(
+        "print_used",
+        "logger",
+        msg("print() is used instead of the logger"),
+        msg(
+            "print() only writes to this terminal: no level, no time, no node name, and no other "
+            "program sees it on /rosout."
+        ),
+        msg("Write self.get_logger().info(…) instead of print(…)."),
+        links.LOGGING,
+        behind={"run.print_not_logger": _printed},
+        fixed_by=(
+            node_log.logger,
+            node_log.only_logged,
+        ),
+        examples=(
+            example(
+                "printed", Replace(NODE, "self.get_logger().info", "print"), fails="run.logger"
+            ),
+        ),
+    ),
+)

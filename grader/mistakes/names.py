@@ -1,0 +1,224 @@
+"""Mistakes of Python that any line can have: names, attributes, calls.
+
+These come last: their patterns also match errors that have a more precise cause.
+"""
+
+from __future__ import annotations
+
+import builtins
+import re
+
+from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import node_count, node_names, node_timer
+from grader.mistakes.kind import Family
+from grader.mistakes.node_start import IMPORTS, RCLPY
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    always,
+    of_self,
+)
+from grader.package.edit.tree import Replace
+from grader.package.source.node import LOG_METHODS
+
+ATTRIBUTE = (
+    r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
+    r"attribute '(?P<name>\w{1,120})'"
+)
+NODE_METHODS = (
+    *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
+    *("create_subscription", "create_service", "create_client", "declare_parameter"),
+    *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
+)
+
+
+def _close_attribute(raised: Raised, name: str) -> str:
+    return nearest(name, raised.source.attributes, cutoff=0.75)
+
+
+def _close_method(raised: Raised, match: re.Match[str]) -> str:
+    """Return the method that is meant: of the node, of rclpy or of the logger."""
+    name = match["name"]
+    if of_self(raised, match):
+        if _close_attribute(raised, name):
+            return ""
+        return nearest(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
+    known = RCLPY if match["type"] == "rclpy" else (*NODE_METHODS, *LOG_METHODS)
+    return nearest(name, known, cutoff=0.7)
+
+
+def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    close = _close_method(raised, match)
+    return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
+
+
+def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not of_self(raised, match):
+        return None
+    name = match["name"]
+    return raised.finding("attribute_not_set", name=name, close=_close_attribute(raised, name))
+
+
+def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    name, module = match["name"], raised.module
+    close = nearest(name, {*module.names, *dir(builtins), *IMPORTS}, cutoff=0.7)
+    return raised.finding("name_unknown", name=name, close=close)
+
+
+def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    return raised.finding("attribute_unknown", name=match["name"], close="")
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "method_misspelt",
+        "class",
+        msg("A method or attribute of the node is misspelt"),
+        msg("Python finds a method or an attribute only by its exact name."),
+        msg("Write {close} instead of {name}."),
+        links.RCLPY,
+        raised={ATTRIBUTE: _method_misspelt},
+        fixed_by=(node_timer.misspelt,),
+        examples=(
+            example(
+                "create_timer_misspelt",
+                Replace(NODE, "create_timer", "create_timmer"),
+                fails="run.starts",
+            ),
+            example(
+                "logger_misspelt",
+                Replace(NODE, "self.get_logger().info", "self.get_loger().info"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "error_at_stop",
+                Replace(NODE, "        node.destroy_node()\n", "        node.destroy()\n"),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "attribute_not_set",
+        "counter",
+        msg("An attribute is read that __init__ did not set"),
+        msg("self.{name} does not exist until a line assigns to it."),
+        msg("Give it a value in __init__: self.{name} = {start}"),
+        links.PYTHON_CLASSES,
+        raised={OWN_ATTRIBUTE: _not_set},
+        fixed_by=(node_names.counter,),
+        examples=(
+            example(
+                "counter_not_set",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_without_self",
+                Replace(NODE, "self.counter_ = 0", "counter_ = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_of_other_name",
+                Replace(NODE, "self.counter_ = 0", "self.counter = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "name_unknown",
+        "callback",
+        msg("A name is used that is not defined"),
+        msg("Python knows only names that the file imports or defines; case matters."),
+        msg("Write the name exactly as it is defined, or define it first."),
+        links.PYTHON_ERRORS,
+        close=msg("Write {close} instead of {name}, or define {name} first."),
+        seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
+        raised={NAME_ERROR: _undefined},
+        fixed_by=(node_count.self_dot,),
+        examples=(
+            example(
+                "name_error_in_callback",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "self.get_logger().info('Hello time: ' + string(self.counter_))",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "interrupt_misspelt",
+                Replace(NODE, "except KeyboardInterrupt:", "except KeyboardInterupt:"),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "not_callable",
+        "callback",
+        msg("A number or a string is called like a function"),
+        msg("() after a name calls it, and only functions can be called."),
+        msg("Remove the () on that line."),
+        links.PYTHON_ERRORS,
+        seen=r"TypeError: '(?P<type>int|float|str)' object is not callable",
+        raised={r"'(?P<type>int|float|str)' object is not callable": always("not_callable")},
+        examples=(
+            example(
+                "counter_called",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_())"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "argument_missing",
+        "callback",
+        msg("A call has too few arguments"),
+        msg("A parameter without a default needs a value in each call."),
+        msg(
+            "Pass a value for {name} where {function} is called, or remove the parameter from "
+            "your own function."
+        ),
+        links.PYTHON_ERRORS,
+        raised={
+            r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": always(
+                "argument_missing"
+            )
+        },
+        examples=(
+            example(
+                "init_wants_more",
+                Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
+                fails="run.starts",
+            ),
+            example(
+                "log_without_text",
+                Replace(NODE, ".info('Hello time: ' + str(self.counter_))", ".info()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "attribute_unknown",
+        "callback",
+        msg("An object has no attribute with that name"),
+        msg("Python finds a method or an attribute only by its exact name."),
+        msg("Compare the name on that line with the documentation or with your own class."),
+        links.RCLPY,
+        seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
+        r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
+        raised={ATTRIBUTE: _unknown},
+    ),
+)

@@ -1,0 +1,34 @@
+"""Recognise mistakes by the records of the catalogue, root causes first."""
+
+from __future__ import annotations
+
+import re
+
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+
+SYMPTOMS = frozenset(symptom for kind in CATALOGUE.values() for symptom in kind.behind)
+
+
+def behind_error(raised: Raised) -> RecognisedMistake | None:
+    """Return the mistake behind an exception, or None if it is unknown."""
+    for kind in CATALOGUE.values():
+        for pattern, look in kind.raised.items():
+            match = re.search(pattern, raised.error)
+            found = look(raised, match) if match else None
+            if found is not None:
+                return found
+    return None
+
+
+def behind_symptom(symptom: str, suspect: Suspect) -> RecognisedMistake | None:
+    """Return the mistake of the source that causes a symptom, or None if none is recognised.
+
+    Code that only looks like a mistake is not reported.
+    """
+    for kind in CATALOGUE.values():
+        look = kind.behind.get(symptom)
+        found = look(suspect) if look is not None else None
+        if found is not None:
+            return found
+    return None

@@ -1,0 +1,469 @@
+"""Mistakes in creating the timer, and in what it calls."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
+from grader.mistakes import links
+from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.fixes import node_count, node_timer
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    always,
+    of_self,
+)
+from grader.package.edit.tree import Replace
+from grader.package.source.names import calls_in, dotted
+
+LONG = 100.0  # seconds; a longer period was meant in milliseconds
+
+CALLED = msg(
+    "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
+    "after its name the callback runs now, and its result (None) is passed instead."
+)
+TIMER = msg("Write create_timer({period}, self.{callback})")
+
+
+def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    called = [timer for timer in raised.source.timers if timer.called]
+    return raised.finding("callback_called", at=called[0].call) if called else None
+
+
+def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
+    for timer in suspect.source.timers:
+        if timer.called:
+            return suspect.finding("callback_called", timer.call)
+    return None
+
+
+def _is_callback(raised: Raised, match: re.Match[str]) -> bool:
+    """Whether the missing attribute is what a timer calls."""
+    name = match["name"]
+    return of_self(raised, match) and any(t.method == name for t in raised.source.timers)
+
+
+def _inside_init(raised: Raised, name: str) -> ast.FunctionDef | None:
+    init = raised.source.methods.get("__init__")
+    for node in ast.walk(init) if init else ():
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            return node
+    return None
+
+
+def _callback_in_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    at = _inside_init(raised, name) if _is_callback(raised, match) else None
+    return raised.finding("callback_in_init", at=at, name=name) if at is not None else None
+
+
+def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not _is_callback(raised, match):
+        return None
+    name = match["name"]
+    close = nearest(name, [m for m in raised.source.methods if m != "__init__"])
+    found = raised.finding("callback_misspelt", name=name, close=close)
+    return replace(found, words={**found.words, "callback": close or name})
+
+
+def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    return raised.finding("timer_at_class_level") if match["name"] == "self" else None
+
+
+def _no_self_dot(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    if name not in raised.source.methods:
+        return None
+    return raised.finding("callback_without_self_dot", name=name)
+
+
+def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    return raised.finding("timer_arguments_swapped") if raised.source.timers else None
+
+
+def _missing(suspect: Suspect) -> RecognisedMistake | None:
+    if suspect.source.timers:
+        return None
+    return suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
+
+
+def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
+    timers, callback = suspect.source.timers, suspect.source.callback
+    if callback is None or not all(timer.function is callback for timer in timers):
+        return None
+    return suspect.finding("timer_in_callback", timers[0].call)
+
+
+def _cancelled(suspect: Suspect) -> RecognisedMistake | None:
+    for call, name in suspect.source.calls:
+        if name.endswith(".cancel"):
+            return suspect.finding("timer_cancelled", call)
+    return None
+
+
+def _stopped(suspect: Suspect) -> RecognisedMistake | None:
+    for call, name in suspect.source.calls:
+        if name.endswith((".cancel", ".destroy_timer")):
+            return suspect.finding("timer_cancelled", call)
+    return None
+
+
+def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
+    timer = suspect.source.timers[0]
+    if timer.seconds is None or not timer.seconds >= LONG > suspect.output.period:
+        return None
+    return suspect.finding("period_milliseconds", timer.call, written=f"{timer.seconds:g}")
+
+
+def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
+    source, callback = suspect.source, suspect.source.callback
+    timer = source.timers[0]
+    logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
+    other = callback is None or callback.name != timer.method
+    if not (timer.method and other and logging):
+        return None
+    return suspect.finding("timer_other_callback", timer.call, name=timer.method)
+
+
+def _two(suspect: Suspect) -> RecognisedMistake | None:
+    timers = suspect.source.timers
+    return suspect.finding("two_timers", timers[1].call) if len(timers) > 1 else None
+
+
+def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
+    source = suspect.source
+    init = source.methods.get("__init__")
+    names = {dotted(timer.callback) for timer in source.timers if timer.callback} - {""}
+    for call, name in calls_in(init) if init else ():
+        if name in names:
+            return suspect.finding("called_by_hand", call)
+    return None
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "timer_at_class_level",
+        "timer",
+        msg("The timer is created outside of __init__"),
+        msg(
+            "Lines indented directly below the class run when the class is defined; there is no "
+            "self yet."
+        ),
+        msg("Indent the line so that it is part of __init__."),
+        links.PYTHON_CLASSES,
+        seen=r"NameError: name 'self' is not defined",
+        raised={NAME_ERROR: _outside_init},
+        examples=(
+            example(
+                "timer_at_class_level",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "\n    self.create_timer(1.0, self.timer_callback)\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_called",
+        "timer",
+        msg("create_timer gets a call instead of the callback"),
+        CALLED,
+        msg("Remove the () after the callback's name: create_timer({period}, self.{callback})"),
+        seen=r"TypeError: 'NoneType' object is not callable"
+        r"|UnboundLocalError: .{0,60}'arg_name'",
+        raised={"'NoneType' object is not callable|'arg_name'|is not a callable object": _called},
+        behind={"run.by_hand": _calls_back_at_once},
+        fixed_by=(node_timer.callback,),
+        examples=(
+            example(
+                "brackets_behind_callback",
+                Replace(NODE, "self.timer_callback)", "self.timer_callback())"),
+                fails="run.output",
+                also={"run.period": "node.callback_called"},
+                blocks=("run.interrupt",),
+                note="one line at once, then 'NoneType' object is not callable",
+            ),
+        ),
+    ),
+    _node(
+        "callback_in_init",
+        "timer",
+        msg("The callback is indented into __init__"),
+        msg("A function inside __init__ is not a method of the class, so self does not have it."),
+        msg("Indent def {callback}(self): as far as def __init__."),
+        links.PYTHON_CLASSES,
+        raised={OWN_ATTRIBUTE: _callback_in_init},
+        examples=(
+            example(
+                "callback_inside_init",
+                Replace(NODE, "    def timer_callback(self)", "        def timer_callback(self)"),
+                Replace(
+                    NODE,
+                    (
+                        '        """Say hello once; the timer calls this for as long as the node spins."""\n'
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "        self.counter_ += 1\n"
+                    ),
+                    (
+                        "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "            self.counter_ += 1\n"
+                    ),
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_misspelt",
+        "timer",
+        msg("The callback's name is misspelt"),
+        msg("create_timer needs the method's exact name."),
+        TIMER,
+        raised={OWN_ATTRIBUTE: _callback_misspelt},
+        fixed_by=(node_timer.callback,),
+        examples=(
+            example(
+                "callback_misspelt",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, self.timer_calback)",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_without_self_dot",
+        "timer",
+        msg("self. is missing before the callback"),
+        msg("A method is reached through its object: self.name."),
+        TIMER,
+        links.PYTHON_CLASSES,
+        raised={NAME_ERROR: _no_self_dot},
+        fixed_by=(node_timer.callback,),
+        examples=(
+            example(
+                "callback_without_self_dot",
+                Replace(NODE, "self.timer_callback", "timer_callback"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "timer_arguments_swapped",
+        "timer",
+        msg("The arguments of create_timer are swapped"),
+        msg("create_timer takes the period first, then the callback."),
+        TIMER,
+        seen=r"float\(\) argument must be a string or a real number, not '(?:method|function)'",
+        raised={
+            r"float\(\) argument must be|must be real number|not '?(?:method|function)'?": _swapped
+        },
+        fixed_by=(node_timer.arguments,),
+        examples=(
+            example(
+                "timer_arguments_swapped",
+                Replace(NODE, "1.0, self.timer_callback", "self.timer_callback, 1.0"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "period_text",
+        "timer",
+        msg("The period is a string"),
+        msg("The period is a number of seconds: no quotes, no unit."),
+        TIMER,
+        seen=r"ValueError: could not convert string to float: (?P<text>'[^'\n]{0,60}')",
+        raised={
+            r"could not convert string to float: (?P<text>'[^'\n]{0,60}')": always("period_text")
+        },
+        fixed_by=(node_timer.period,),
+        examples=(
+            example("period_as_text", Replace(NODE, "(1.0,", "('1.0s',"), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "timer_argument_missing",
+        "timer",
+        msg("An argument of create_timer is missing"),
+        msg("create_timer takes the period first, then the callback."),
+        TIMER,
+        seen=r"create_timer\(\) missing \d{1,3} required positional argument",
+        raised={r"create_timer\(\) missing": always("timer_argument_missing")},
+        fixed_by=(node_timer.arguments,),
+        examples=(
+            example("period_missing", Replace(NODE, "(1.0, self", "(self"), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "timer_missing",
+        "timer",
+        msg("No timer is created"),
+        msg("Only a timer calls the callback again and again."),
+        msg("Write in __init__: self.create_timer({period}, self.{callback})"),
+        behind={"run.no_lines": _missing},
+        fixed_by=(node_timer.made,),
+        examples=(
+            example(
+                "timer_missing",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "timer_in_callback",
+        "timer",
+        msg("The timer is created in its own callback"),
+        msg("The timer calls the callback: as long as there is no timer, nothing calls it."),
+        msg("Move create_timer to __init__."),
+        behind={"run.no_lines": _in_callback},
+        examples=(
+            example(
+                "timer_in_callback",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    (
+                        "self.create_timer(1.0, self.timer_callback)\n"
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
+                    ),
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "timer_cancelled",
+        "timer",
+        msg("The timer is cancelled"),
+        msg("cancel() stops a timer: it no longer calls its callback."),
+        msg("Remove the .cancel()."),
+        behind={"run.no_lines": _cancelled, "run.stops": _stopped},
+        fixed_by=(node_timer.cancelled,),
+        examples=(
+            example(
+                "timer_cancelled",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, self.timer_callback).cancel()",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "three_then_silence",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.timer_ = self.create_timer(1.0, self.timer_callback)",
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    (
+                        "self.counter_ += 1\n"
+                        "        if self.counter_ == 3:\n"
+                        "            self.timer_.cancel()"
+                    ),
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "period_milliseconds",
+        "timer",
+        msg("The period is written in milliseconds"),
+        msg("create_timer takes seconds: {written} is {written} seconds."),
+        TIMER,
+        behind={"run.no_lines": _milliseconds},
+        fixed_by=(node_timer.period,),
+        examples=(
+            example(
+                "period_in_milliseconds",
+                Replace(NODE, "(1.0,", "(1000.0,"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "timer_other_callback",
+        "timer",
+        msg("The timer calls another method"),
+        msg("The timer calls the method that it gets, and no other."),
+        TIMER,
+        behind={"run.no_lines": _other_callback},
+        examples=(
+            example(
+                "callback_is_another",
+                Replace(NODE, "self.timer_callback)", "self.get_name)"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "two_timers",
+        "timer",
+        msg("Two timers call the callback"),
+        msg("Each timer calls its callback on its own: two timers make two lines at a time."),
+        msg("Keep only one create_timer."),
+        behind={"run.twice": _two},
+        fixed_by=(node_count.twice,),
+        examples=(
+            example(
+                "two_timers",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    (
+                        "self.create_timer(1.0, self.timer_callback)\n"
+                        "        self.create_timer(1.0, self.timer_callback)"
+                    ),
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "called_by_hand",
+        "timer",
+        msg("__init__ calls the callback itself"),
+        msg("The timer makes the first call after one period; your own call comes too early."),
+        msg("Remove the line self.{callback}() from __init__."),
+        behind={"run.by_hand": _by_hand},
+        fixed_by=(node_timer.by_hand,),
+        examples=(
+            example(
+                "called_by_hand",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    ("self.create_timer(1.0, self.timer_callback)\n        self.timer_callback()"),
+                ),
+                fails="run.period",
+            ),
+        ),
+    ),
+)
