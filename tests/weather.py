@@ -6,7 +6,8 @@ from pathlib import Path
 
 from grader.course.assignment import Assignment
 from grader.course.load import load_assignment
-from grader.package.edit.tree import Edit, Entry, apply_all, write_tree
+from grader.package.edit.tree import Edit, apply_all, write_tree
+from grader.package.intake.model import SourceFile
 from grader.package.submission import Submission, take_in
 
 NAME = "weather_station"
@@ -144,7 +145,8 @@ if __name__ == '__main__':
 """,
 }
 TREE = {
-    path: Entry(text.encode(), 0o755 if path == NODE else 0o644) for path, text in FILES.items()
+    path: SourceFile(path, "file", 0o755 if path == NODE else 0o644, text.encode())
+    for path, text in FILES.items()
 }
 
 

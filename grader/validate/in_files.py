@@ -50,7 +50,7 @@ def mutants_of(tree: Tree, assignment: Assignment) -> Iterator[Made]:
 def _layout(tree: Tree, assignment: Assignment) -> Iterator[Made]:
     package = assignment.package
     for path in needed(assignment):
-        entry = tree[path]
+        data = tree[path].data
         folder, _, name = path.rpartition("/")
         stem, dot, suffix = name.partition(".")
         other = f"{misspelt(stem)}{dot}{suffix}"
@@ -59,7 +59,7 @@ def _layout(tree: Tree, assignment: Assignment) -> Iterator[Made]:
         yield f"rename {path}", (Move(path, to),), ANY
         if folder:
             yield f"move {path} up", (Move(path, name + "_"),), ANY
-        if entry.data:
+        if data:
             yield f"empty {path}", (Write(path, b""),), ANY
             yield f"Word document for {path}", (Write(path, b"PK\3\4\x14\0\6\0\0\0!\0"),), ANY
     for folder in ("resource", package):

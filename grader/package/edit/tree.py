@@ -1,27 +1,22 @@
-"""A package as an immutable mapping from path to content, and the edits that mutate it."""
+"""Edits of a package, which is an immutable mapping from path to file."""
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.errors import AssignmentError
+from grader.package.edit.files import EXECUTABLE, PLAIN
+from grader.package.intake.model import SourceFile
 
 SKIPPED = ("__pycache__", ".pyc")
+LINK = 0o777
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A file: its bytes and permission bits; or a symbolic link to `link`."""
-
-    data: bytes
-    mode: int = 0o644
-    link: str = ""
-
-
-Tree = Mapping[str, Entry]
+Tree = Mapping[str, SourceFile]
+"""Files and links by their path; folders have no entries of their own."""
 
 
 class EditError(Exception):
@@ -38,11 +33,11 @@ class Replace:
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the text replaced."""
-        entry = _there(tree, self.path)
-        if (found := entry.data.count(self.old.encode())) != 1:
+        file = _there(tree, self.path)
+        if (found := file.data.count(self.old.encode())) != 1:
             raise EditError(f"{self.path} contains the text {found} times, not once: {self.old!r}")
-        data = entry.data.replace(self.old.encode(), self.new.encode())
-        return {**tree, self.path: Entry(data, entry.mode)}
+        data = file.data.replace(self.old.encode(), self.new.encode())
+        return {**tree, self.path: replace(file, data=data)}
 
 
 @dataclass(frozen=True)
@@ -55,9 +50,10 @@ class Write:
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the file in it."""
-        old = tree.get(self.path, Entry(b""))
+        old = tree.get(self.path)
+        mode = self.mode if self.mode is not None else old.mode if old is not None else PLAIN
         data = self.data.encode() if isinstance(self.data, str) else self.data
-        return {**tree, self.path: Entry(data, old.mode if self.mode is None else self.mode)}
+        return {**tree, self.path: SourceFile(self.path, "file", mode, data)}
 
 
 @dataclass(frozen=True)
@@ -69,7 +65,7 @@ class Delete:
     def apply(self, tree: Tree) -> Tree:
         """Return the tree without it."""
         gone = _below(tree, self.path)
-        return {path: entry for path, entry in tree.items() if path not in gone}
+        return {path: file for path, file in tree.items() if path not in gone}
 
 
 @dataclass(frozen=True)
@@ -84,7 +80,8 @@ class Copy:
         here = _below(tree, self.path)
         if any(path == self.to or path.startswith(f"{self.to}/") for path in tree):
             raise EditError(f"{self.to} exists already")
-        return {**tree, **{self.to + path[len(self.path) :]: tree[path] for path in here}}
+        copies = (replace(tree[path], path=self.to + path[len(self.path) :]) for path in here)
+        return {**tree, **{file.path: file for file in copies}}
 
 
 @dataclass(frozen=True)
@@ -98,7 +95,7 @@ class Move:
         """Return the tree with it at its new path."""
         copied = Copy(self.path, self.to).apply(tree)
         gone = _below(tree, self.path)
-        return {path: entry for path, entry in copied.items() if path not in gone}
+        return {path: file for path, file in copied.items() if path not in gone}
 
 
 @dataclass(frozen=True)
@@ -110,7 +107,7 @@ class Chmod:
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the new mode."""
-        return {**tree, self.path: Entry(_there(tree, self.path).data, self.mode)}
+        return {**tree, self.path: replace(_there(tree, self.path), mode=self.mode)}
 
 
 @dataclass(frozen=True)
@@ -121,9 +118,9 @@ class Crlf:
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the new line endings."""
-        entry = _there(tree, self.path)
-        data = entry.data.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n")
-        return {**tree, self.path: Entry(data, entry.mode)}
+        file = _there(tree, self.path)
+        data = file.data.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n")
+        return {**tree, self.path: replace(file, data=data)}
 
 
 @dataclass(frozen=True)
@@ -135,7 +132,7 @@ class Link:
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree with the link."""
-        return {**tree, self.path: Entry(b"", 0o777, self.to)}
+        return {**tree, self.path: SourceFile(self.path, "link", LINK, target=self.to)}
 
 
 @dataclass(frozen=True)
@@ -146,7 +143,8 @@ class Nest:
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree, one folder deeper."""
-        return {f"{self.folder}/{path}": entry for path, entry in tree.items()}
+        nested = (replace(file, path=f"{self.folder}/{path}") for path, file in tree.items())
+        return {file.path: file for file in nested}
 
 
 Edit = Replace | Write | Delete | Copy | Move | Chmod | Crlf | Link | Nest
@@ -168,9 +166,9 @@ def read_tree(folder: Path) -> Tree:
     tree = {}
     for path in sorted(folder.rglob("*")):
         if path.is_file() and not any(part.endswith(SKIPPED) for part in path.parts):
-            data = path.read_bytes()
-            mode = 0o755 if data.startswith(b"#!") else 0o644
-            tree[path.relative_to(folder).as_posix()] = Entry(data, mode)
+            data, name = path.read_bytes(), path.relative_to(folder).as_posix()
+            mode = EXECUTABLE if data.startswith(b"#!") else PLAIN
+            tree[name] = SourceFile(name, "file", mode, data)
     return tree
 
 
@@ -185,26 +183,26 @@ def text_of(tree: Tree, path: str) -> str:
 def write_tree(tree: Tree, folder: Path) -> None:
     """Write a package to a new folder. Raises FileExistsError if the folder exists."""
     folder.mkdir(parents=True)
-    for name, entry in tree.items():
+    for name, file in tree.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        if entry.link:
-            path.symlink_to(entry.link)
+        if file.kind == "link":
+            path.symlink_to(file.target)
         else:
-            path.write_bytes(entry.data)
-            path.chmod(entry.mode)
+            path.write_bytes(file.data)
+            path.chmod(file.mode)
 
 
 def digest(tree: Tree) -> str:
     """Return a hash of a package: equal hashes mean equal mutants."""
     parts = [
-        f"{path}\0{entry.mode:o}\0{entry.link}\0{hashlib.sha256(entry.data).hexdigest()}"
-        for path, entry in sorted(tree.items())
+        f"{path}\0{file.mode:o}\0{file.target}\0{hashlib.sha256(file.data).hexdigest()}"
+        for path, file in sorted(tree.items())
     ]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def _there(tree: Tree, path: str) -> Entry:
+def _there(tree: Tree, path: str) -> SourceFile:
     if path not in tree:
         raise EditError(f"there is no file {path}")
     return tree[path]

@@ -13,7 +13,6 @@ from grader.package.edit.tree import (
     Delete,
     Edit,
     EditError,
-    Entry,
     Link,
     Move,
     Nest,
@@ -25,12 +24,16 @@ from grader.package.edit.tree import (
     read_tree,
     write_tree,
 )
+from grader.package.intake.model import SourceFile
 
-TREE: Tree = {
-    "a.py": Entry(b"#!x\none two\n", 0o755),
-    "in/b.txt": Entry(b"b\n"),
-    "in/c.txt": Entry(b"c\n"),
-}
+
+def of(*files: tuple[str, bytes, int]) -> Tree:
+    return {path: SourceFile(path, "file", mode, data) for path, data, mode in files}
+
+
+TREE = of(
+    ("a.py", b"#!x\none two\n", 0o755), ("in/b.txt", b"b\n", 0o644), ("in/c.txt", b"c\n", 0o644)
+)
 
 
 def files(folder: Path) -> dict[str, str]:
@@ -76,18 +79,20 @@ def test_each_edit_does_what_its_name_says() -> None:
         Nest("src/p"),
     )
     assert apply_all(edits, TREE) == {
-        "src/p/a.py": Entry(b"#!x\none three\n", 0o755),
-        "src/p/new/d.txt": Entry(b"d"),
-        "src/p/out/b.txt": Entry(b"b\n", 0o600),
-        "src/p/b.txt": Entry(b"b\r\n"),
-        "src/p/out/l": Entry(b"", 0o777, "/nowhere"),
+        **of(
+            ("src/p/a.py", b"#!x\none three\n", 0o755),
+            ("src/p/new/d.txt", b"d", 0o644),
+            ("src/p/out/b.txt", b"b\n", 0o600),
+            ("src/p/b.txt", b"b\r\n", 0o644),
+        ),
+        "src/p/out/l": SourceFile("src/p/out/l", "link", 0o777, target="/nowhere"),
     }
     assert TREE["a.py"].data == b"#!x\none two\n"
 
 
 def test_a_rewritten_file_keeps_its_mode() -> None:
-    assert Write("a.py", b"x").apply(TREE)["a.py"] == Entry(b"x", 0o755)
-    assert Write("a.py", b"x", 0o640).apply(TREE)["a.py"] == Entry(b"x", 0o640)
+    assert Write("a.py", b"x").apply(TREE)["a.py"].mode == 0o755
+    assert Write("a.py", b"x", 0o640).apply(TREE)["a.py"].mode == 0o640
 
 
 @pytest.mark.parametrize(
