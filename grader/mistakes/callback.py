@@ -7,7 +7,7 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.node_start import SLEEPS
@@ -148,7 +148,7 @@ KINDS = (
                 "asks_in_callback",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        input('more?')"),
                 fails="run.output",
-                blocks=SILENT,
+                blocks=("run.period",),
             ),
         ),
     ),

@@ -154,7 +154,7 @@ KINDS = (
         msg("A required tag of package.xml is missing or empty"),
         msg("Add <{tag}>…</{tag}> inside <package>."),
         empty=msg("Write something between <{tag}> and </{tag}>."),
-        fixed_by=(manifest.version,),
+        fixed_by=(manifest.version, manifest.name),
     ),
     _manifest(
         "manifest_rules",

@@ -54,7 +54,7 @@ def _made(
 def _files_of_node(original: Tree, path: str, assignment: Assignment) -> list[str]:
     """Return the files that the node is in: the required one first, and that of its class."""
     _read(original, path)
-    files = {name: entry.data for name, entry in original.items() if not entry.link}
+    files = {name: entry.data for name, entry in original.items() if not entry.target}
     node = read_node(files.get, path, assignment.function)
     others = [other for other in node.paths if other != path] if node is not None else []
     return [path, *others]
