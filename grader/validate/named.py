@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import base64
 import binascii
-import difflib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -35,6 +34,7 @@ from pydantic import (
 )
 
 from grader.base.errors import AssignmentError
+from grader.base.nearest import nearest
 from grader.base.positioned_yaml import Document, Loc, read_yaml
 from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, validated
 from grader.validate import tree
@@ -327,5 +327,5 @@ def _faults(content: _Content, checks: Sequence[str], mistakes: Sequence[str]) -
 
 
 def _hint(word: str, known: Iterable[str]) -> str:
-    close = difflib.get_close_matches(word, list(known), n=1)
-    return f": did you mean '{close[0]}'?" if close else ""
+    close = nearest(word, known)
+    return f": did you mean '{close}'?" if close else ""
