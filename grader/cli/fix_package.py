@@ -21,11 +21,11 @@ from grader.base.shown import shown
 from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding, finding_of
-from grader.mistakes.fixes.table import STATIC
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
 from grader.report.model import CheckResult
+from grader.verdict.checks.all import STATIC
 from grader.verdict.fix import FixPlan, fix_all, fix_files
 from grader.verdict.mark import grade
 from grader.verdict.order import Order

@@ -11,9 +11,10 @@ from collections.abc import Iterator
 from grader.course.assignment import Assignment
 from grader.validate.spots import misspelt
 from grader.validate.tree import Chmod, Copy, Crlf, Delete, Edit, Move, Nest, Tree, Write, text_of
+from grader.verdict.checks.all import FAMILIES
 
 Made = tuple[str, tuple[Edit, ...], tuple[str, ...]]
-ANY = ("package.", "source.", "build.", "entry_point.", "run.")
+ANY = FAMILIES
 MANIFEST = "package.xml"
 SETUP = "setup.py"
 CFG = "setup.cfg"

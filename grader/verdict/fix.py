@@ -9,11 +9,12 @@ from grader.base.i18n.translator import SOURCE
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes import syntax
 from grader.mistakes.fixes.case import Case, Finding, Fix, finding_of
-from grader.mistakes.fixes.table import ADVISED, STATIC, fixes_for
+from grader.mistakes.fixes.table import ADVISED, fixes_for
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
+from grader.verdict.checks.all import STATIC
 from grader.verdict.static import static_findings
 
 MOST_STEPS = 30
