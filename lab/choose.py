@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable
 from pathlib import Path
 
 from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
+from grader.base.nearest import did_you_mean
 from grader.ros.distro import Distro
 from grader.ros.images import connect, find_image
 from grader.sandbox.proof import proven_ros
@@ -26,11 +26,10 @@ def choose(kind: str, distro: Distro, *, notify: Notify) -> Enter:
     Raises UsageError for an unknown kind, SurroundingsError if the lab is not available.
     """
     if kind not in KINDS:
-        close = difflib.get_close_matches(kind.lower(), KINDS, n=1)
-        hint = say("did you mean '{name}'?", name=close[0]) if close else ""
         known = say("Sandboxes: {names}.", names=", ".join(KINDS))
         raise UsageError(
-            say("there is no lab sandbox '{kind}'", kind=kind), remedy=joined(hint, known)
+            say("there is no lab sandbox '{kind}'", kind=kind),
+            remedy=joined(did_you_mean(kind, KINDS), known),
         )
     if kind == "bubblewrap":
         return _bubblewrap(distro, notify)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import os
 import shutil
@@ -11,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 from grader.base.cache import cache_root, make_once
+from grader.base.lock import locked
 
 FILES = ("package.json", "package-lock.json")
 
@@ -22,8 +22,7 @@ def installed(program: str, package: str) -> Path:
     if os.geteuid() != 0:
         raise RuntimeError(f"the tests need {program}: apt-get install {package}")
     lock = Path(tempfile.gettempdir()) / "ros2_teaching_lab-apt.lock"
-    with lock.open("a") as handle:  # test processes run concurrently
-        fcntl.flock(handle, fcntl.LOCK_EX)
+    with locked(lock):  # test processes run concurrently
         if not shutil.which(program):
             env = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
             for words in (["update"], ["install", "-y", "--no-install-recommends", package]):

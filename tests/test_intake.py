@@ -212,17 +212,19 @@ def test_an_unreadable_file_is_kept_with_the_reason(
     root = make(tmp_path / "p")
     really = os.open
 
-    def refuse(path: str | Path, flags: int, *rest: int) -> int:
+    def refuse(
+        path: str | Path, flags: int, mode: int = 0o777, *, dir_fd: int | None = None
+    ) -> int:
         if str(path).endswith(NODE):
             raise PermissionError(13, "Permission denied")
-        return really(path, flags, *rest)
+        return really(path, flags, mode, dir_fd=dir_fd)
 
     monkeypatch.setattr(os, "open", refuse)
     node = take(root).file(NODE_PATH)
     assert node is not None
     assert node.unreadable
-    assert "Permission denied" in node.reason
-    assert "Permission denied" in notes(take(root))
+    assert node.reason == "Permission denied"
+    assert f"without its content (Permission denied): {NODE_PATH}" in notes(take(root))
 
 
 def test_an_unreadable_folder_is_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

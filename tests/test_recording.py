@@ -107,8 +107,15 @@ def test_evidence_that_was_not_recorded_is_not_invented(missing: str, tmp_path: 
 
 def test_what_the_clock_noted_is_translated(tmp_path: Path) -> None:
     root = write(PACKAGES[BY_THE_WALL], tmp_path)
-    recording = Recording.from_bytes(recorded.file_of(taken_in(root)).read_bytes())
-    assert recording.run is not None
-    note = recording.run["watch"]["note"]
+    content = recorded.file_of(taken_in(root)).read_bytes()
+    note = json.loads(content)["run"]["watch"]["note"]
+    recording = Recording.from_bytes(content)
     found = evidence_of(recording, taken_in(root), ASSIGNMENT).run.watch.note
     assert Translator("ko")(found) != found == note != ""
+
+
+def test_a_recorded_run_is_parsed_once(tmp_path: Path) -> None:
+    root = write(PACKAGES["solution"], tmp_path)
+    recording = Recording.from_bytes(recorded.file_of(taken_in(root)).read_bytes())
+    assert recording.run is not None
+    assert evidence_of(recording, taken_in(root), ASSIGNMENT).run is recording.run

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.verdict.checks import package, source
-from tests.marking import ASSIGNMENT
+from grader.verdict.checks import package
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.checks.declare import INTAKE
 
 from .static_bench import FILES, MARKER, NAME, Bench, line, mistake
 
@@ -17,30 +18,22 @@ def bench(tmp_path: Path) -> Bench:
     return Bench(tmp_path / "jane")
 
 
-STATIC = (
-    package.found,
-    package.manifest,
-    package.marker,
-    package.setup_cfg,
-    source.node_file,
-    source.exec_bit,
-    source.shebang,
-)
+LOOKED_AT = [check for check in CHECKS.values() if check.stage is INTAKE]
 
 
 def test_a_right_package_passes_without_advice(bench: Bench) -> None:
-    for check in STATIC:
+    for check in LOOKED_AT:
         assert not bench.passes(check).advice, check.id
     passed = bench.maps()
     assert passed is not None
     assert not passed.advice
 
 
-def test_the_checks_have_the_documented_ids_and_dependencies() -> None:
-    assert [check.id for check in STATIC] == [use.id for use in ASSIGNMENT.checks][:7]
+def test_every_check_of_the_files_depends_on_the_package() -> None:
+    assert package.found is LOOKED_AT[0]
     assert not package.found.depends
-    assert all(check.depends == ("package.found",) for check in STATIC[1:])
-    assert all(check.title and not check.title.endswith(".") for check in STATIC)
+    assert all(check.depends == ("package.found",) for check in LOOKED_AT[1:])
+    assert all(check.title and not check.title.endswith(".") for check in LOOKED_AT)
 
 
 # package.found

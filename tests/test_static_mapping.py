@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -126,6 +127,22 @@ def test_a_missing_setup_py_is_reported(bench: Bench) -> None:
     (bench.root / "setup.py").unlink()
     assert mistake(bench.misses()) == "setup.missing"
     bench.passes(package.manifest)
+
+
+def test_a_setup_py_that_cannot_be_read_is_reported_in_one_sentence(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    really = os.open
+
+    def refuse(
+        path: str | Path, flags: int, mode: int = 0o777, *, dir_fd: int | None = None
+    ) -> int:
+        if str(path).endswith("setup.py"):
+            raise PermissionError(13, "Permission denied")
+        return really(path, flags, mode, dir_fd=dir_fd)
+
+    monkeypatch.setattr(os, "open", refuse)
+    assert bench.misses().actual == "setup.py cannot be read: Permission denied"
 
 
 @pytest.mark.parametrize(

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
+from grader.base.lock import locked
 
 Notify = Callable[[str], None]
 WAITING = msg("another grader is making the same prefix: waiting for it")
@@ -38,18 +38,6 @@ def cache_root() -> Path:
     return home / "ros2_teaching_lab"
 
 
-@contextmanager
-def locked(path: Path, *, notify: Notify) -> Iterator[None]:
-    """Hold an exclusive lock on `path` (the kernel releases it even if the process is killed)."""
-    with path.open("a") as handle:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            notify(Message(WAITING))
-            fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-
-
 def make_once(folder: Path, make: Callable[[Path], None], *, notify: Notify) -> bool:
     """Make `folder` with `make(staging)` unless it exists; return whether it was made now.
 
@@ -61,7 +49,7 @@ def make_once(folder: Path, make: Callable[[Path], None], *, notify: Notify) -> 
     old_umask = os.umask(0o022)  # other user ids inside a sandbox must be able to read it
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with locked(_lock_of(folder), notify=notify):
+        with _locked(folder, notify):
             if folder.is_dir():
                 return False
             for left in folder.parent.glob(f"{_unfinished(folder)}*"):
@@ -93,7 +81,7 @@ def discard(folder: Path, *, unless: Callable[[Path], bool], notify: Notify) -> 
     SurroundingsError if the cache cannot be written.
     """
     try:
-        with locked(_lock_of(folder), notify=notify):
+        with _locked(folder, notify):
             if folder.is_dir() and not unless(folder):
                 folder.rename(tempfile.mkdtemp(prefix=_unfinished(folder), dir=folder.parent))
     except OSError as error:
@@ -103,8 +91,9 @@ def discard(folder: Path, *, unless: Callable[[Path], bool], notify: Notify) -> 
         ) from error
 
 
-def _lock_of(folder: Path) -> Path:
-    return folder.parent / f".{folder.name}.lock"
+def _locked(folder: Path, notify: Notify) -> AbstractContextManager[None]:
+    lock = folder.parent / f".{folder.name}.lock"
+    return locked(lock, waiting=lambda: notify(Message(WAITING)))
 
 
 def _unfinished(folder: Path) -> str:

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import fcntl
 import os
 import secrets
 import stat
 from pathlib import Path
 from types import TracebackType
 
+from grader.base.lock import lock_open
+from grader.base.safe_open import create_file, open_file, open_folder
+
 FOLDER_MODE = 0o700
 FILE_MODE = 0o600
-OPEN_FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC
 TEMPORARY = ".unfinished-"  # a killed writer leaves files with this prefix
 
 
@@ -36,7 +37,7 @@ class Folder:
     @classmethod
     def open(cls, path: Path, *, durable: bool = True) -> Folder:
         """Open a folder that a user named; a link is followed here, since the user chose it."""
-        return cls(os.open(path, OPEN_FOLDER), path, durable=durable)
+        return cls(open_folder(path, follows=True), path, durable=durable)
 
     def __enter__(self) -> Folder:
         return self
@@ -55,7 +56,7 @@ class Folder:
         Return whether there is a lock: some network file systems have none.
         """
         try:
-            fcntl.flock(self._fd, fcntl.LOCK_EX)
+            lock_open(self._fd)
         except OSError:
             return False
         return True
@@ -75,8 +76,7 @@ class Folder:
 
     def sub(self, name: str) -> Folder:
         """Open a folder in this one; OSError (ELOOP, ENOTDIR) if it is a link."""
-        fd = os.open(name, OPEN_FOLDER | os.O_NOFOLLOW, dir_fd=self._fd)
-        return Folder(fd, self.path / name, durable=self._durable)
+        return Folder(open_folder(name, inside=self._fd), self.path / name, durable=self._durable)
 
     def private(self, name: str) -> Folder:
         """Open a folder in this one for its owner only; it is created if it is missing."""
@@ -103,13 +103,12 @@ class Folder:
 
     def read(self, name: str) -> bytes | None:
         """Return the content of a regular file; None for anything else (links are not followed)."""
-        flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
         try:
-            fd = os.open(name, flags, dir_fd=self._fd)
+            file = open_file(name, inside=self._fd)
         except OSError:
             return None
-        with open(fd, "rb") as file:  # noqa: PTH123 - it is a descriptor
-            return file.read() if stat.S_ISREG(os.fstat(fd).st_mode) else None
+        with file:
+            return file.read()
 
     def remove(self, name: str) -> None:
         """Remove a file, if it exists; of a link, the link itself."""
@@ -122,14 +121,13 @@ class Folder:
         Only its owner can read it.
         """
         temporary = f"{TEMPORARY}{secrets.token_hex(8)}"
-        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
-        fd = os.open(temporary, flags, FILE_MODE, dir_fd=self._fd)
+        new = create_file(temporary, FILE_MODE, inside=self._fd)
         try:
-            with open(fd, "wb") as file:  # noqa: PTH123 - it is a descriptor
+            with new as file:
                 file.write(content)
                 file.flush()
                 if self._durable:
-                    os.fsync(fd)
+                    os.fsync(file.fileno())
             os.rename(temporary, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
         except BaseException:
             with contextlib.suppress(OSError):

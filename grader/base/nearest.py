@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
@@ -28,6 +28,18 @@ def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
 def meant(word: str) -> str:
     """Return ` (did you mean 'word'?)`, or an empty text for an empty word."""
     return joined(" ", say("(did you mean '{word}'?)", word=shown(word)), by="") if word else ""
+
+
+def did_you_mean(word: str, words: Iterable[str]) -> str:
+    """Return `did you mean 'other'?` with the nearest word; empty if none is near."""
+    close = nearest(word, words)
+    return say("did you mean '{word}'?", word=close) if close else ""
+
+
+def meant_or_known(word: str, known: Collection[str]) -> str:
+    """Return the end of a message about an unknown word: the nearest known one, else all of them."""
+    close = nearest(word, known)
+    return f" (did you mean '{close}'?)" if close else f"; known: {', '.join(known)}"
 
 
 def marks(found: str, wanted: str) -> str:

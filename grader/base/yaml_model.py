@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
@@ -11,6 +10,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import PydanticCustomError
 
 from grader.base.errors import AssignmentError
+from grader.base.nearest import meant_or_known, nearest
 from grader.base.positioned_yaml import Document, Loc
 
 Fault = tuple[Loc, str]
@@ -64,10 +64,12 @@ def _type_faults(error: ValidationError, keys: Keys) -> Iterator[Fault]:
             continue
         name = str(loc[-1])
         candidates = keys.get(_shape(loc[:-1]), ())
-        close = difflib.get_close_matches(name, candidates, n=1)
-        hint = f" (did you mean '{close[0]}'?)" if close else f"; known: {', '.join(candidates)}"
-        meant |= {(*loc[:-1], key) for key in close}
-        yield (*_place(loc[:-1]), name), f"unknown key '{name}'{hint}"
+        close = nearest(name, candidates)
+        meant |= {(*loc[:-1], close)} if close else set()
+        yield (
+            (*_place(loc[:-1]), name),
+            f"unknown key '{name}'{meant_or_known(name, candidates)}",
+        )
     for item in rest:
         loc = item["loc"]
         if item["type"] == "missing":
@@ -94,8 +96,8 @@ def _wrong_value(loc: Loc, item: Any) -> str:
     if kind == "greater_than_equal":
         return f"{where} must be at least {bounds['ge']:g}, not {given}"
     if kind == "literal_error":
-        close = difflib.get_close_matches(str(item.get("input")), _choices(bounds), n=1)
-        hint = f" (did you mean '{close[0]}'?)" if close else ""
+        close = nearest(str(item.get("input")), _choices(bounds))
+        hint = f" (did you mean '{close}'?)" if close else ""
         return f"{where} must be {bounds['expected']}, not {given}{hint}"
     return f"{where}: {item['msg']}, not {given}"
 

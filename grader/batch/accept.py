@@ -10,11 +10,11 @@ Two shares are checked, each of which catches what the other cannot:
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
+from grader.base.nearest import nearest
 from grader.base.plain_text import one_line
 from grader.batch.model import ClassFolder, OnRoster
 from grader.course.policy import Policy
@@ -34,8 +34,8 @@ def accepted(words: Sequence[str]) -> frozenset[str]:
     found = [word.strip() for text in words for word in text.split(",") if word.strip()]
     for word in found:
         if word not in KNOWN:
-            close = difflib.get_close_matches(word, KNOWN, n=1)
-            hint = f"Did you mean '{close[0]}'? " if close else ""
+            close = nearest(word, KNOWN)
+            hint = f"Did you mean '{close}'? " if close else ""
             raise UsageError(
                 f"--accept does not know '{one_line(word, most=40)}'",
                 remedy=f"{hint}Known: {', '.join(KNOWN)}.",

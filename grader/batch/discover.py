@@ -20,7 +20,6 @@ from grader.batch.systems.known import (
     check_system,
     is_named_as_in,
     layouts,
-    reader_of,
     recognised,
 )
 from grader.batch.systems.layout import Layout, Reading, look_at, seen
@@ -65,11 +64,11 @@ def discover(
     layout, system_found, handed_in = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
     handed_in = _with_modes(system_found, handed_in, unpacked, notes)
-    joined = join(system_found.name, _numbered(handed_in), students)
+    joined = join(system_found, _numbered(handed_in), students)
     for reason, names in layout.left_out.items():
         notes.add_names(reason, names)
     return ClassFolder(
-        system=system_found.name,
+        system=system_found,
         path=request.path,
         # numbered again: a member of a group may also have handed in alone
         handed_in=tuple(_numbered(joined.handed_in)),
@@ -104,19 +103,20 @@ def _read(
             f"{shown(str(request.path))} has no submissions of a class: {seen(layout)}",
             remedy=layouts(),
         )
+    system, download = found
     reading = Reading(notes, Gatherer(request.unpack))
-    read = reader_of(found).read(layout, reading)
+    read = download.reader.read(layout, reading)
     handed_in = [*read.handed_in]
     if not handed_in:
         raise UsageError(
-            f"{shown(str(request.path))} is not {found.download}: {seen(layout)}", remedy=layouts()
+            f"{shown(str(request.path))} is not {download.title}: {seen(layout)}", remedy=layouts()
         )
     taken = {one.student.key for one in handed_in}
     for one in plain.read_items(layout.path, read.rest, reading):
-        handed_in.append(_beside(one, taken, found.download))
+        handed_in.append(_beside(one, taken, download.title))
     how = "as requested" if request.system != "auto" else "by its names"
-    notes.add(f"read as {found.download} ({found.name}), {how}")
-    return layout, found, handed_in
+    notes.add(f"read as {download.title} ({system.name}), {how}")
+    return layout, system, handed_in
 
 
 def _beside(one: HandedIn, taken: set[str], words: str) -> HandedIn:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Sequence
 
 from grader.base.errors import UsageError
+from grader.base.nearest import nearest
 from grader.batch.model import Student
 
 MOST_NAMED = 5
@@ -26,11 +26,9 @@ def find_student(word: str, students: Sequence[Student]) -> Student:
             keys = ", ".join(f"{s.key} ({s.name})" for s in found[:MOST_NAMED])
             raise UsageError(f"'{word}' fits more than one student: {keys}")
     known = {name: student for student in students for name in _loose(student) if name}
-    close = difflib.get_close_matches(word, known, n=1)
+    close = nearest(word, known)
     hint = (
-        f"Did you mean '{close[0]}'?"
-        if close
-        else "The first column of gradebook.csv has the keys."
+        f"Did you mean '{close}'?" if close else "The first column of gradebook.csv has the keys."
     )
     raise UsageError(f"there is no student '{word}'", remedy=hint)
 

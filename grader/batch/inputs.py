@@ -81,6 +81,6 @@ def _say_found(folder: ClassFolder, notify: Callable[[str], None]) -> None:
     attempts = len(folder.handed_in)
     more = f" in {attempts} attempts" if attempts != len(students) else ""
     missing = f", {len(folder.missing)} without a submission" if folder.missing else ""
-    notify(f"found {counted(len(students))}{more}{missing} ({folder.system})")
+    notify(f"found {counted(len(students))}{more}{missing} ({folder.system.name})")
     for note in folder.notes:
         notify(f"  {one_line(note)}")

@@ -11,7 +11,7 @@ from grader.batch.groups import Groups, find_groups, group_column
 from grader.batch.match import Match, fallback_rules, folded, is_same_name, match_more, sure_rules
 from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student
 from grader.batch.roster import Roster
-from grader.batch.systems.known import SYSTEMS
+from grader.batch.systems.system import System
 
 STRANGER = "not on the roster"
 AMBIGUOUS = "fits more than one line of the roster, or its line fits more than one submission"
@@ -33,7 +33,7 @@ class Joined:
     notes: tuple[str, ...] = ()
 
 
-def join(system: str, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
+def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
     """Match each submission with its student's line of the roster; without a roster, sort by name.
 
     A group's submission becomes one of each member. Students keep the keys of their submissions;
@@ -63,7 +63,7 @@ def join(system: str, handed_in: Iterable[HandedIn], roster: Roster | None) -> J
 
 
 def _with_groups(
-    system: str, students: Sequence[Student], roster: Roster
+    system: System, students: Sequence[Student], roster: Roster
 ) -> tuple[Roster, list[str]]:
     """Return the roster with its group column, and a note if the names of the submissions tell it.
 
@@ -73,12 +73,10 @@ def _with_groups(
     """
     if any(line.group for line in roster.lines):
         found = len(find_groups(students, roster.lines).rows)
-        if SYSTEMS[system].group_folders and (
-            roster.kind == "moodle" or 2 * found >= len(students)
-        ):
+        if system.group_folders and (roster.form.numbers_groups or 2 * found >= len(students)):
             return roster, []
         return replace(roster, lines=tuple(replace(line, group="") for line in roster.lines)), []
-    column = group_column(students, roster.lines) if SYSTEMS[system].group_folders else ""
+    column = group_column(students, roster.lines) if system.group_folders else ""
     if not column:
         return roster, []
     lines = tuple(replace(line, group=line.unknown[column]) for line in roster.lines)

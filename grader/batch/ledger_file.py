@@ -6,7 +6,6 @@ SQLite in WAL mode, synchronised to the disk at each commit (https://sqlite.org/
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import sqlite3
 from collections.abc import Iterable, Iterator
@@ -15,6 +14,7 @@ from types import TracebackType
 from typing import Any
 
 from grader.base.errors import SurroundingsError, UsageError
+from grader.base.lock import HeldError, take_lock
 from grader.batch.ledger_schema import bring_up_to_date
 
 BUSY_SECONDS = 20.0
@@ -67,11 +67,9 @@ class LedgerFile:
 
     def _take_lock(self) -> None:
         """Lock a file beside the ledger; the kernel releases the lock if this process is killed."""
-        lock = f"{self.path}.lock"
-        self._lock = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, OWNER_ONLY)
         try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+            self._lock = take_lock(Path(f"{self.path}.lock"), waits=False)
+        except HeldError:
             raise UsageError(
                 f"another grader has the ledger {self.path} open",
                 remedy="Wait until it is done, or name another ledger with --ledger.",

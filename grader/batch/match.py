@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from grader.batch.model import Student
 from grader.batch.roster import Roster
-from grader.batch.systems.known import SYSTEMS
+from grader.batch.systems.system import System
 
 MOST_PARTS = 5  # of a name that is written as one word
 
@@ -63,7 +63,7 @@ def match_more(
                 match.by_name.add(keys[0])
 
 
-def sure_rules(system: str, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
+def sure_rules(system: System, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
     """Yield the rules that need more than a name, the surest first.
 
     A system's numbers are compared only with a roster of the same system: in another list a small
@@ -71,17 +71,17 @@ def sure_rules(system: str, students: Sequence[Student], roster: Roster) -> Iter
     """
     if _has_numbers_of(system, roster):
         yield _by_number(students, roster)
-    if SYSTEMS[system].usernames:
+    if system.usernames:
         yield MatchRule(_username, _username)
         yield MatchRule(_tails, _username)
-    if not SYSTEMS[system].numbered:
+    if not system.numbered:
         for identifiers in (_id_number, _username, _email):
             yield MatchRule(_all_identifiers, identifiers)
         yield MatchRule(_all_identifiers, _key)
         yield MatchRule(_all_identifiers, _mailbox)
 
 
-def fallback_rules(system: str, roster: Roster) -> Iterator[MatchRule]:
+def fallback_rules(system: System, roster: Roster) -> Iterator[MatchRule]:
     """Yield the last rules to try: by the number of a student without a name, and by name."""
     if _has_numbers_of(system, roster):
         yield MatchRule(_number, _number, fits=_is_nameless)
@@ -89,7 +89,7 @@ def fallback_rules(system: str, roster: Roster) -> Iterator[MatchRule]:
 
 
 def rules_for_people(
-    system: str, students: Sequence[Student], roster: Roster
+    system: System, students: Sequence[Student], roster: Roster
 ) -> Iterator[MatchRule]:
     """Yield the rules to find the students of a class in a sheet."""
     if _has_numbers_of(system, roster):
@@ -99,8 +99,8 @@ def rules_for_people(
     yield from fallback_rules(system, roster)
 
 
-def _has_numbers_of(system: str, roster: Roster) -> bool:
-    return system == roster.kind and SYSTEMS[system].numbered
+def _has_numbers_of(system: System, roster: Roster) -> bool:
+    return system is roster.system and system.numbered
 
 
 def names_agree(own: Student, line: Student) -> bool:
@@ -122,7 +122,7 @@ def folded(name: str) -> str:
 def _by_number(students: Sequence[Student], roster: Roster) -> MatchRule:
     """Return the rule for the system's own number.
 
-    A Moodle group can have the number of a participant. So the names must agree if the roster has
+    A numbered group can have the number of a participant. So the names must agree if the roster has
     groups, or if most numbers have different names (more than renamed students would explain).
     """
     lines = {identifier: line for line in roster.students for identifier in _number(line)}
@@ -134,8 +134,8 @@ def _by_number(students: Sequence[Student], roster: Roster) -> MatchRule:
     ]
     agree = sum(names_agree(*pair) or _is_nameless(*pair) for pair in pairs)
     groups = any(line.group for line in roster.lines)
-    moodle = roster.kind == "moodle" and (groups or 2 * agree < len(pairs))
-    return MatchRule(_number, _number, fits=names_agree if moodle else None)
+    unsure = roster.form.numbers_groups and (groups or 2 * agree < len(pairs))
+    return MatchRule(_number, _number, fits=names_agree if unsure else None)
 
 
 def _is_nameless(own: Student, line: Student) -> bool:

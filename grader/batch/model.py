@@ -11,9 +11,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
-from typing import Literal, overload
+from typing import TYPE_CHECKING, Literal, overload
 
 from grader.report.model import Report
+
+if TYPE_CHECKING:
+    from grader.batch.systems.system import System
 
 EntryStatus = Literal["graded", "ungradable", "error", "missing", "elsewhere", "pending"]
 
@@ -78,7 +81,7 @@ class ClassFolder:
     `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
     """
 
-    system: str
+    system: System
     path: Path
     handed_in: tuple[HandedIn, ...]
     missing: tuple[Student, ...] = ()
@@ -162,7 +165,7 @@ class ClassResult:
 
     title: str
     assignment: str
-    system: str
+    system: System
     entries: tuple[GradebookEntry, ...]
     max_score: float
     distros: tuple[str, ...] = ()

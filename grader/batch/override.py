@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import getpass
 from collections.abc import Callable, Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 
 from grader.base.errors import UsageError
+from grader.base.nearest import nearest
 from grader.base.plain_text import one_line, points
 from grader.batch.find_student import find_student
 from grader.batch.ledger import Ledger
@@ -114,7 +114,7 @@ def _most(assignment: Assignment, check: str) -> float:
         return assignment.max_score
     worth = {use.id: use.points for use in assignment.checks}
     if check not in worth:
-        close = difflib.get_close_matches(check, worth, n=1)
-        hint = f"Did you mean '{close[0]}'?" if close else f"Checks: {', '.join(worth)}."
+        close = nearest(check, worth)
+        hint = f"Did you mean '{close}'?" if close else f"Checks: {', '.join(worth)}."
         raise UsageError(f"{assignment.id} has no check '{check}'", remedy=hint)
     return worth[check]

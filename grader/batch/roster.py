@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 
 from grader.base.errors import UsageError
+from grader.base.nearest import nearest
 from grader.base.plain_text import one_line
 from grader.base.shown import shown
 from grader.batch.decoded import AS_CSV, decoded
@@ -18,6 +18,7 @@ from grader.batch.roster_columns import KNOWN, RosterColumns, columns_of, form_o
 from grader.batch.roster_guess import EMAIL
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
+from grader.batch.systems.system import RosterForm, System
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 LARGEST = 20 * MEGABYTE
@@ -45,10 +46,10 @@ class RosterLine:
 
 @dataclass(frozen=True)
 class Roster:
-    """A class' students in the order of the file; `kind`: which system's numbers the keys are."""
+    """A class' students in the order of the file; `system`: whose numbers the keys are, if any."""
 
     lines: tuple[RosterLine, ...]
-    kind: str
+    system: System | None = None
     name: str = "the roster"
     notes: tuple[str, ...] = ()
 
@@ -56,6 +57,11 @@ class Roster:
     def students(self) -> tuple[Student, ...]:
         """The students of the lines."""
         return tuple(line.student for line in self.lines)
+
+    @property
+    def form(self) -> RosterForm:
+        """How a list of that system is read."""
+        return form_of(self.system)
 
 
 def read_roster(path: Path) -> Roster:
@@ -86,7 +92,7 @@ def read_roster(path: Path) -> Roster:
     left_out = sorted(set(range(1, len(sheet.rows))) - {line.row for line in roster.lines})
     numbers = [place(row).rpartition(":")[2] for row in left_out]
     notes = (found.note, *roster.notes, *_left_out(name, numbers))
-    return Roster(roster.lines, roster.kind, roster.name, tuple(note for note in notes if note))
+    return replace(roster, notes=tuple(note for note in notes if note))
 
 
 def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> Roster:
@@ -106,12 +112,12 @@ def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> 
     )
     guesses = ", ".join(one_line(guess, most=100) for guess in columns.guesses)
     notes = (f"{name}: columns with unknown names were recognised by their content: {guesses}",)
-    return Roster(lines, columns.kind, name, notes if guesses else ())
+    return Roster(lines, columns.system, name, notes if guesses else ())
 
 
 def _evidence(sheet: Sheet, row: int, columns: RosterColumns) -> str:
     """Return which submission or grade of a student the system knows, in words; "" if none."""
-    form = form_of(columns.kind)
+    form = columns.form
     cells = {field: _cell(sheet, row, columns, field) for field in form.fields}
     return form.evidence(cells)
 
@@ -151,7 +157,7 @@ def _student(sheet: Sheet, row: int, columns: RosterColumns) -> Student | None:
     if any(sheet.value(row, index).casefold() in NO_STUDENT for index in columns.of("name")):
         return None
     email, username, number = cell("email"), cell("username"), cell("id number")
-    form = form_of(columns.kind)
+    form = columns.form
     key = form.number(cell("key"))
     if form.is_identity:
         identifier, key = key, ""
@@ -193,9 +199,9 @@ def _no_columns(sheet: Sheet) -> str:
     if _has_no_header(sheet):
         return f"the first line must name the columns, but it has an email address: {names}"
     for name in sheet.header:
-        close = difflib.get_close_matches(name.casefold(), KNOWN, n=1, cutoff=0.7)
+        close = nearest(name, KNOWN, cutoff=0.7)
         if close:
-            return f"no column identifies a student: {names} (did you mean '{close[0]}'?)"
+            return f"no column identifies a student: {names} (did you mean '{close}'?)"
     return f"no column identifies a student: {names}"
 
 

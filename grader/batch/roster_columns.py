@@ -9,9 +9,7 @@ from grader.batch.roster_guess import PARTICIPANT_SYSTEM, guessed
 from grader.batch.sheet import Sheet, folded_header
 from grader.batch.systems.known import SYSTEMS
 from grader.batch.systems.moodle.words import TEAM
-from grader.batch.systems.system import RosterForm
-
-PLAIN = "plain"  # a roster that no system exported
+from grader.batch.systems.system import RosterForm, System
 
 NAMES: Mapping[str, tuple[str, ...]] = {
     "name": (
@@ -56,16 +54,21 @@ KNOWN = tuple(name for names in NAMES.values() for name in names)
 
 @dataclass(frozen=True)
 class RosterColumns:
-    """The columns of each field, the best one first, and which system exported them (or PLAIN).
+    """The columns of each field, the best one first, and which system exported them, if any.
 
     `guesses` describes the columns that were recognised by their content, `unknown` are those that
     were not recognised.
     """
 
-    kind: str
+    system: System | None
     fields: Mapping[str, tuple[int, ...]]
     guesses: tuple[str, ...] = ()
     unknown: tuple[int, ...] = ()
+
+    @property
+    def form(self) -> RosterForm:
+        """How a list of that system is read."""
+        return form_of(self.system)
 
     def of(self, field: str) -> tuple[int, ...]:
         """Return the columns that may contain a field."""
@@ -78,7 +81,7 @@ class RosterColumns:
         return any(self.of(field) for field in known)
 
 
-def columns_of(sheet: Sheet, *, exported: tuple[str, int] | None = None) -> RosterColumns:
+def columns_of(sheet: Sheet, *, exported: tuple[System, int] | None = None) -> RosterColumns:
     """Return the columns of a sheet, recognised by their names, or else by their content.
 
     `exported` is the system that exported the sheet, and the column of its identifiers, if known.
@@ -89,7 +92,7 @@ def columns_of(sheet: Sheet, *, exported: tuple[str, int] | None = None) -> Rost
         given = _named(header, ("이름",))
         fields["first name"] += given
         fields["name"] = tuple(index for index in fields["name"] if index not in given)
-    kind, key = _kind(sheet, header) if exported is None else exported
+    system, key = _exported_by(sheet, header) if exported is None else exported
     if key is not None:
         fields = {
             field: tuple(index for index in found if index != key)
@@ -100,18 +103,17 @@ def columns_of(sheet: Sheet, *, exported: tuple[str, int] | None = None) -> Rost
     guesses = guessed(sheet, unknown, {field for field, found in fields.items() if found})
     fields |= {field: (index,) for field, index in guesses.items()}
     if "key" in guesses:  # by its content: `Participant 123`
-        kind = PARTICIPANT_SYSTEM
-    form = form_of(kind)
+        system = SYSTEMS[PARTICIPANT_SYSTEM]
+    form = form_of(system)
     own = {field: _named(header, tuple(names)) for field, names in form.fields.items()}
     fields |= {field: columns or fields.get(field, ()) for field, columns in own.items()}
     described = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
     rest = tuple(index for index in unknown if index not in guesses.values())
-    return RosterColumns(kind, fields, tuple(described), rest)
+    return RosterColumns(system, fields, tuple(described), rest)
 
 
-def form_of(kind: str) -> RosterForm:
-    """Return how rosters of a kind are read."""
-    system = SYSTEMS.get(kind)
+def form_of(system: System | None) -> RosterForm:
+    """Return how a roster that a system exported is read; None: no system did."""
     return system.roster if system is not None and system.roster is not None else PLAIN_FORM
 
 
@@ -128,10 +130,10 @@ def _is_known(name: str) -> bool:
     return name in _FOLDED or any(form.is_header(name) for form in forms)
 
 
-def _kind(sheet: Sheet, header: list[str]) -> tuple[str, int | None]:
+def _exported_by(sheet: Sheet, header: list[str]) -> tuple[System | None, int | None]:
     """Return which system exported a sheet, and the column of that system's own identifier."""
     for system in SYSTEMS.values():
         found = system.roster.key(sheet, header) if system.roster is not None else None
         if found is not None:
-            return system.name, found.column
-    return PLAIN, None
+            return system, found.column
+    return None, None

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult, Elsewhere, OnRoster, Student
 from grader.batch.systems.known import sheet_forms
-from grader.batch.systems.system import OpenSheet
+from grader.batch.systems.system import OpenSheet, System
 from grader.course.assignment import Assignment
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class OpenSheets:
         """Notes about the files for the instructor."""
         return [note for sheet in self.by_output.values() for note in sheet.notes]
 
-    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
         """Return the students whose submission or grade is in a file, by key."""
         found: dict[str, Elsewhere] = {}
         for sheet in self.by_output.values():
@@ -61,7 +61,7 @@ class OpenSheets:
         """Return the grades in the files that would go down."""
         return [one for sheet in self.by_output.values() for one in sheet.lowered(result)]
 
-    def covered(self, students: Sequence[Student], system: str) -> Iterator[OnRoster]:
+    def covered(self, students: Sequence[Student], system: System) -> Iterator[OnRoster]:
         """Yield for each file how many of the students have a row in it."""
         for sheet in self.by_output.values():
             rows = sheet.match(students, system).rows

@@ -7,18 +7,15 @@ and affects no other student. The students' own archives are not unpacked.
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import json
-import os
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
 from grader.base.errors import SurroundingsError, UsageError
+from grader.base.lock import locked
 from grader.base.shown import shown
 from grader.batch.unpack_members import CLASS_LIMITS, ClassWriter
 from grader.package.intake.archive import members_of, parsing
@@ -54,7 +51,7 @@ def unpack_class(path: Path, root: Path) -> Unpacked:
         target = root / digest
         try:
             root.mkdir(parents=True, exist_ok=True, mode=0o700)
-            with _locked(root / f".{digest}.lock"):
+            with locked(root / f".{digest}.lock"):
                 return _existing(target) or _unpacked(file, path, target)
         except OSError as error:
             raise SurroundingsError(
@@ -69,17 +66,6 @@ def _digest(file: IO[bytes]) -> str:
         digest.update(chunk)
     file.seek(0)
     return digest.hexdigest()
-
-
-@contextmanager
-def _locked(path: Path) -> Iterator[None]:
-    """Hold an exclusive lock; the kernel releases it if the process is killed."""
-    handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(handle)
 
 
 def _existing(target: Path) -> Unpacked | None:

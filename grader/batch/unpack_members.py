@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import errno
-import os
 import shutil
 from collections import Counter
 from pathlib import Path
 from typing import IO
 
+from grader.base.safe_open import create_file
 from grader.base.shown import shown
 from grader.package.intake.archive import TWICE
 from grader.package.intake.archive_limits import ArchiveLimits
@@ -123,12 +123,7 @@ class ClassWriter:
         if member.mode is None:
             self.modes_recorded = False
         executable = bool((member.mode or 0) & 0o100)
-        handle = os.open(
-            place,
-            os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW,
-            0o700 if executable else 0o600,
-        )
-        with os.fdopen(handle, "wb") as out:
+        with create_file(place, 0o700 if executable else 0o600) as out:
             why = self._fill(out, member)
         if why:
             place.unlink()

@@ -25,10 +25,11 @@ from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.package.submission import Submission, take_in
 from grader.report.model import CheckResult
+from grader.verdict.checks.all import STATIC
 from grader.verdict.fix import FixPlan, fix_all, fix_files
 from grader.verdict.mark import grade
 from grader.verdict.order import Order
-from grader.verdict.static import STATIC, static_results
+from grader.verdict.static import static_results
 
 Notify = Callable[[str], None]
 STYLES = {"+": "green", "-": "red", "@": "cyan", "d": "bold"}

@@ -12,7 +12,7 @@ from grader.base.i18n.translator import errors_in
 from grader.batch.accept import accepted
 from grader.batch.override import LEDGER
 from grader.batch.sheets import SheetOptions
-from grader.batch.systems.known import READABLE, sheet_forms
+from grader.batch.systems.known import DOWNLOADS, sheet_forms
 from grader.cli import options
 from grader.publish import class_run
 from grader.verdict.order import make_orders
@@ -50,7 +50,7 @@ def _sheets(command: Callable[..., int]) -> Callable[..., int]:
     "--system",
     default="auto",
     show_default=True,
-    help=f"Where the class comes from: {', '.join(READABLE)}.",
+    help=f"Where the class comes from: {', '.join(DOWNLOADS)}.",
 )
 @click.option(
     "--workers", type=click.IntRange(min=1), help="The number of submissions to mark at once."

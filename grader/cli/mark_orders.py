@@ -11,6 +11,7 @@ from grader.base.i18n.message import say, say_plural
 from grader.base.i18n.translator import Translator
 from grader.report import files, terminal
 from grader.report.model import Report
+from grader.verdict.checks.all import QUOTES
 from grader.verdict.mark import grade
 from grader.verdict.order import Order
 
@@ -31,6 +32,7 @@ def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hi
         if len(orders) == 1:
             terminal.print_report(
                 report,
+                quotes=QUOTES,
                 file=sys.stdout,
                 verbose=verbose,
                 show_hidden=show_hidden,

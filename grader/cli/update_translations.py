@@ -17,7 +17,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 import click
-from babel.messages.catalog import Catalog
+from babel.messages.catalog import Catalog, Message
 from babel.messages.extract import extract_from_file
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
@@ -49,7 +49,7 @@ def templates() -> Iterator[tuple[str, str]]:
         for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
             yield str(found), _place(path)
     for check in CHECKS.values():
-        yield check.title, "grader/verdict/checks/all.py"
+        yield check.title, f"{check.function.__module__.replace('.', '/')}.py"
 
 
 def plurals() -> Iterator[tuple[tuple[str, str], str]]:
@@ -129,6 +129,12 @@ def _before(renamed: Mapping[str, str], marked: Collection[str]) -> dict[str, st
     return {new: old for old, new in renamed.items()}
 
 
+def is_translated(message: Message) -> bool:
+    """Whether a text, and each form of one with a count, has a translation."""
+    text = message.string
+    return bool(text) and (isinstance(text, str) or all(text or ()))
+
+
 def po_bytes(catalog: Catalog) -> bytes:
     """Return the text of a .po file."""
     out = io.BytesIO()
@@ -155,15 +161,15 @@ def main(renamed: Path | None) -> None:
     for lang in LANGUAGES:
         if lang == SOURCE:
             continue
-        before = len([m for m in read(lang) if m.id and m.string])
+        before = sum(is_translated(message) for message in read(lang) if message.id)
         catalog = collect(lang, texts)
         path = po_path(lang)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(po_bytes(catalog))
         path.with_suffix(".mo").write_bytes(mo_bytes(catalog))
-        left = [str(message.id) for message in catalog if message.id and not message.string]
+        left = sum(not is_translated(message) for message in catalog if message.id)
         print(
-            f"{lang}: {len(catalog)} texts, {len(left)} of them not translated "
+            f"{lang}: {len(catalog)} texts, {left} of them not translated "
             f"({before} were translated before, {len(texts)} renamed)"
         )
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from grader.base.positioned_yaml import read_yaml
 from grader.course.assignment import Assignment
-from grader.course.check_ids import CHECK_IDS
 from grader.course.rules import check_content, merge_hidden
 
 
@@ -17,18 +16,18 @@ def load_assignment(
     path: Path,
     *,
     hidden: Path | None = None,
-    known_checks: Iterable[str] = CHECK_IDS,
+    known_checks: Iterable[str] | None = None,
     known_limits: Iterable[str] | None = None,
 ) -> Assignment:
     """Load `assignment.yaml`, and the instructor's file of hidden checks if there is one.
 
     `hidden` is a YAML file with `checks: […]`; their visibility is `hidden` unless they set
-    another. `known_checks` are the allowed check ids (default: the built-in checks),
-    `known_limits` the allowed keys of `limits:` (default: any).
+    another. `known_checks` are the allowed ids of checks, `known_limits` the allowed keys of
+    `limits:` (default: any; the loader knows neither).
 
     Raises AssignmentError; each line of its message reads `file:line: what is wrong`.
     """
-    ids = tuple(known_checks)
+    ids = None if known_checks is None else tuple(known_checks)
     limits = None if known_limits is None else tuple(known_limits)
     document = read_yaml(path)
     assignment = check_content(document, known_checks=ids, known_limits=limits)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import keyword
 import math
 import re
@@ -10,6 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from pydantic import BaseModel, ConfigDict
 
+from grader.base.nearest import meant_or_known
 from grader.base.positioned_yaml import Document, Loc
 from grader.base.yaml_model import Fault, error_of, validated
 from grader.course.assignment import Assignment, CheckUse, Output
@@ -44,7 +44,10 @@ class HiddenChecks(BaseModel):
 
 
 def check_content(
-    document: Document, *, known_checks: Sequence[str], known_limits: Sequence[str] | None
+    document: Document,
+    *,
+    known_checks: Sequence[str] | None,
+    known_limits: Sequence[str] | None,
 ) -> Assignment:
     """Return the assignment in a document; AssignmentError lists all faults."""
     content = document.content
@@ -67,7 +70,11 @@ def check_content(
 
 
 def merge_hidden(
-    assignment: Assignment, document: Document, hidden: Document, *, known_checks: Sequence[str]
+    assignment: Assignment,
+    document: Document,
+    hidden: Document,
+    *,
+    known_checks: Sequence[str] | None,
 ) -> Assignment:
     """Return the assignment with the hidden checks added after the visible ones."""
     extra = validated(hidden, HiddenChecks, _keys(HiddenChecks)).checks
@@ -129,24 +136,23 @@ def _output(output: Output) -> Iterator[Fault]:
 def _limits(limits: dict[str, float], known: Sequence[str] | None) -> Iterator[Fault]:
     for name, value in limits.items():
         if known is not None and name not in known:
-            close = difflib.get_close_matches(name, known, n=1)
-            hint = f" (did you mean '{close[0]}'?)" if close else f"; known: {', '.join(known)}"
-            yield ("limits", name), f"unknown limit '{name}'{hint}"
+            yield ("limits", name), f"unknown limit '{name}'{meant_or_known(name, known)}"
         if not (value > 0 and math.isfinite(value)):
             yield ("limits", name), f"limits.{name} must be a number above 0, not {value:g}"
 
 
 def _check_uses(
-    uses: Sequence[CheckUse], known: Sequence[str], taken: Sequence[str] = ()
+    uses: Sequence[CheckUse], known: Sequence[str] | None, taken: Sequence[str] = ()
 ) -> Iterator[Fault]:
     if not uses and not taken:
         yield ("checks",), "checks is empty: an assignment needs at least one check"
     seen = set(taken)
     for i, use in enumerate(uses):
-        if use.id not in known:
-            close = difflib.get_close_matches(use.id, known, n=1)
-            hint = f" (did you mean '{close[0]}'?)" if close else f"; known: {', '.join(known)}"
-            yield ("checks", i, "id"), f"unknown check '{use.id}'{hint}"
+        if known is not None and use.id not in known:
+            yield (
+                ("checks", i, "id"),
+                f"unknown check '{use.id}'{meant_or_known(use.id, known)}",
+            )
         elif use.id in seen:
             yield ("checks", i, "id"), f"the check '{use.id}' is listed twice"
         seen.add(use.id)

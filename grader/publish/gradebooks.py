@@ -13,7 +13,6 @@ from pathlib import Path
 from grader.base.folder import Folder
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.sheet import Filled
-from grader.batch.systems.known import SYSTEMS
 from grader.batch.systems.system import Columns, OpenSheet
 from grader.publish.feedback import html_page, short_html
 from grader.publish.gradebook_csv import gradebook_csv
@@ -52,7 +51,7 @@ def write_outputs(
     }
     for name, sheet in (sheets or {}).items():
         made[name] = partial(sheet.filled, result, comment)
-    new = SYSTEMS[result.system].gradebook
+    new = result.system.gradebook
     if new is not None and new.output not in made:
         names = defaultdict(str, columns or {})
         made[new.output] = partial(new.write, result, comment, names)

@@ -121,10 +121,11 @@ class Outputs:
 
     def _digest(self, result: ClassResult) -> str:
         """Return the hash of everything that the files depend on."""
-        bare = replace(result, entries=(), started=None, seconds=0)
+        bare = vars(replace(result, entries=(), started=None, seconds=0))
         entries = [asdict(replace(e, report=None)) for e in result.entries]
         sheets = [asdict(self.sheets), self.known.sheets.digest]
-        parts = [asdict(bare), entries, sheets, source_digest(PACKAGE)]
+        of_class = {**bare, "system": result.system.name}
+        parts = [of_class, entries, sheets, source_digest(PACKAGE)]
         text = json.dumps(parts, default=str, sort_keys=True).encode()
         return hashlib.sha256(text).hexdigest()
 

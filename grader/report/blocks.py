@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -11,7 +11,7 @@ from grader.base.plain_text import first_lines, last_lines, one_line, points
 from grader.report.page import CheckRow
 
 if TYPE_CHECKING:
-    from grader.report.model import CheckResult, Evidence
+    from grader.report.model import CheckResult, Evidence, Quote
     from grader.report.page import Page
 
 MARKS = {
@@ -29,8 +29,6 @@ WORDS = {
     "error": say("could not be checked"),
 }
 UNSEEN = say("a hidden check")
-# what a node prints when it is stopped does not concern these
-BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
 
 
 def row(check: CheckResult) -> CheckRow:
@@ -138,15 +136,20 @@ class Excerpt:
     text: str
 
 
-def evidence_of(check: CheckResult, evidence: Evidence) -> Excerpt | None:
-    """Return the excerpt that shows why a check failed; None if there is none."""
-    stage = check.id.partition(".")[0]
-    if check.status != "failed" or stage in ("package", "source"):
+def evidence_of(
+    check: CheckResult, evidence: Evidence, quotes: Mapping[str, Quote]
+) -> Excerpt | None:
+    """Return the excerpt that shows why a check failed; None if there is none.
+
+    `quotes` has what each check quotes, by its id.
+    """
+    quote = quotes.get(check.id)
+    if check.status != "failed" or quote is None:
         return None
-    if stage == "build":
+    if quote == "build_log":
         return Excerpt("build_log", say("colcon build printed"), evidence.build_log)
     before, pressed, _ = evidence.transcript.partition("\n^C")
-    if pressed and check.id in BEFORE_CTRL_C:
+    if pressed and quote == "before_ctrl_c":
         return Excerpt("transcript", say("ros2 run printed before Ctrl+C"), before)
     return Excerpt("transcript", say("ros2 run printed"), evidence.transcript)
 

@@ -15,6 +15,8 @@ CheckStatus = Literal["passed", "failed", "skipped", "inconclusive", "error"]
 Visibility = Literal["visible", "hidden", "after_due_date"]
 Origin = Literal["directory", "zip", "tar", "git"]
 Modes = Literal["recorded", "unknown"]
+Quote = Literal["build_log", "transcript", "before_ctrl_c"]
+"""What of `Evidence` shows why a check failed; `before_ctrl_c` is that part of the transcript."""
 LIMITS_MET = ("build.timeout", "build.resource", "run.resource", "run.too_much_output")
 """The mistakes by which a limit on the submission ended what it did."""
 

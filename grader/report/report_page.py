@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say, say_plural
@@ -14,7 +14,7 @@ from grader.report.page import Page
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from grader.report.model import CheckResult, Report
+    from grader.report.model import CheckResult, Quote, Report
 
 LINES, LINES_VERBOSE = 12, 200  # per text
 CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
@@ -23,19 +23,20 @@ CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
 def report_page(
     report: Report,
     *,
+    quotes: Mapping[str, Quote],
     width: int,
     styled: bool,
     verbose: bool,
     show_hidden: bool,
     path: Path | None,
 ) -> str:
-    """Return the page as a string; it depends on the arguments alone."""
+    """Return the page as a string; it depends on the arguments alone (see `render_report`)."""
     page = Page(width=width, styled=styled, translate=Translator(report.lang))
     checks = [c for c in report.checks if show_hidden or c.visibility == "visible"]
     lines = LINES_VERBOSE if verbose else LINES
     _head(page, report)
     _table(page, report, checks)
-    quoted = _blocks(page, report, checks, lines)
+    quoted = _blocks(page, report, checks, quotes, lines)
     _skipped(page, report, checks)
     _advice(page, checks)
     if verbose:
@@ -103,7 +104,11 @@ def _counts(checks: Sequence[CheckResult]) -> str:
 
 
 def _blocks(
-    page: Page, report: Report, checks: Sequence[CheckResult], lines: int
+    page: Page,
+    report: Report,
+    checks: Sequence[CheckResult],
+    quotes: Mapping[str, Quote],
+    lines: int,
 ) -> frozenset[str]:
     """Write the block of each check that did not pass; return the titles of the quoted texts."""
     quoted: set[str] = set()
@@ -112,7 +117,7 @@ def _blocks(
             continue
         page.gap()
         block(page, check, lines=lines)
-        found = evidence_of(check, report.evidence)
+        found = evidence_of(check, report.evidence, quotes)
         if found is not None and found.text.strip() and found.title not in quoted:
             quoted.add(found.title)
             quotation(page, found.text, found.title, lines=lines)

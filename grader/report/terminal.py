@@ -7,7 +7,7 @@ that takes styles. rich is imported when the first page is rendered, not before.
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TextIO
 
 from grader.base.gate import show
@@ -17,7 +17,7 @@ from grader.report.live import LiveProgress
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from grader.report.model import Report
+    from grader.report.model import Quote, Report
 
 __all__ = ["LiveProgress", "print_matrix", "print_report", "render_matrix", "render_report"]
 
@@ -25,6 +25,7 @@ __all__ = ["LiveProgress", "print_matrix", "print_report", "render_matrix", "ren
 def render_report(
     report: Report,
     *,
+    quotes: Mapping[str, Quote],
     width: int = 80,
     styled: bool = False,
     verbose: bool = False,
@@ -33,13 +34,20 @@ def render_report(
 ) -> str:
     """Return the page of a report, `width` columns wide; ASCII except for the report's own text.
 
-    `verbose` adds versions, limits, times and the whole evidence. Checks that are not `visible`
+    `quotes` has what of the evidence each check quotes, by its id. `verbose` adds versions, limits,
+    times and the whole evidence. Checks that are not `visible`
     are only counted, unless `show_hidden`. `path` is where the report was written.
     """
     from grader.report.report_page import report_page  # noqa: PLC0415 - rich costs 35 ms
 
     return report_page(
-        report, width=width, styled=styled, verbose=verbose, show_hidden=show_hidden, path=path
+        report,
+        quotes=quotes,
+        width=width,
+        styled=styled,
+        verbose=verbose,
+        show_hidden=show_hidden,
+        path=path,
     )
 
 
@@ -63,6 +71,7 @@ def render_matrix(
 def print_report(
     report: Report,
     *,
+    quotes: Mapping[str, Quote],
     file: TextIO | None = None,
     verbose: bool = False,
     show_hidden: bool = False,
@@ -72,6 +81,7 @@ def print_report(
     file = file or sys.stdout
     text = render_report(
         report,
+        quotes=quotes,
         width=width_of(file),
         styled=takes_styles(file),
         verbose=verbose,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import joined, say
+from grader.base.nearest import did_you_mean
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -70,9 +70,7 @@ def find_distro(name: str) -> Distro:
     known = distros()
     if name in known:
         return known[name]
-    close = difflib.get_close_matches(name.lower(), known, n=1)
-    hint = say("did you mean '{word}'?", word=close[0]) if close else ""
     raise UsageError(
         say("'{name}' is not a ROS 2 distro that the grader knows", name=name),
-        remedy=joined(hint, say("Known: {names}.", names=", ".join(known))),
+        remedy=joined(did_you_mean(name, known), say("Known: {names}.", names=", ".join(known))),
     )

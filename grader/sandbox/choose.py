@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.i18n.message import joined, say
+from grader.base.nearest import did_you_mean
 from grader.ros import image_build, images
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError
@@ -27,10 +27,11 @@ DOCKER_SOCKET = Path("/var/run/docker.sock")
 def check_name(name: str) -> None:
     """Raise UsageError (with a "did you mean") if no sandbox has that name."""
     if name not in NAMES:
-        close = difflib.get_close_matches(name.lower(), NAMES, n=1)
-        hint = say("did you mean '{name}'?", name=close[0]) if close else ""
         known = say("Sandboxes: {names}.", names=", ".join(NAMES))
-        raise UsageError(say("there is no sandbox '{name}'", name=name), remedy=joined(hint, known))
+        raise UsageError(
+            say("there is no sandbox '{name}'", name=name),
+            remedy=joined(did_you_mean(name, NAMES), known),
+        )
 
 
 def open_sandbox(

@@ -7,12 +7,12 @@ output extends.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import joined, say
+from grader.base.nearest import did_you_mean
 
 MEGABYTE = 1_000_000
 RUNS = 2  # that fit into a verdict: a run, and a second one to confirm it
@@ -63,11 +63,10 @@ class Limits:
         """Return a copy with other values; UsageError for an unknown name or a value <= 0."""
         for name, value in values.items():
             if name not in UNITS:
-                close = difflib.get_close_matches(name, UNITS, n=1)
-                hint = say("did you mean '{word}'?", word=close[0]) if close else ""
+                known = say("Limits: {names}.", names=", ".join(UNITS))
                 raise UsageError(
                     say("there is no limit '{name}'", name=name),
-                    remedy=joined(hint, say("Limits: {names}.", names=", ".join(UNITS))),
+                    remedy=joined(did_you_mean(name, UNITS), known),
                 )
             if not value > 0:
                 number = f"{value:g}"

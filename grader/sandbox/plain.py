@@ -9,7 +9,6 @@ not protect from anything: it is for your own code.
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import random
 import re
@@ -25,6 +24,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
+from grader.base.lock import HeldError, take_lock
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE, Role
 from grader.sandbox.cgroups import Group, open_group
@@ -263,15 +263,9 @@ def _lock_domain() -> tuple[int, int]:
     for domain in random.sample(DOMAINS, len(DOMAINS)):
         place = Path(tempfile.gettempdir()) / f"ros2-grader-domain-{domain}.lock"
         try:
-            lock = os.open(place, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
-        except OSError:
-            continue  # it belongs to another user
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(lock)
-        else:
-            return domain, lock
+            return domain, take_lock(place, waits=False)
+        except (HeldError, OSError):
+            continue  # (OSError: it belongs to another user)
     raise SurroundingsError("other graders use every ROS domain id of this machine")
 
 

@@ -22,9 +22,10 @@ from grader.package.edit.tree import (
     text_of,
 )
 from grader.validate.spots import misspelt
+from grader.verdict.checks.all import FAMILIES
 
 Made = tuple[str, tuple[Edit, ...], tuple[str, ...]]
-ANY = ("package.", "source.", "build.", "entry_point.", "run.")
+ANY = FAMILIES
 MANIFEST = "package.xml"
 SETUP = "setup.py"
 CFG = "setup.cfg"

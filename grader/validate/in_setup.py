@@ -12,8 +12,9 @@ from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
 from grader.validate.in_source import Made
 from grader.validate.spots import Code, misspelt
+from grader.verdict.checks.all import FAMILIES
 
-ANY = ("package.", "source.", "build.", "entry_point.", "run.")
+ANY = FAMILIES
 ENTRY = ("entry_point.mapping", "build.colcon")
 # the other arguments of setup() are descriptive and do not affect the build
 DECISIVE = ("name", "packages", "data_files", "entry_points")

@@ -11,9 +11,11 @@ from itertools import pairwise
 
 from grader.course.assignment import Assignment
 from grader.validate.spots import Code, misspelt
+from grader.verdict.checks.all import FAMILIES
 
 Made = tuple[str, str, tuple[str, ...]]
-ANY = ("run.", "source.", "entry_point.")
+NOT_CODE = ("package.", "build.")  # what the node's code is does not concern these
+ANY = tuple(family for family in FAMILIES if family not in NOT_CODE)
 TEXTS = ("run.output", "run.node_name", "run.starts")
 COUNTS = ("run.output", "run.period", "run.starts")
 LEVELS = ("debug", "warning", "error")

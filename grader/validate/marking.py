@@ -17,12 +17,10 @@ from grader.package.edit.tree import Tree, write_tree
 from grader.package.submission import Submission, take_in
 from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult, CheckStatus
-from grader.verdict.checks.all import CHECKS
+from grader.verdict.checks.all import CHECKS, STATIC
 from grader.verdict.order import Order
 from grader.verdict.static import evaluate_static
 
-# the stages of the checks that need no build
-STATIC_STAGES = ("package", "source", "entry_point")
 UNDECIDED = ("inconclusive", "error")
 
 
@@ -72,8 +70,7 @@ def submit_path(path: Path, order: Order) -> Submission:
 
 def mark_files(submission: Submission, order: Order) -> Marked:
     """Mark a package by its files only, up to the first check that needs a build."""
-    only = [check for check in CHECKS if check.partition(".")[0] in STATIC_STAGES]
-    results = evaluate_static(submission, order.assignment, only=only, lang=order.lang)
+    results = evaluate_static(submission, order.assignment, only=STATIC, lang=order.lang)
     return _marked(itertools.takewhile(lambda result: result.status not in UNDECIDED, results))
 
 

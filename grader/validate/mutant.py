@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from grader.base.errors import AssignmentError
 from grader.package.edit.tree import Edit, EditError, Tree, apply_all
-
-STATIC = ("package.", "source.")
+from grader.verdict.checks.all import STATIC
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,9 +34,7 @@ class Mutant:
     @property
     def may_be_static(self) -> bool:
         """Whether its files could be sufficient to decide it."""
-        return not self.equivalent and any(
-            family.startswith((*STATIC, "entry_point.mapping")) for family in self.families
-        )
+        return not self.equivalent and any(self.is_hit_by(check) for check in STATIC)
 
     def is_hit_by(self, check_id: str) -> bool:
         """Whether a failure of this check is expected."""

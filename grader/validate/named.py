@@ -23,7 +23,6 @@ from __future__ import annotations
 
 import base64
 import binascii
-import difflib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -40,6 +39,7 @@ from pydantic import (
 )
 
 from grader.base.errors import AssignmentError
+from grader.base.nearest import nearest
 from grader.base.positioned_yaml import Document, Loc, read_yaml
 from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, validated
 from grader.mistakes.kind import Kind
@@ -353,5 +353,5 @@ def _faults(
 
 
 def _hint(word: str, known: Iterable[str]) -> str:
-    close = difflib.get_close_matches(word, list(known), n=1)
-    return f": did you mean '{close[0]}'?" if close else ""
+    close = nearest(word, known)
+    return f": did you mean '{close}'?" if close else ""

@@ -14,7 +14,8 @@ from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
-from grader.verdict.static import STATIC, static_findings
+from grader.verdict.checks.all import STATIC
+from grader.verdict.static import static_findings
 
 MOST_STEPS = 30
 """The most fixes of one package: each mistake needs one, and a package has 16 checks."""

@@ -27,14 +27,6 @@ from grader.verdict.fix import patch_for
 from grader.verdict.order import Order
 from grader.verdict.recording import Recording, evidence_of, record
 
-STAGES = {
-    "package": ("intake", say("looking at the package")),
-    "source": ("intake", say("looking at the package")),
-    "build": ("build", say("building with colcon")),
-    "entry_point": ("build", say("building with colcon")),
-    "run": ("run", say("running the node")),
-}
-
 
 def grade(order: Order, listener: events.Listener) -> model.Report:
     """Mark one submission on one distro.
@@ -179,12 +171,11 @@ class _Stages:
         self._begin = 0.0
 
     def announce(self, assigned: AssignedCheck) -> None:
-        stage, title = STAGES[assigned.check.id.partition(".")[0]]
-        if stage != self._stage:
+        check, stage = assigned.check, assigned.check.stage
+        if stage.name != self._stage:
             self.finish()
-            self._stage, self._begin = stage, time.monotonic()
-            self._listener(events.StageStarted(stage, self._translate(title)))
-        check = assigned.check
+            self._stage, self._begin = stage.name, time.monotonic()
+            self._listener(events.StageStarted(stage.name, self._translate(stage.title)))
         self._listener(
             events.CheckStarted(check.id, self._translate(check.title), assigned.visibility)
         )

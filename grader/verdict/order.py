@@ -15,6 +15,7 @@ from grader.course.load import load_assignment
 from grader.ros.distro import Distro, find_distro
 from grader.sandbox.choose import check_name
 from grader.sandbox.limits import UNITS, Limits
+from grader.verdict.checks.all import CHECKS
 
 HIDDEN = "hidden.yaml"
 
@@ -97,7 +98,7 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
 
 def load_visible(assignment: str | None) -> Assignment:
     """Load an assignment without its hidden checks; see `make_orders` for `assignment`."""
-    return load_assignment(assignment_file(assignment), known_limits=tuple(UNITS))
+    return _load(assignment_file(assignment))
 
 
 def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
@@ -111,7 +112,7 @@ def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assign
         raise UsageError(say("there is no folder {path}", path=str(keys)))
     hidden = folder / HIDDEN if folder is not None else None
     there = hidden is not None and hidden.is_file()
-    loaded = load_assignment(file, hidden=hidden if there else None, known_limits=tuple(UNITS))
+    loaded = _load(file, hidden=hidden if there else None)
     if loaded.hidden_checks and not there:
         raise UsageError(
             say(
@@ -123,3 +124,7 @@ def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assign
             remedy=say("Give the folder that has {name} with --keys.", name=HIDDEN),
         )
     return loaded
+
+
+def _load(file: Path, *, hidden: Path | None = None) -> Assignment:
+    return load_assignment(file, hidden=hidden, known_checks=CHECKS, known_limits=UNITS)

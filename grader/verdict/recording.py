@@ -8,10 +8,18 @@ fixes and the report work on it as they do on a build and a run; nothing is exec
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from dataclasses import asdict
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PlainSerializer,
+    PlainValidator,
+    TypeAdapter,
+    ValidationError,
+)
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import Message, say
@@ -33,6 +41,40 @@ class RecordingError(UsageError):
     """A recording cannot be read, or is of another submission or assignment."""
 
 
+def _run_as_json(run: Run) -> dict[str, Any]:
+    """Return a run as a JSON value.
+
+    The lists of a Watch share events, and which event is in which list matters: `seen` has each
+    event once, and the lists hold indices into it.
+    """
+    lists = {name: getattr(run.watch, name) for name in EVENT_LISTS}
+    seen = list({id(event): event for events in lists.values() for event in events}.values())
+    place = {id(event): index for index, event in enumerate(seen)}
+    found: dict[str, Any] = asdict(run)
+    found["watch"] |= {name: [place[id(e)] for e in events] for name, events in lists.items()}
+    found["watch"]["seen"] = EVENTS.dump_python(seen, mode="json")
+    note = run.watch.note
+    found["watch"]["note"] = note.template if isinstance(note, Message) else note
+    return found
+
+
+def _run_from_json(value: Any) -> Run:
+    if isinstance(value, Run):
+        return value
+    watch = dict(value["watch"])
+    seen = EVENTS.validate_python(watch.pop("seen"))
+    lists = {name: [seen[index] for index in watch.pop(name)] for name in EVENT_LISTS}
+    note = watch.pop("note")
+    run = RUN.validate_python({**value, "watch": Watch(**watch)})
+    for name, events in lists.items():
+        setattr(run.watch, name, events)
+    run.watch.note = say(note) if note else ""
+    return run
+
+
+RecordedRun = Annotated[Run, PlainValidator(_run_from_json), PlainSerializer(_run_as_json)]
+
+
 class _Part(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -50,7 +92,7 @@ class Recording(_Part):
     """What one build and one run showed.
 
     `build` and `run` are None if no check needed them; `unobserved` is the reason if the run was
-    tried and could not be observed. `run` is a `Run`, its events listed once (see `_run_as_json`).
+    tried and could not be observed. In JSON, `run` lists its events once (see `_run_as_json`).
     """
 
     schema_: Literal[1] = Field(default=1, alias="schema")
@@ -58,7 +100,7 @@ class Recording(_Part):
     submission: str = Field(description="the SHA-256 of the submission, its modes included")
     environment: Environment
     build: Build | None = None
-    run: dict[str, Any] | None = None
+    run: RecordedRun | None = None
     unobserved: str = ""
 
     def to_bytes(self) -> bytes:
@@ -72,20 +114,9 @@ class Recording(_Part):
     def from_bytes(cls, content: bytes, *, name: str = "the recording") -> Recording:
         """Read a recording; `name` is for the message of a RecordingError."""
         try:
-            recording = cls.model_validate_json(content)
-            if recording.run is not None:
-                _run_from_json(recording.run)
+            return cls.model_validate_json(content)
         except (ValidationError, LookupError, TypeError, ValueError) as error:
             raise RecordingError(f"{name} is not a recording of schema 1: {error}") from None
-        return recording
-
-
-@dataclass(frozen=True)
-class Recorded:
-    """The evidence of a recording, and the environment in which it was recorded."""
-
-    evidence: Evidence
-    environment: Environment
 
 
 def record(evidence: Evidence, environment: Environment) -> Recording:
@@ -95,7 +126,7 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         submission=evidence.submission.sha256,
         environment=environment,
         build=evidence.build if evidence.was_built else None,
-        run=_run_as_json(evidence.run) if evidence.has_run else None,
+        run=evidence.run if evidence.has_run else None,
         unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
     )
 
@@ -121,7 +152,7 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
             raise Unobserved(recording.unobserved)
         if recording.run is None:
             raise RecordingError("the recording has no run")
-        return _run_from_json(recording.run)
+        return recording.run
 
     return Evidence(assignment, submission, build=build, run=run)
 
@@ -141,32 +172,3 @@ def _asked(assignment: Assignment) -> Asked:
         executable=assignment.executable,
         output=assignment.output,
     )
-
-
-def _run_as_json(run: Run) -> dict[str, Any]:
-    """Return a run as a JSON value.
-
-    The lists of a Watch share events, and which event is in which list matters: `seen` has each
-    event once, and the lists hold indices into it.
-    """
-    lists = {name: getattr(run.watch, name) for name in EVENT_LISTS}
-    seen = list({id(event): event for events in lists.values() for event in events}.values())
-    place = {id(event): index for index, event in enumerate(seen)}
-    found: dict[str, Any] = asdict(run)
-    found["watch"] |= {name: [place[id(e)] for e in events] for name, events in lists.items()}
-    found["watch"]["seen"] = EVENTS.dump_python(seen, mode="json")
-    note = run.watch.note
-    found["watch"]["note"] = note.template if isinstance(note, Message) else note
-    return found
-
-
-def _run_from_json(value: dict[str, Any]) -> Run:
-    watch = dict(value["watch"])
-    seen = EVENTS.validate_python(watch.pop("seen"))
-    lists = {name: [seen[index] for index in watch.pop(name)] for name in EVENT_LISTS}
-    note = watch.pop("note")
-    run = RUN.validate_python({**value, "watch": Watch(**watch)})
-    for name, events in lists.items():
-        setattr(run.watch, name, events)
-    run.watch.note = say(note) if note else ""
-    return run

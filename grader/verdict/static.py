@@ -16,19 +16,6 @@ from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Inconclusive
 
-STATIC = frozenset(
-    {
-        "package.manifest",
-        "package.marker",
-        "package.setup_cfg",
-        "source.node_file",
-        "source.exec_bit",
-        "source.shebang",
-        "entry_point.mapping",
-    }
-)
-"""The checks that the files decide and that a fix can be tried on."""
-
 
 def evaluate_static(
     submission: Submission,

@@ -47,7 +47,7 @@ def test_a_clone_is_identified_by_the_part_after_the_assignments_name(tmp_path: 
         repository(root / f"hello-time-{user}")
     write(root / "mail-max", package())
     found = found_in(root)
-    assert found.system == "github_classroom"
+    assert found.system.name == "github_classroom"
     ann, joe, max_ = found.handed_in
     assert (ann.student.key, ann.student.username) == ("hello-time-ann-lee", "ann-lee")
     assert joe.student.username == "joe"

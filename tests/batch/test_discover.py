@@ -52,7 +52,7 @@ def test_each_folder_and_each_archive_is_one_student(course: Path, tmp_path: Pat
     found = found_in(course, tmp_path)
     assert keys(found) == ["ann lee", "joe", "zoë"]
     assert [given.student.name for given in found.handed_in] == ["ann lee", "joe", "zoë"]
-    assert (found.system, found.path, found.missing) == ("folders", course, ())
+    assert (found.system.name, found.path, found.missing) == ("folders", course, ())
     assert submission_of(found, "zoë").path == course / "zoë.tar.gz"
     for work in found.handed_in:
         assert take(work.path).problem == ""
@@ -65,7 +65,7 @@ def test_a_folder_of_archives_is_recognised_as_one(tmp_path: Path) -> None:
     for name in ("jane.zip", "joe.tar.xz"):
         (tmp_path / name).write_bytes(zipped(package()))
     found = found_in(tmp_path, tmp_path)
-    assert (found.system, keys(found)) == ("archives", ["jane", "joe"])
+    assert (found.system.name, keys(found)) == ("archives", ["jane", "joe"])
 
 
 def test_an_archive_without_an_extension_is_detected_by_content(
@@ -192,9 +192,9 @@ def test_an_unknown_system_is_a_usage_error(course: Path, tmp_path: Path) -> Non
 
 def test_a_system_can_be_forced(tmp_path: Path) -> None:
     write(tmp_path / "c" / "Jane Roe_12_assignsubmission_file", package())
-    assert found_in(tmp_path / "c", tmp_path).system == "moodle"
+    assert found_in(tmp_path / "c", tmp_path).system.name == "moodle"
     found = found_in(tmp_path / "c", tmp_path, "folders")
-    assert (found.system, keys(found)) == ("folders", ["Jane Roe_12_assignsubmission_file"])
+    assert (found.system.name, keys(found)) == ("folders", ["Jane Roe_12_assignsubmission_file"])
     assert "as requested" in notes_of(found)
 
 

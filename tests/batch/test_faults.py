@@ -23,6 +23,7 @@ from grader.batch.run import (
     make_plan,
 )
 from grader.batch.sandbox_proof import prove
+from grader.batch.systems.known import FOLDERS
 from grader.batch.work import Answer, Done, Job, Task
 from grader.package.submission import Submission, take_in
 from grader.publish.feedback import html_page
@@ -84,7 +85,7 @@ def a_class(folder: Path, count: int) -> ClassFolder:
         place = package("solution", folder, called=name)
         (place / "my_robot_controller" / "who.txt").write_text(name)
         handed_in.append(HandedIn(Student(name, name.upper()), place))
-    return ClassFolder("folders", folder, tuple(handed_in))
+    return ClassFolder(FOLDERS, folder, tuple(handed_in))
 
 
 def run(ledger: Ledger, folder: ClassFolder, pool: FailingPool) -> ClassPlan:

@@ -15,6 +15,7 @@ from grader.base.errors import UsageError
 from grader.batch.discover import discover
 from grader.batch.model import ClassFolder, HandedIn, Student
 from grader.batch.roster import Roster, read_roster
+from grader.batch.systems.known import SYSTEMS
 
 from .archives import package, repository, write
 
@@ -50,7 +51,7 @@ def roster(tmp_path: Path, content: str | bytes, name: str = "roster.csv") -> Ro
 
 def test_moodles_worksheet_is_read_with_participant_numbers(tmp_path: Path) -> None:
     found = roster(tmp_path, MOODLE)
-    assert found.kind == "moodle"
+    assert found.system is SYSTEMS["moodle"]
     assert found.students == (
         Student("11", "Ann Lee", "ann@school.edu", "", "4711", "Blue"),
         Student("12", "Zoë Roe", "zoe@school.edu", "", "4712", "Red"),
@@ -64,14 +65,15 @@ def test_moodles_worksheet_in_another_language_is_read_too(tmp_path: Path) -> No
         "Identifikator;Vollständiger Name;E-Mail-Adresse;Bewertung\r\n"
         "Teilnehmer/in12;Zoë Roe;zoe@school.edu;\r\n",
     )
-    assert (found.kind, found.students) == ("moodle", (Student("12", "Zoë Roe", "zoe@school.edu"),))
+    assert found.system is SYSTEMS["moodle"]
+    assert found.students == (Student("12", "Zoë Roe", "zoe@school.edu"),)
     found = roster(tmp_path, "Идентификатор,Имя,Почта\nУчастник 3,Анна Ли,anna@school.edu\n")
     assert found.students == (Student("3", "Анна Ли", "anna@school.edu"),)
 
 
 def test_canvas_gradebook_is_read_without_points_row_and_test_student(tmp_path: Path) -> None:
     found = roster(tmp_path, CANVAS)
-    assert found.kind == "canvas"
+    assert found.system is SYSTEMS["canvas"]
     assert found.students == (
         Student("101", "Ann Lee", "", "alee", "4711", "Lab 1"),
         Student("102", "Zoë Roe", "", "zroe", "4712", "Lab 2"),

@@ -10,6 +10,7 @@ import pytest
 from grader.base.errors import UsageError
 from grader.batch.model import Student
 from grader.batch.roster import Roster, read_roster
+from grader.batch.systems.known import SYSTEMS
 from grader.batch.systems.moodle.words import says_submitted
 from grader.batch.systems.moodle.worksheet import read_worksheet
 from tests.batch.downloads import ENGLISH, FINNISH, KOREAN, Words, people, worksheet
@@ -56,7 +57,7 @@ def test_moodles_worksheet_in_korean_is_read(
     class_[1] = replace(class_[1], grade="55.00")
     (tmp_path / "roster.csv").write_bytes(worksheet(class_, words, encoding=encoding, bom=bom))
     found = read_roster(tmp_path / "roster.csv")
-    assert found.kind == "moodle"
+    assert found.system is SYSTEMS["moodle"]
     assert found.students == tuple(
         Student(str(p.number), p.name, p.email, "", p.id_number) for p in class_
     )
@@ -75,7 +76,7 @@ def test_columns_with_unknown_names_are_recognised_by_content(tmp_path: Path) ->
     class_ = [replace(p, submitted=n != 2) for n, p in enumerate(people(5))]
     (tmp_path / "roster.csv").write_bytes(worksheet(class_, FINNISH))
     found = read_roster(tmp_path / "roster.csv")
-    assert found.kind == "moodle"
+    assert found.system is SYSTEMS["moodle"]
     assert found.students == tuple(
         Student(str(p.number), p.name, p.email, "", p.id_number) for p in class_
     )

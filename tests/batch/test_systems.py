@@ -63,7 +63,7 @@ def test_moodles_folders_are_identified_by_participant_number(tmp_path: Path, wa
         },
         way,
     )
-    assert found.system == "moodle"
+    assert found.system.name == "moodle"
     assert [(given.student.key, given.student.name) for given in found.handed_in] == [
         ("123", "Ann 2 Lee"),
         ("9", "Max Ray"),
@@ -162,7 +162,7 @@ def test_a_folder_added_by_the_instructor_is_marked(tmp_path: Path, way: str) ->
     (mail,) = by_key(found)["by mail"]
     assert is_marked(mail)
     assert "not named as in Moodle" in notes_of(mail)
-    assert found.system == "moodle"
+    assert found.system.name == "moodle"
 
 
 # Canvas
@@ -180,7 +180,7 @@ def test_canvas_files_are_identified_by_user_number(tmp_path: Path, way: str) ->
         },
         way,
     )
-    assert found.system == "canvas"
+    assert found.system.name == "canvas"
     keys = by_key(found)
     (jane,), (joe,), (max_,), (zoe,) = keys["101"], keys["102"], keys["103"], keys["104"]
     assert [given.student.name for given in (jane, joe)] == ["doejane", "roe_joe"]
@@ -299,7 +299,7 @@ def test_gradescopes_export_has_names_and_times(tmp_path: Path, way: str, top: s
     for number in (71, 72, 73, 75):
         files |= below(f"{top}submission_{number}", package())
     found = downloaded(tmp_path, files, way)
-    assert found.system == "gradescope"
+    assert found.system.name == "gradescope"
     keys = by_key(found)
     assert sorted(keys) == ["0123", "4711", "9", "joe@school.edu", "submission_73", "submission_75"]
     (zoe,), (ann,), (joe,) = keys["0123"], keys["4711"], keys["joe@school.edu"]

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
 from grader.batch.systems.canvas.write import new_gradebook
+from grader.batch.systems.known import SYSTEMS
 from tests.gradebook.fill import fill_gradebook
 from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.pages import classes
@@ -58,7 +59,7 @@ def canvas_reads(content: bytes) -> tuple[list[str], list[list[str]]]:
 
 def hello(*numbers: int, **fields: object) -> ClassResult:
     entries = [classes.entry(n, samples.report(), **fields) for n in numbers]
-    return classes.result(entries, title="Hello time", system="canvas")
+    return classes.result(entries, title="Hello time", system=SYSTEMS["canvas"])
 
 
 @pytest.mark.parametrize("column", ["", "Hello time", TASK, "4711"])
@@ -96,7 +97,7 @@ def test_semicolons_and_decimal_commas_stay() -> None:
 def test_missing_and_pending_students_get_nothing_and_unknown_ones_are_named(
     mixed: ClassResult,
 ) -> None:
-    result = dataclasses.replace(mixed, title="Hello time", system="canvas")
+    result = dataclasses.replace(mixed, title="Hello time", system=SYSTEMS["canvas"])
     before = export(POSSIBLE, *(student(n) for n in range(23)))
     filled = fill_gradebook(before, result)
     header, rows = canvas_reads(filled.content)
@@ -108,7 +109,7 @@ def test_missing_and_pending_students_get_nothing_and_unknown_ones_are_named(
 
 
 def test_a_class_of_another_system_is_matched_by_login() -> None:
-    result = dataclasses.replace(hello(1), system="folders")
+    result = dataclasses.replace(hello(1), system=SYSTEMS["folders"])
     filled = fill_gradebook(export(POSSIBLE, student(0), student(1)), result)
     assert filled.content == export(POSSIBLE, student(0), student(1, "100"))
 
@@ -137,7 +138,7 @@ def test_an_unusable_gradebook_is_refused(content: bytes, column: str, output: s
 @settings(max_examples=60, deadline=None)
 @given(st.lists(texts, min_size=1, max_size=3))
 def test_a_new_gradebook_can_be_read_by_canvas(found: list[str]) -> None:
-    result = dataclasses.replace(hostile_class(*found), system="canvas", title="Hello")
+    result = dataclasses.replace(hostile_class(*found), system=SYSTEMS["canvas"], title="Hello")
     header, rows = canvas_reads(new_gradebook(result))
     assert header[5:] == ["Hello"]
     assert [row[1] for row in rows] == [entry.student.key for entry in result.entries]

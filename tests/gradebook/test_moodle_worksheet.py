@@ -11,6 +11,7 @@ from hypothesis import given, settings
 
 from grader.base.errors import UsageError
 from grader.batch.model import ClassResult
+from grader.batch.systems.known import SYSTEMS
 from tests.gradebook.fill import fill_worksheet
 from tests.gradebook.hostile_texts import hostile_class, texts
 from tests.pages import classes
@@ -121,7 +122,7 @@ def test_a_student_outside_the_worksheet_is_named() -> None:
 
 
 def test_a_class_of_another_system_is_matched_by_email_not_by_number() -> None:
-    result = dataclasses.replace(class_of_one(1), system="folders")
+    result = dataclasses.replace(class_of_one(1), system=SYSTEMS["folders"])
     swapped = (
         english(0, 1)
         .replace(b"Participant 1001", b"Participant 1")

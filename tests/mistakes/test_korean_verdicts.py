@@ -10,11 +10,11 @@ from rich.cells import cell_len
 
 from grader.report import events
 from grader.report.model import CheckResult, Report
-from grader.report.terminal import render_report
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.recorded import mark
+from tests.report.samples import render_report
 from tests.report.samples import report as sample_report
 
 # one mistake of each kind: intake, manifest, setup.py, source, build, start, callback, text

@@ -7,7 +7,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.base.i18n.translator import Translator
-from grader.base.nearest import compared, marks, meant, nearest, with_difference
+from grader.base.nearest import (
+    compared,
+    did_you_mean,
+    marks,
+    meant,
+    meant_or_known,
+    nearest,
+    with_difference,
+)
 
 
 @pytest.mark.parametrize(
@@ -70,3 +78,13 @@ def test_a_name_is_near_regardless_of_case() -> None:
     assert "'main'" in meant("main")
     assert "main" in Translator("ko")(meant("main"))
     assert "mean" not in Translator("ko")(meant("main"))
+
+
+def test_an_unknown_word_is_answered_with_the_nearest_or_with_all_known_ones() -> None:
+    known = ("docker", "bubblewrap", "none")
+    assert did_you_mean("Bubblewarp", known) == "did you mean 'bubblewrap'?"
+    assert did_you_mean("xyz", known) == ""
+    assert meant_or_known("dokcer", known) == " (did you mean 'docker'?)"
+    assert meant_or_known("xyz", known) == "; known: docker, bubblewrap, none"
+    assert "docker" in Translator("ko")(did_you_mean("dokcer", known))
+    assert "mean" not in Translator("ko")(did_you_mean("dokcer", known))

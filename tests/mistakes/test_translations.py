@@ -12,6 +12,7 @@ import click
 import pytest
 from babel.messages.catalog import Catalog
 from babel.messages.extract import extract_from_file
+from click.testing import CliRunner
 
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import LANGUAGES
@@ -141,3 +142,20 @@ def test_a_map_of_renamed_texts_that_does_not_match_the_source_is_refused(
     monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
     with pytest.raises(UsageError, match=reason):
         update.collect("ko", renamed)
+
+
+def test_a_text_with_a_count_that_has_no_translation_is_counted(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    known = Catalog(locale="ko")
+    known.add("Fix the line.", "그 줄을 고치십시오.")
+    known.add(("1 line", "{count} lines"), ("{count}줄",))
+    pairs = [("1 line", "{count} lines"), ("1 check", "{count} checks")]
+    monkeypatch.setattr(update, "FOLDER", tmp_path)
+    monkeypatch.setattr(update, "read", lambda lang: known)
+    monkeypatch.setattr(update, "templates", lambda: iter([("Fix the line.", "grader/a.py")]))
+    monkeypatch.setattr(update, "plurals", lambda: iter([(pair, "grader/a.py") for pair in pairs]))
+    done = CliRunner().invoke(update.main, [])
+    assert done.output == (
+        "ko: 3 texts, 1 of them not translated (2 were translated before, 0 renamed)\n"
+    )

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from grader.batch.model import ClassResult, GradebookEntry, Override, Student
+from grader.batch.systems.known import SYSTEMS
 from grader.report.model import CheckResult, Report
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -59,7 +60,7 @@ def result(entries: Sequence[GradebookEntry], **fields: Any) -> ClassResult:
     usual: dict[str, Any] = {
         "title": "Robotics 1, winter term",
         "assignment": "hello_time",
-        "system": "moodle",
+        "system": SYSTEMS["moodle"],
         "entries": tuple(entries),
         "max_score": 100,
         "distros": ("jazzy",),

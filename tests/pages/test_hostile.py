@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from grader.batch.model import ClassResult, GradebookEntry, Override, Student
+from grader.batch.systems.known import FOLDERS
 from grader.publish.pages import write_site
 from grader.publish.pages.names import page_names
 from tests.pages import classes
@@ -72,7 +73,7 @@ def hostile_class(texts: list[str]) -> ClassResult:
     return ClassResult(
         title=everything,
         assignment=everything,
-        system="folders",
+        system=FOLDERS,
         entries=tuple(entries),
         max_score=100,
         distros=(everything,),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from grader.report.terminal import print_matrix, print_report
-from tests.report.samples import failing_report
+from grader.report.terminal import print_matrix
+from tests.report.samples import failing_report, print_report
 
 
 def main() -> None:

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from grader.report import terminal
 from grader.report.model import CheckResult, Mistake, Report, Where
+from grader.verdict.checks.all import QUOTES
+
+render_report = partial(terminal.render_report, quotes=QUOTES)
+print_report = partial(terminal.print_report, quotes=QUOTES)
 
 TITLES = {
     "package.found": ("The package is there", 5),

@@ -14,9 +14,9 @@ from rich.cells import cell_len
 from grader.base.i18n.message import Message
 from grader.base.plain_text import first_lines, last_lines, one_line, visible
 from grader.report.model import Report
-from grader.report.terminal import render_matrix, render_report
+from grader.report.terminal import render_matrix
 from tests.marking_catalogue import MarkingCatalogue
-from tests.report.samples import check, report
+from tests.report.samples import check, render_report, report
 
 OUR_STYLES = re.compile(r"\x1b\[[0-9;]*m")
 SURVIVING = ("\n",)

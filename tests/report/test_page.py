@@ -8,8 +8,15 @@ from pathlib import Path
 import pytest
 
 from grader.report.page import Page
-from grader.report.terminal import render_report
-from tests.report.samples import COMMAND, TITLES, check, failing_report, misspelt_module, report
+from tests.report.samples import (
+    COMMAND,
+    TITLES,
+    check,
+    failing_report,
+    misspelt_module,
+    render_report,
+    report,
+)
 
 
 def words(text: str) -> str:
@@ -118,6 +125,16 @@ def test_a_long_log_is_shown_from_its_traceback_to_its_end() -> None:
     assert "| Traceback (most recent call last):" in page
     assert "|   frame 0" in page
     assert "| ValueError: no" in page
+
+
+def test_a_mistake_in_the_count_is_shown_without_what_ctrl_c_made_the_node_print() -> None:
+    output = "[INFO] [1.0] [my_first_node]: Hello World\n^CTraceback: KeyboardInterrupt"
+    evidence = {"build_log": "B", "transcript": output}
+    page = render_report(report(check("run.output", "failed"), evidence=evidence))
+    assert "| [INFO] [1.0] [my_first_node]: Hello World" in page
+    assert "KeyboardInterrupt" not in page
+    page = render_report(report(check("run.interrupt", "failed"), evidence=evidence))
+    assert "KeyboardInterrupt" in page
 
 
 def test_a_static_mistake_shows_no_logs() -> None:

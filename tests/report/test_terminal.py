@@ -11,9 +11,8 @@ import pexpect
 import pytest
 from rich.cells import cell_len
 
-from grader.report.terminal import print_report, render_report
 from tests.report.pseudo_terminal import ROOT, STYLES, on_a_terminal, piped
-from tests.report.samples import COMMAND, failing_report
+from tests.report.samples import COMMAND, failing_report, print_report, render_report
 
 
 def shown(columns: int = 80, env: dict[str, str] | None = None) -> str:
@@ -99,8 +98,7 @@ def test_the_events_and_the_renderer_import_neither_pydantic_nor_rich() -> None:
 
 def test_printing_imports_only_the_parts_of_rich_that_it_needs() -> None:
     code = (
-        "import sys; from tests.report.samples import failing_report\n"
-        "from grader.report.terminal import print_report\n"
+        "import sys; from tests.report.samples import failing_report, print_report\n"
         "print_report(failing_report(), file=sys.stderr)\n"
         "heavy = {'live', 'progress', 'markdown', 'syntax', 'traceback', 'logging', 'pretty'}\n"
         "print(sorted(name for name in heavy if f'rich.{name}' in sys.modules), "

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-import difflib
 import pkgutil
 from collections.abc import Mapping
 from importlib import import_module
 from types import MappingProxyType
 
 from grader.base.errors import UsageError
+from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.batch import systems
 from grader.batch.systems import plain
 from grader.batch.systems.layout import Layout
-from grader.batch.systems.system import Reader, ReportForm, SheetForm, System
+from grader.batch.systems.system import Download, ReportForm, SheetForm, System
 
 # without a system: named by the students or the instructor
 FOLDERS = System(
     name="folders",
     title="a folder of folders",
-    download="a folder for each student, named after the student",
-    reader=plain,
+    download=Download("a folder for each student, named after the student", plain),
     group_folders=True,
 )
 ARCHIVES = System(
     name="archives",
     title="one archive for each student",
-    download="an archive for each student, named after the student",
-    reader=plain,
+    download=Download("an archive for each student, named after the student", plain),
     group_folders=True,
 )
 
@@ -42,15 +40,15 @@ def _found() -> list[System]:
 SYSTEMS: Mapping[str, System] = MappingProxyType(
     {system.name: system for system in (*_found(), FOLDERS, ARCHIVES)}
 )
-READABLE: Mapping[str, System] = MappingProxyType(
-    {name: system for name, system in SYSTEMS.items() if system.download}
+DOWNLOADS: Mapping[str, Download] = MappingProxyType(
+    {name: system.download for name, system in SYSTEMS.items() if system.download is not None}
 )
 NAMED_BY_HAND = (FOLDERS.name, ARCHIVES.name)
 
 
 def layouts() -> str:
     """Return what `grade-all` can read, as a sentence."""
-    known = "; ".join(f"{system.download} ({name})" for name, system in READABLE.items())
+    known = "; ".join(f"{download.title} ({name})" for name, download in DOWNLOADS.items())
     return f"Known are: {known}."
 
 
@@ -65,39 +63,36 @@ def report_forms() -> dict[str, ReportForm]:
     return {word: form for system in SYSTEMS.values() for word, form in system.reports.items()}
 
 
-def reader_of(system: System) -> Reader:
-    """Return what reads a system's download."""
-    assert system.reader is not None
-    return system.reader
-
-
 def check_system(name: str) -> None:
     """Raise UsageError (with a "did you mean") if no system has that name."""
-    if name == "auto" or name in READABLE:
+    if name == "auto" or name in DOWNLOADS:
         return
-    close = difflib.get_close_matches(name.lower(), READABLE, n=1)
-    hint = f"did you mean '{close[0]}'? " if close else ""
-    known = ", ".join(("auto", *READABLE))
+    close = nearest(name, DOWNLOADS)
+    hint = f"did you mean '{close}'? " if close else ""
+    known = ", ".join(("auto", *DOWNLOADS))
     raise UsageError(f"no system '{shown(name)}'", remedy=f"{hint}Known: {known}.")
 
 
 def is_named_as_in(system: str, layout: Layout) -> bool:
     """Whether a folder has the names of the system (of any, for "auto")."""
     return any(
-        reader_of(record).recognise(layout)
-        for name, record in READABLE.items()
+        download.reader.recognise(layout)
+        for name, download in DOWNLOADS.items()
         if name not in NAMED_BY_HAND and system in ("auto", name)
     )
 
 
-def recognised(system: str, layout: Layout) -> System | None:
+def recognised(system: str, layout: Layout) -> tuple[System, Download] | None:
     """Return the system that a folder is from, or the one that was asked for; None if none fits."""
-    if system != "auto":
-        return READABLE[system]
-    for record in READABLE.values():
-        if reader_of(record).recognise(layout):
-            if record.name not in NAMED_BY_HAND:
-                return record
+    name = system if system != "auto" else _recognised_name(layout)
+    return (SYSTEMS[name], DOWNLOADS[name]) if name else None
+
+
+def _recognised_name(layout: Layout) -> str:
+    for name, download in DOWNLOADS.items():
+        if download.reader.recognise(layout):
+            if name not in NAMED_BY_HAND:
+                return name
             archives = all(item.kind == "archive" for item in layout.submissions())
-            return ARCHIVES if archives else FOLDERS
-    return None
+            return ARCHIVES.name if archives else FOLDERS.name
+    return ""

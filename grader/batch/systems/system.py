@@ -43,10 +43,10 @@ class OpenSheet(Protocol):
     def notes(self) -> tuple[str, ...]:
         """Notes about the file for the instructor."""
 
-    def match(self, students: Sequence[Student], system: str) -> Match:
+    def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the roster line of each student, by key."""
 
-    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
         """Return the students whose submission or grade is in the file, by key."""
 
     def lowered(self, result: ClassResult) -> list[Lowered]:
@@ -97,6 +97,7 @@ class RosterForm:
 
     `key` returns the key's column if a sheet with this folded header is the system's. `number`
     returns the identifier in a key's cell; `is_identity`: that is an email address or an id number.
+    `numbers_groups`: the list names the system's groups, which have numbers as participants have.
     `fields` are further columns by their headers, from which `evidence` says which submission or
     grade of a student the system has ("" if none). `is_header`: whether a folded header is one of
     the system's.
@@ -105,18 +106,27 @@ class RosterForm:
     key: Callable[[Sheet, Sequence[str]], RosterKey | None]
     number: Callable[[str], str] = str
     is_identity: bool = False
+    numbers_groups: bool = False
     fields: Mapping[str, Collection[str]] = field(default_factory=dict)
     is_header: Callable[[str], bool] = frozenset[str]().__contains__
     evidence: Callable[[Mapping[str, str]], str] = _none
+
+
+@dataclass(frozen=True)
+class Download:
+    """What `grade-all` reads from a system: `title` describes it, `reader` reads it."""
+
+    title: str
+    reader: Reader
 
 
 @dataclass(frozen=True, kw_only=True)
 class System:
     """A learning management system; its folder has the same name as it.
 
-    `title` names it on pages. `download` describes what `grade-all` reads from it ("": nothing),
-    `reader` reads it. Of several systems that recognise a folder or a roster, the one
-    with the highest `priority` is taken. `numbered`: the download and the roster have the same
+    `title` names it on pages. `download` is what `grade-all` reads from it (None: nothing). Of
+    several systems that recognise a folder or a roster, the one with the highest `priority` is
+    taken. `numbered`: the download and the roster have the same
     number for a student. `group_folders`: the download has one folder for each group. `usernames`:
     its folders end with the username. `keeps_modes`: exec bits survive. `sheet` and `gradebook` are
     the files for grades, `reports` the forms of one report by the word for `grader convert`.
@@ -125,8 +135,7 @@ class System:
     name: str
     title: str
     priority: int = 0
-    download: str = ""
-    reader: Reader | None = None
+    download: Download | None = None
     numbered: bool = False
     group_folders: bool = False
     usernames: bool = False

@@ -1,9 +1,9 @@
 """Write changed files to the student's own copy: all or nothing, and never outside the package.
 
-Every folder of a path is opened without following links (openat(2), O_NOFOLLOW), so no link in
-the package leads out of it, not even one that is created during the write. A new file is written
-next to the old one and renamed over it; the old bytes stay in `<name>.~1~`, a backup as
-`cp --backup=numbered` makes it (intake leaves such files out).
+Every folder of a path is opened without following links (`safe_open`), so no link in the package
+leads out of it, not even one that is created during the write. A new file is written next to the
+old one and renamed over it; the old bytes stay in `<name>.~1~`, a backup as `cp --backup=numbered`
+makes it (intake leaves such files out).
 """
 
 from __future__ import annotations
@@ -18,13 +18,11 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import joined, say
+from grader.base.safe_open import create_file, open_file, open_folder
 from grader.base.shown import shown
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile
 
-FOLDER = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
-FILE = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 MOST_BACKUPS = 1000
 NOTHING_WRITTEN = say("Nothing was written.")
 IS_NEW = say("it did not exist when the package was read")
@@ -101,7 +99,7 @@ def _refused(path: str, reason: str, *, not_restored: Sequence[str] = ()) -> Usa
 @contextmanager
 def _package(root: Path) -> Iterator[int]:
     try:
-        top = os.open(root, FOLDER)
+        top = open_folder(root)
     except OSError as error:
         raise _refused(str(root), error.strerror or say("it cannot be opened")) from None
     try:
@@ -122,7 +120,7 @@ def _folder_of(top: int, path: str, *, make: bool = False) -> Iterator[tuple[int
             if make:
                 with suppress(FileExistsError):
                     os.mkdir(part, dir_fd=at)
-            inner = os.open(part, FOLDER, dir_fd=at)
+            inner = open_folder(part, inside=at)
             os.close(at)
             at = inner
         yield at, name
@@ -152,7 +150,7 @@ def _check(top: int, change: Change) -> None:
 
 
 def _bytes(folder: int, name: str, expected: int) -> bytes:
-    with os.fdopen(os.open(name, FILE, dir_fd=folder), "rb") as file:
+    with open_file(name, inside=folder) as file:
         return file.read(expected + 1)
 
 
@@ -194,11 +192,8 @@ def _write(top: int, begun: _Begun) -> None:
 
 
 def _chmod(folder: int, name: str, mode: int) -> None:
-    handle = os.open(name, FILE, dir_fd=folder)
-    try:
-        os.fchmod(handle, mode & 0o777)
-    finally:
-        os.close(handle)
+    with open_file(name, inside=folder) as file:
+        os.fchmod(file.fileno(), mode & 0o777)
 
 
 def _move(top: int, source: str, path: str) -> None:
@@ -211,7 +206,7 @@ def _move(top: int, source: str, path: str) -> None:
 
 def _put(folder: int, name: str, found: bytes, like: os.stat_result | None) -> None:
     """Write a new file with the mode and, if allowed, the owner of `like`."""
-    with os.fdopen(os.open(name, NEW, 0o644, dir_fd=folder), "wb") as file:
+    with create_file(name, 0o644, inside=folder) as file:
         file.write(found)
         file.flush()
         like = like or os.fstat(folder)

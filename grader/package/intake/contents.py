@@ -69,7 +69,7 @@ class _Reader:
         found = self._tree.place.read(entry.path, MOST_FILE_BYTES)
         if isinstance(found, Unread):
             self._tree.left_out.add(
-                say("without its content, as {reason}", reason=found.reason), entry.path
+                say("without its content ({reason})", reason=found.reason), entry.path
             )
             return SourceFile(path, "file", entry.mode, unreadable=True, reason=found.reason)
         self._bytes += len(found)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-import stat
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
+from grader.base import safe_open
 from grader.base.i18n.message import say
 
 MEGABYTE = 1_000_000
@@ -27,17 +27,10 @@ def larger_than(limit: int) -> Unread:
 
 def open_file(path: Path) -> IO[bytes] | Unread:
     """Open a regular file for reading; never follows a link, never waits."""
-    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     try:
-        handle = os.open(path, flags)
+        return safe_open.open_file(path)
     except OSError as error:
-        return Unread(
-            say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
-        )
-    if not stat.S_ISREG(os.fstat(handle).st_mode):
-        os.close(handle)
-        return Unread(say("it is not a regular file"))
-    return os.fdopen(handle, "rb")
+        return _unread(error)
 
 
 def read_bytes(path: Path, limit: int) -> bytes | Unread:
@@ -51,8 +44,10 @@ def read_bytes(path: Path, limit: int) -> bytes | Unread:
                 return larger_than(limit)
             found = file.read(limit + 1)
     except OSError as error:
-        return Unread(
-            say("it cannot be read ({reason})", reason=error.strerror or type(error).__name__)
-        )
+        return _unread(error)
     # (the limit also stops a file that grows while it is read, or reports no size)
     return larger_than(limit) if len(found) > limit else found
+
+
+def _unread(error: OSError) -> Unread:
+    return Unread(error.strerror or type(error).__name__)

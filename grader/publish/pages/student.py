@@ -17,6 +17,7 @@ from grader.publish.pages.overview import shown
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
+from grader.verdict.checks.all import QUOTES
 
 FIELD_LINES, FIELD_CHARACTERS = 30, 1_000
 LOG_LINES, LOG_CHARACTERS = 2_000, 2_000  # a report has 40,000 characters of each
@@ -100,7 +101,7 @@ def _check(
     if check.status == "skipped":
         names = [o.id if o.id in visible else UNSEEN for o in roots(check, entry.report.checks)]
         because = [translate(name) for name in dict.fromkeys(names)]
-    found = evidence_of(check, entry.report.evidence)
+    found = evidence_of(check, entry.report.evidence, QUOTES)
     log = ""
     if found is not None and getattr(entry.report.evidence, found.log).strip():
         log = ANCHORS[found.log]

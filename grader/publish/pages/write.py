@@ -10,7 +10,6 @@ from pathlib import Path
 from grader.base.folder import Folder
 from grader.base.plain_text import one_line
 from grader.batch.model import ClassResult, GradebookEntry
-from grader.batch.systems.known import SYSTEMS
 from grader.batch.words import STATES, duration, instant
 from grader.publish.pages import overview
 from grader.publish.pages.charts import histogram
@@ -148,7 +147,7 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
 def _about(result: ClassResult) -> list[str]:
     distros = f"ROS 2 {', '.join(result.distros)}" if result.distros else ""
     took = f"took {duration(result.seconds)}" if result.seconds else ""
-    source = f"from {SYSTEMS[result.system].title}"
+    source = f"from {result.system.title}"
     parts = (result.assignment, source, distros, instant(result.started), took)
     return [part for part in parts if part]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.report.model import Where
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -17,7 +17,13 @@ NEVER_CALLED = "was never called"
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
 
-@check("build.colcon", depends=["package.found"])
+@check(
+    "build.colcon",
+    stage=BUILD,
+    depends=["package.found"],
+    after=["package.manifest", "package.marker", "package.setup_cfg", "entry_point.mapping"],
+    quotes="build_log",
+)
 def colcon_builds(evidence: Evidence) -> Passed:
     """`colcon build` builds and installs the package."""
     build = evidence.build

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import compared
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -20,7 +20,13 @@ LOST = 1.0  # seconds before a node ended, whose log records may be lost
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
-@check("run.output", depends=["run.starts"])
+@check(
+    "run.output",
+    stage=RUN,
+    depends=["run.starts"],
+    after=["run.node_name"],
+    quotes="before_ctrl_c",
+)
 def output(evidence: Evidence) -> Passed:
     """The node counts: the right text, in the right order, one line each time."""
     run, wanted = evidence.run, evidence.assignment.output
@@ -138,7 +144,13 @@ def _difference(wanted: str, found: str) -> str:
     return compared(found, wanted) or repr(found[:200])
 
 
-@check("run.logger", depends=["run.starts"])
+@check(
+    "run.logger",
+    stage=RUN,
+    depends=["run.starts"],
+    after=["run.output"],
+    quotes="before_ctrl_c",
+)
 def logger(evidence: Evidence) -> Passed:
     """The lines go through the node's own logger."""
     run = evidence.run

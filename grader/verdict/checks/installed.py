@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.report.model import Where
 from grader.verdict.checks.build import setup_error
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.outcome import Blocked, Failed, Passed
@@ -19,7 +19,13 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 
-@check("entry_point.mapping", depends=["package.found"])
+@check(
+    "entry_point.mapping",
+    stage=BUILD,
+    needs="files",  # (if setup.py computes the entry point, the build decides)
+    depends=["package.found"],
+    quotes="transcript",
+)
 def mapping(evidence: Evidence) -> Passed:
     """setup.py maps the executable's name to the function that starts the node."""
     passed = mapping_from_source(evidence)
@@ -50,7 +56,13 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
     )
 
 
-@check("entry_point.executable", depends=["build.colcon"])
+@check(
+    "entry_point.executable",
+    stage=BUILD,
+    depends=["build.colcon"],
+    after=["package.setup_cfg", "entry_point.mapping"],
+    quotes="transcript",
+)
 def executable(evidence: Evidence) -> Passed:
     """The executable is where `ros2 run` looks for it."""
     package, name = evidence.assignment.package, evidence.assignment.executable

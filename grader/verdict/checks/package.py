@@ -11,7 +11,7 @@ from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_
 from grader.package.source.setup_py import INDEX
 from grader.package.source.values import Computed, Listing, Text, Value
 from grader.report.model import Where
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.manifest import check_manifest
 from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 
-@check("package.found")
+@check("package.found", stage=INTAKE)
 def found(evidence: Evidence) -> Passed:
     """There is one package to mark."""
     submission, package = evidence.submission, evidence.assignment.package
@@ -42,13 +42,13 @@ def found(evidence: Evidence) -> Passed:
     return Passed(actual=actual, advice=submission.hints)
 
 
-@check("package.manifest", depends=["package.found"])
+@check("package.manifest", stage=INTAKE, depends=["package.found"])
 def manifest(evidence: Evidence) -> Passed:
     """package.xml is valid, its name is the package's, and its build type is ament_python."""
     return check_manifest(evidence)
 
 
-@check("package.marker", depends=["package.found"])
+@check("package.marker", stage=INTAKE, depends=["package.found"])
 def marker(evidence: Evidence) -> Passed:
     """The marker file by which ROS finds the package exists and is installed."""
     package = evidence.assignment.package
@@ -136,7 +136,7 @@ def _installed_in(data_files: Value | None, folder: str) -> tuple[list[Text], bo
     return found, all_known
 
 
-@check("package.setup_cfg", depends=["package.found"])
+@check("package.setup_cfg", stage=INTAKE, depends=["package.found"])
 def setup_cfg(evidence: Evidence) -> Passed:
     """setup.cfg installs executables where `ros2 run` looks."""
     package = evidence.assignment.package

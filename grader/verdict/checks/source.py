@@ -11,7 +11,7 @@ from grader.base.shown import shown
 from grader.mistakes.hints import hints
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.report.model import Where
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -26,7 +26,7 @@ PYTHON3 = re.compile(
 )
 
 
-@check("source.node_file", depends=["package.found"])
+@check("source.node_file", stage=INTAKE, depends=["package.found"])
 def node_file(evidence: Evidence) -> Passed:
     """The node's file is in the inner folder, and Python can read it."""
     path = node_path(evidence)
@@ -140,7 +140,7 @@ def _node(evidence: Evidence) -> SourceFile:
     return file
 
 
-@check("source.exec_bit", depends=["package.found"])
+@check("source.exec_bit", stage=INTAKE, depends=["package.found"])
 def exec_bit(evidence: Evidence) -> Passed:
     """The node's file is executable."""
     path, name = node_path(evidence), evidence.assignment.node_file
@@ -172,7 +172,7 @@ def exec_bit(evidence: Evidence) -> Passed:
     )
 
 
-@check("source.shebang", depends=["package.found"])
+@check("source.shebang", stage=INTAKE, depends=["package.found"])
 def shebang(evidence: Evidence) -> Passed:
     """The node's file begins with a line that names Python 3."""
     file = _node(evidence)

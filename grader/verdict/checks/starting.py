@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
@@ -18,7 +18,13 @@ OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTI
 SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, modulo 256
 
 
-@check("run.starts", depends=["entry_point.executable"])
+@check(
+    "run.starts",
+    stage=RUN,
+    depends=["entry_point.executable"],
+    after=["package.manifest", "source.node_file", "entry_point.mapping"],
+    quotes="transcript",
+)
 def starts(evidence: Evidence) -> Passed:
     """`ros2 run` starts the node, and the node keeps running."""
     run = evidence.run
@@ -76,7 +82,7 @@ def _no_node(evidence: Evidence, actual: str) -> Failed:
     )
 
 
-@check("run.node_name", depends=["run.starts"])
+@check("run.node_name", stage=RUN, depends=["run.starts"], quotes="before_ctrl_c")
 def node_name(evidence: Evidence) -> Passed:
     """The node has the required name."""
     wanted = evidence.assignment.node_name
@@ -103,7 +109,13 @@ def _handler_fails(last: str) -> bool:
     return bool(handling) and OWN_ERROR.search(after) is not None
 
 
-@check("run.interrupt", depends=["run.starts"])
+@check(
+    "run.interrupt",
+    stage=RUN,
+    depends=["run.starts"],
+    after=["run.period"],
+    quotes="transcript",
+)
 def interrupt(evidence: Evidence) -> Passed:
     """Ctrl+C ends the node."""
     run = evidence.run

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.mistakes.callback import longest_sleep
-from grader.verdict.checks.declare import check
+from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
@@ -21,7 +21,13 @@ if TYPE_CHECKING:
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
 
 
-@check("run.period", depends=["run.starts"])
+@check(
+    "run.period",
+    stage=RUN,
+    depends=["run.starts"],
+    after=["run.output", "run.logger"],
+    quotes="before_ctrl_c",
+)
 def period(evidence: Evidence) -> Passed:
     """A line comes once in each period, at the right instants."""
     run, wanted = evidence.run, evidence.assignment.output

@@ -9,6 +9,7 @@ from grader.batch.sheet import Filled, Sheet
 from grader.batch.systems.canvas import read
 from grader.batch.systems.system import (
     Columns,
+    Download,
     NewGradebook,
     OpenSheet,
     RosterForm,
@@ -46,8 +47,7 @@ SYSTEM = System(
     name="canvas",
     title="Canvas",
     priority=2,
-    download="Canvas' download of all submissions",
-    reader=read,
+    download=Download("Canvas' download of all submissions", read),
     numbered=True,
     roster=RosterForm(key=_roster_key),
     sheet=SheetForm(

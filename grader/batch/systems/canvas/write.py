@@ -22,6 +22,7 @@ from grader.batch.match import Match, MatchRule, match_more, rules_for_people
 from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student
 from grader.batch.roster import Roster, roster_of
 from grader.batch.sheet import Filled, Sheet
+from grader.batch.systems.system import System
 
 NAME = "the Canvas gradebook"
 REMEDY = "In Canvas: Grades, Export, Export Entire Gradebook."
@@ -43,7 +44,7 @@ class CanvasGradebook:
     roster: Roster
     notes: tuple[str, ...] = ()
 
-    def match(self, students: Sequence[Student], system: str) -> Match:
+    def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the roster line of each student, by key."""
         found = Match()
         rules = list(rules_for_people(system, students, self.roster))
@@ -52,7 +53,7 @@ class CanvasGradebook:
         match_more(found, rules, students, self.roster)
         return found
 
-    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
         """Return the students with a grade in Canvas, or excused, by key."""
         found = {}
         for key, index in self.match(students, system).rows.items():
@@ -138,7 +139,7 @@ def new_gradebook(result: ClassResult, *, title: str = "") -> bytes:
         if entry.final is None or entry.status == "elsewhere":
             continue
         student = entry.student
-        number = student.key if result.system == "canvas" else ""
+        number = student.key if result.system.name == "canvas" else ""
         who = (student.name, number, student.id_number, student.username, student.section)
         table.writerow([*(cells.text(value) for value in who), cells.number(entry.final)])
     return out.getvalue().encode()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from grader.batch.points import single
 from grader.batch.sheet import Sheet
 from grader.batch.systems.github_classroom import read, write
-from grader.batch.systems.system import RosterForm, RosterKey, System
+from grader.batch.systems.system import Download, RosterForm, RosterKey, System
 from grader.report.model import Report
 
 
@@ -26,8 +26,7 @@ SYSTEM = System(
     name="github_classroom",
     title="GitHub Classroom",
     priority=1,
-    download="clones of GitHub Classroom's repositories",
-    reader=read,
+    download=Download("clones of GitHub Classroom's repositories", read),
     usernames=True,
     keeps_modes=True,
     roster=RosterForm(key=_roster_key, is_identity=True),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope import read, write
-from grader.batch.systems.system import RosterForm, RosterKey, System
+from grader.batch.systems.system import Download, RosterForm, RosterKey, System
 from grader.report.model import Report
 
 
@@ -23,8 +23,7 @@ SYSTEM = System(
     name="gradescope",
     title="Gradescope",
     priority=4,
-    download="Gradescope's export",
-    reader=read,
+    download=Download("Gradescope's export", read),
     roster=RosterForm(key=_roster_key),
     reports={"gradescope": _results},
 )

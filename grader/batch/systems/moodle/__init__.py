@@ -10,6 +10,7 @@ from grader.batch.systems.moodle import read, roster
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.system import (
     Columns,
+    Download,
     NewGradebook,
     OpenSheet,
     RosterForm,
@@ -45,13 +46,13 @@ SYSTEM = System(
     name="moodle",
     title="Moodle",
     priority=3,
-    download="Moodle's download of all submissions",
-    reader=read,
+    download=Download("Moodle's download of all submissions", read),
     numbered=True,
     group_folders=True,
     roster=RosterForm(
         key=_roster_key,
         number=roster.participant,
+        numbers_groups=True,
         fields=roster.FIELDS,
         is_header=roster.is_header,
         evidence=roster.evidence,

@@ -20,7 +20,9 @@ from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, 
 from grader.batch.roster import Roster, roster_of
 from grader.batch.roster_columns import columns_of
 from grader.batch.sheet import Filled, Sheet
+from grader.batch.systems.moodle import SYSTEM
 from grader.batch.systems.moodle.words import FEEDBACK, GRADE, IDENTIFIER, MAXIMUM
+from grader.batch.systems.system import System
 
 PARTICIPANT = re.compile(r"([^\W\d_][^\d]*?)\s*(\d+)")  # a word in any script, then the number
 NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
@@ -51,14 +53,14 @@ class Worksheet:
     roster: Roster
     notes: tuple[str, ...] = ()
 
-    def match(self, students: Sequence[Student], system: str) -> Match:
+    def match(self, students: Sequence[Student], system: System) -> Match:
         """Return the roster line of each student, by key."""
         found = Match()
         rules = rules_for_people(system, students, self.roster)
         match_more(found, rules, students, self.roster)
         return found
 
-    def elsewhere(self, students: Sequence[Student], system: str) -> dict[str, Elsewhere]:
+    def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
         """Return the students whose submission or grade is in Moodle, by key."""
         rows = self.match(students, system).rows
         found = {key: self.roster.lines[row].evidence for key, row in rows.items()}
@@ -123,7 +125,7 @@ def read_worksheet(
     """
     sheet = Sheet(content, name=NAME)
     columns = _columns(sheet, grade_column, feedback_column)
-    roster = roster_of(sheet, NAME, columns_of(sheet, exported=("moodle", columns.identifier)))
+    roster = roster_of(sheet, NAME, columns_of(sheet, exported=(SYSTEM, columns.identifier)))
     _need_cells(sheet, columns, roster)
     if max_score is not None:
         for line in roster.lines:
