@@ -9,13 +9,8 @@ import click
 
 from grader.base.errors import UsageError
 from grader.base.i18n.translator import errors_in
-from grader.batch.accept import accepted
-from grader.batch.override import LEDGER
-from grader.batch.sheets import SheetOptions
 from grader.batch.systems.known import READABLE, sheet_forms
 from grader.cli import options
-from grader.publish import class_run
-from grader.verdict.order import make_orders
 
 _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
 
@@ -104,6 +99,12 @@ def grade_all(
     Stop it with Ctrl+C and run it again to continue: submissions that are already marked and
     have not changed are not marked again. The texts for students are in the language of --lang.
     """
+    from grader.batch.accept import accepted  # noqa: PLC0415 - keeps --help fast
+    from grader.batch.override import LEDGER  # noqa: PLC0415
+    from grader.batch.sheets import SheetOptions  # noqa: PLC0415
+    from grader.publish import class_run  # noqa: PLC0415
+    from grader.verdict.order import make_orders  # noqa: PLC0415
+
     with errors_in(lang):
         orders = make_orders(path, assignment, distro, sandbox, limits, keys=keys, lang=lang)
     if len(orders) > 1:
