@@ -6,6 +6,7 @@ at all. If run as root, it also installs bubblewrap from the system's packages.
 """
 
 import argparse
+import contextlib
 import fcntl
 import hashlib
 import os
@@ -23,6 +24,17 @@ ROOT = os.path.dirname(HERE)
 VENV = os.path.join(ROOT, ".venv")
 CHOSEN = os.path.join(VENV, "interpreter")
 OLDEST, NEWEST = (3, 10), (3, 13)
+# what pip prints if it does not reach its server
+UNREACHABLE = ("connection broken by", "Could not fetch URL", "(from versions: none)")
+REASONS = (
+    "Temporary failure in name resolution",
+    "Name or service not known",
+    "Network is unreachable",
+    "Connection refused",
+    "Cannot connect to proxy",
+    "CERTIFICATE_VERIFY_FAILED",
+    "timed out",
+)
 INSTALLERS = [
     ["apt-get", "install", "-y", "-qq", "--no-install-recommends", "bubblewrap"],
     ["dnf", "install", "-y", "-q", "bubblewrap"],
@@ -56,16 +68,21 @@ def version_of(python: str) -> "tuple[int, ...] | None":
 def find_python(wanted: str) -> str:
     """Return an interpreter that can run the grader: `wanted` if its version fits, else another."""
     names = [wanted, "python3", "python3.12", "python3.13", "python3.11", "python3.10"]
+    others = []
     for name in names:
         version = version_of(name)
         if version is not None and OLDEST <= version <= NEWEST:
             return name
+        if version is not None:
+            others.append("%s is Python %d.%d" % (name, version[0], version[1]))
         if name == wanted and version is not None:
-            notify("%s is Python %d.%d: looking for another" % (name, version[0], version[1]))
+            notify("%s: looking for another" % others[0])
     raise fail(
-        "No Python %d.%d to %d.%d was found (ROS's wheels exist for these).\n"
-        "Install one, e.g. `apt-get install python3 python3-venv`, or give its path: "
-        "make setup PYTHON=/path/to/python3.12" % (OLDEST + NEWEST)
+        "No Python %d.%d to %d.%d was found (ROS's wheels exist for these)" % (OLDEST + NEWEST)
+        + "".join("; " + other for other in sorted(set(others)))
+        + ".\nInstall Python 3.12 beside it: sudo apt-get install python3.12 python3.12-venv, or, if "
+        "your system has no such package, with uv (https://docs.astral.sh/uv): uv python install "
+        "3.12\nThen give its path: make setup PYTHON=/path/to/python3.12"
     )
 
 
@@ -83,10 +100,27 @@ def stamp_of(python: str, locks: "list[str]") -> str:
 def read(path: str) -> str:
     """Return a file's text; "" if it cannot be read."""
     try:
-        with open(path) as stream:
-            return stream.read()
+        with open(path, "rb") as stream:
+            return os.fsdecode(stream.read())
     except OSError:
         return ""
+
+
+def write(path: str, text: str) -> None:
+    """Write a file; a path in the text may have any characters, whatever the locale."""
+    with open(path, "wb") as stream:
+        stream.write(os.fsencode(text))
+
+
+def why_offline(output: str) -> str:
+    """Return why pip got no package from its index; "" if that is not what its output shows.
+
+    pip then says that no version satisfies the requirement, which is misleading.
+    """
+    if not any(mark in output for mark in UNREACHABLE):
+        return ""
+    known = next((reason for reason in REASONS if reason in output), "")
+    return "PyPI cannot be reached: " + known if known else "PyPI does not answer."
 
 
 def make_venv(python: str, lock: str, stamp: str) -> None:
@@ -122,19 +156,21 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
         "--only-binary",
         ":all:",
     ]
-    if subprocess.run(command, stdout=sys.stderr, check=False).returncode:
+    pip = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    if pip.returncode:
+        output = pip.stdout.decode(errors="replace").strip()
+        offline = why_offline(output)
+        problem = "pip could not install the locked packages."
         fail(
-            "pip could not install the locked packages. Check the network (HTTPS_PROXY, "
-            "PIP_CERT), then run the command again."
+            (problem + " " + offline if offline else output + "\n" + problem)
+            + "\nCheck the network (HTTPS_PROXY, PIP_CERT), then run the command again."
         )
     # needed if PYTHONDONTWRITEBYTECODE is set: otherwise every start compiles everything
     subprocess.run(
         [inner, "-m", "compileall", "-q", "-x", "/keys/", os.path.join(ROOT, "grader")], check=False
     )
-    with open(CHOSEN, "w") as stream:
-        stream.write(os.path.realpath(shutil.which(python) or python))
-    with open(os.path.join(VENV, "stamp"), "w") as stream:
-        stream.write(stamp)
+    write(CHOSEN, os.path.realpath(shutil.which(python) or python))
+    write(os.path.join(VENV, "stamp"), stamp)
 
 
 def run_quietly(command: "list[str]") -> "tuple[bool, str]":
@@ -178,15 +214,34 @@ def main() -> None:
         os.path.join(ROOT, "grader", "requirements.txt"),
         os.path.join(ROOT, "tests", "requirements.txt"),
     ]
-    with open(os.path.join(ROOT, ".venv.lock"), "a") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with contextlib.ExitStack() as held:
+        writable = hold_lock(held)
         python = find_python(options.python or read(CHOSEN) or "python3")
         there = read(os.path.join(VENV, "stamp"))
         small, full = (stamp_of(python, locks[:1]), stamp_of(python, locks))
         if there != full and (options.tests or there != small):
+            if not writable:
+                fail(
+                    "You may not write to %s, and its Python environment is missing or out of "
+                    "date.\nAsk its owner to run `make setup` there, or use a checkout of your own."
+                    % ROOT
+                )
             wanted = (locks[1], full) if options.tests else (locks[0], small)
             make_venv(python, wanted[0], wanted[1])
     ensure_bubblewrap()
+
+
+def hold_lock(held: "contextlib.ExitStack") -> bool:
+    """Hold the lock on `.venv` in a stack of contexts; return whether the checkout is writable.
+
+    A lab that is installed once for all is not, and needs no lock if its environment is complete.
+    """
+    try:
+        lock = held.enter_context(open(os.path.join(ROOT, ".venv.lock"), "a"))
+    except OSError:
+        return False
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    return True
 
 
 if __name__ == "__main__":

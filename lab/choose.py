@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
@@ -11,6 +10,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import did_you_mean
 from grader.ros.distro import Distro
 from grader.ros.images import connect, find_image
+from grader.ros.prefix import has_system_ros, instead_of_docker
 from grader.sandbox.proof import proven_ros
 from lab.bubblewrap import BubblewrapLab
 from lab.config import LabConfig
@@ -49,7 +49,7 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     # imports docker, which the lab with bubblewrap does not need
     from lab.container import ContainerLab  # noqa: PLC0415
 
-    client = connect()
+    client = connect(instead=instead_of_docker(distro))
     image = find_image(client, distro, "lab")
     if image is None:
         raise SurroundingsError(
@@ -65,7 +65,7 @@ def _bubblewrap(distro: Distro, notify: Notify) -> Enter:
 
 
 def _without_docker(distro: Distro, error: SurroundingsError, notify: Notify) -> Enter:
-    if distro.lock is None and not (Path("/opt/ros") / distro.name / "setup.bash").is_file():
+    if distro.lock is None and not has_system_ros(distro):
         raise SurroundingsError(
             say(
                 "ROS 2 {distro} has no wheels on PyPI, so its lab needs Docker, but {problem}",

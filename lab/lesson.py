@@ -7,6 +7,7 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
+from grader.base.nearest import meant, nearest_path
 from grader.course.find import COURSE, FILE, LESSON, assignment_file, is_file, own_course
 
 INSIDE = "/opt/ros2_teaching_lab/course"
@@ -48,7 +49,8 @@ def chosen_lesson(assignment: str | None) -> OpenedLesson:
     """
     file = assignment_file(assignment)
     if not is_file(file):
-        raise UsageError(say("there is no assignment {file}", file=str(file)))
+        missing = say("there is no assignment {file}", file=str(file))
+        raise UsageError(missing + meant(nearest_path(file)))
     file = file.resolve()
     home = Path.home().resolve()
     if file.parent == home or file.parent in home.parents:

@@ -13,11 +13,13 @@ from pathlib import Path
 import pytest
 
 import grader
+from grader.cli.main import COMMANDS
 from grader.package.edit.tree import Write
 from tests import processes
 from tests.corpus.build import write
 from tests.corpus.model import Package
 
+WITH_SYSTEMS = {"convert", "grade-all"}  # their options come from the systems' records
 NODE = "my_robot_controller/my_first_node.py"
 
 
@@ -186,6 +188,16 @@ def test_start_up_imports_only_what_a_help_text_needs() -> None:
     code = "import sys, grader.cli.main; print([m for m in ('pydantic', 'rich', 'yaml', 'pexpect') "
     done = processes.run([sys.executable, "-c", code + "if m in sys.modules])"])
     assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("name", sorted(set(COMMANDS) - WITH_SYSTEMS))
+def test_the_help_of_a_command_imports_only_what_a_help_text_needs(name: str) -> None:
+    code = (
+        f"import sys; from grader.cli.main import main; main([{name!r}, '--help']); "
+        "print([m for m in ('pydantic', 'rich', 'yaml', 'pexpect') if m in sys.modules])"
+    )
+    done = processes.run([sys.executable, "-c", code])
+    assert done.stdout.splitlines()[-1] == "[]"
 
 
 def test_the_help_of_the_grader_imports_no_command() -> None:

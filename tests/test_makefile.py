@@ -218,16 +218,76 @@ def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
 def test_a_path_that_venv_refuses_is_reported(tmp_path: Path) -> None:
     """venv refuses a colon, because PATH separates folders with colons."""
     folder = tmp_path / "a:b"
-    for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(processes.ROOT / name, folder / name)
-    done = processes.run([sys.executable, folder / "grader/bootstrap.py"])
+    done = processes.run([sys.executable, bootstrap_in(folder)])
     assert done.returncode == 3
     assert done.stderr.splitlines() == [
         f"The path of this checkout contains a ':', which Python environments do not allow: {folder}",
         "Rename or move the folder.",
     ]
     assert not (folder / ".venv").exists()
+
+
+def bootstrap_in(folder: Path) -> Path:
+    """Copy all that the bootstrap needs to a new folder; return its path there."""
+    for name in ("grader/bootstrap.py", "grader/requirements.txt", "tests/requirements.txt"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(processes.ROOT / name, folder / name)
+    return folder / "grader/bootstrap.py"
+
+
+@pytest.mark.parametrize("version", ["3 9", "3 14"])
+def test_a_python_that_is_too_old_or_too_new_is_named(version: str, tmp_path: Path) -> None:
+    """`apt-get install python3` would not help: it is there."""
+    fake = tmp_path / "bin" / "python3"
+    fake.parent.mkdir()
+    fake.write_text(f"#!/bin/sh\necho {version}\n")
+    fake.chmod(0o755)
+    command: list[str | Path] = [sys.executable, bootstrap_in(tmp_path / "checkout")]
+    done = processes.run(command, env={"PATH": str(fake.parent)})
+    assert done.returncode == 3
+    assert f"python3 is Python {version.replace(' ', '.')}" in done.stderr.splitlines()[-3]
+    assert "install python3 " not in done.stderr
+    assert "python3.12" in done.stderr
+
+
+def test_a_complete_checkout_may_be_read_only(tmp_path: Path) -> None:
+    """A lab that an instructor has installed once for all."""
+    script = bootstrap_in(tmp_path / "checkout")
+    code = (
+        "import runpy, sys; m = runpy.run_path(sys.argv[1]); import os; os.mkdir(m['VENV']); "
+        "m['write'](m['CHOSEN'], sys.executable); lock = os.path.join(m['ROOT'], "
+        "'grader/requirements.txt'); "
+        "m['write'](os.path.join(m['VENV'], 'stamp'), m['stamp_of'](sys.executable, [lock]))"
+    )
+    assert processes.run([sys.executable, "-c", code, script]).returncode == 0
+    read_only: list[str | Path] = [
+        "bwrap",
+        "--dev-bind",
+        "/",
+        "/",
+        "--ro-bind",
+        script.parents[1],
+        script.parents[1],
+    ]
+    done = processes.run([*read_only, sys.executable, script])
+    assert done.returncode == 0, done.stderr
+    shutil.rmtree(script.parents[1] / ".venv")
+    done = processes.run([*read_only, sys.executable, script])
+    assert done.returncode == 3
+    assert "Traceback" not in done.stderr
+    assert "Ask its owner to run `make setup` there" in done.stderr
+
+
+@pytest.mark.full  # it makes an environment
+def test_without_a_network_the_first_run_says_only_that(tmp_path: Path) -> None:
+    """pip's own last words are that no version of the first package exists."""
+    nowhere = {"PIP_INDEX_URL": "http://127.0.0.1:9/simple", "PIP_RETRIES": "1",
+               "PIP_CONFIG_FILE": "/dev/null", "PIP_FIND_LINKS": ""}  # fmt: skip
+    done = processes.run([sys.executable, bootstrap_in(tmp_path / "checkout")], env=nowhere)
+    assert done.returncode == 3
+    assert "ERROR" not in done.stderr
+    assert "PyPI cannot be reached: Connection refused" in done.stderr
+    assert not (tmp_path / "checkout/.venv/stamp").exists()
 
 
 @pytest.mark.full  # it makes an environment and a prefix

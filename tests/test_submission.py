@@ -57,6 +57,35 @@ def test_a_path_that_is_not_a_folder_is_a_usage_error(
     assert caught.value.exit_status == 2
 
 
+def test_one_file_of_a_package_is_answered_with_its_folder(tmp_path: Path) -> None:
+    make(tmp_path / "jane")
+    file = next(path for path in (tmp_path / "jane").rglob("setup.py"))
+    with pytest.raises(UsageError, match="is one file of a package") as caught:
+        take(file)
+    assert caught.value.remedy == f"Give the folder of the package: {file.parent}"
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [("jnae", "jane"), ("jane.", "jane"), ("Jane", "jane"), ("jane2/src", "jane/src"),
+     ("jane/scr/p", "jane/src/p"), ("jnae/lost", "jane")],
+)  # fmt: skip
+def test_a_path_misspelt_by_a_letter_has_a_suggestion(
+    given: str, meant: str, tmp_path: Path
+) -> None:
+    (tmp_path / "jane/src/p").mkdir(parents=True)
+    with pytest.raises(UsageError, match="there is no file or folder") as caught:
+        take(tmp_path / given)
+    assert f"(did you mean '{tmp_path / meant}'?)" in caught.value.message
+
+
+def test_a_path_that_is_like_no_other_has_no_suggestion(tmp_path: Path) -> None:
+    (tmp_path / "jane").mkdir()
+    with pytest.raises(UsageError) as caught:
+        take(tmp_path / "mohammed")
+    assert "did you mean" not in caught.value.message
+
+
 def test_an_unreadable_folder_is_a_usage_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

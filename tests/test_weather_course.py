@@ -15,7 +15,6 @@ from grader.base.i18n.message import Message
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.from_terminal import filled
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
 from grader.mistakes.placeholders import placeholder_values
@@ -30,6 +29,7 @@ from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
 from tests import processes, weather
+from tests.mistakes.filled import filled
 from tests.weather import LOG, NODE, SETUP, STEP, TIMER
 
 LANGUAGES = ["en", "ko"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import tempfile
@@ -19,6 +20,8 @@ MORE_SPACE = msg(
     "Free some space there (a ROS prefix takes about 300 MB), or set GRADER_CACHE to a folder on "
     "another disk."
 )
+OTHER_FOLDER = msg("Set GRADER_CACHE to a folder that you may write to.")
+FORBIDDEN = (errno.EACCES, errno.EPERM, errno.EROFS)
 NOT_REMOVED = msg("{path} is damaged and cannot be removed: {reason}")
 REMOVE = msg("Remove that folder, then run the command again.")
 
@@ -67,7 +70,7 @@ def make_once(folder: Path, make: Callable[[Path], None], *, notify: Notify) -> 
                 msg("cannot create {path}: {reason}"),
                 {"path": str(folder), "reason": str(error.strerror or error)},
             ),
-            remedy=Message(MORE_SPACE),
+            remedy=Message(OTHER_FOLDER if error.errno in FORBIDDEN else MORE_SPACE),
         ) from error
     finally:
         os.umask(old_umask)

@@ -10,11 +10,14 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import BinaryIO, TextIO, cast
 
-from grader.base.plain_text import bounded, encodable
+from grader.base.plain_text import bounded, encodable, simpler
+
+COERCED = ("C.UTF-8", "C.utf8", "UTF-8")  # PEP 538
 
 
 class Gate(io.TextIOBase):
@@ -28,7 +31,7 @@ class Gate(io.TextIOBase):
 
     def write(self, text: str) -> int:
         """Write the text, escaped and bounded; return the number of its characters."""
-        self.behind.write(encodable(bounded(text), self.encoding))
+        self.behind.write(readable(bounded(text), self.behind))
         return len(text)
 
     def flush(self) -> None:
@@ -56,6 +59,35 @@ class Gate(io.TextIOBase):
         return getattr(self.behind, "encoding", None) or "utf-8"
 
 
+class Readable(io.TextIOBase):
+    """A stream for our own renderers to which only what it can show is written (`readable`)."""
+
+    def __init__(self, behind: TextIO) -> None:
+        self._to = behind
+
+    def write(self, text: str) -> int:
+        """Write the text; return the number of its characters."""
+        self._to.write(readable(text, self._to))
+        return len(text)
+
+    def flush(self) -> None:
+        """Flush the stream."""
+        self._to.flush()
+
+    def fileno(self) -> int:
+        """Return the stream's file descriptor."""
+        return self._to.fileno()
+
+    def isatty(self) -> bool:
+        """Whether the stream is a terminal."""
+        return self._to.isatty()
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        """The stream's encoding."""
+        return getattr(self._to, "encoding", None) or "utf-8"
+
+
 def gate(file: TextIO) -> TextIO:
     """Return a gate before a stream; the stream itself if it is a gate."""
     return file if isinstance(file, Gate) else cast("TextIO", Gate(file))
@@ -74,8 +106,39 @@ def bytes_of(file: TextIO) -> BinaryIO:
 def show(page: str, file: TextIO) -> None:
     """Write a page of our own renderers, with its styles."""
     out = behind(file)
-    out.write(encodable(page, out.encoding))
+    out.write(readable(page, out))
     out.flush()
+
+
+def readable(text: str, file: TextIO) -> str:
+    """Return a text that a stream can encode and, if it is a terminal, that the terminal can show.
+
+    A terminal without UTF-8 gets punctuation in ASCII: Python writes UTF-8 even in the locale C
+    (PEP 538 and 540).
+    """
+    if not text.isascii() and not is_utf8(os.environ) and _is_terminal(file):
+        text = simpler(text)
+    return encodable(text, getattr(file, "encoding", None))
+
+
+def is_utf8(environment: Mapping[str, str]) -> bool:
+    """Whether the locale of the environment has the encoding UTF-8.
+
+    Python itself sets LC_CTYPE to one of COERCED in the locale C, so these say nothing.
+    """
+    names = ("LC_ALL", "LC_CTYPE", "LANG")
+    locales = [environment.get(name, "") for name in names]
+    if locales[1] in COERCED:
+        locales[1] = ""
+    locale = next(filter(None, locales), "")
+    return "utf8" in locale.lower().replace("-", "")
+
+
+def _is_terminal(file: TextIO) -> bool:
+    try:
+        return file.isatty()
+    except ValueError:  # it is closed
+        return False
 
 
 @contextlib.contextmanager

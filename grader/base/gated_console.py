@@ -6,12 +6,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, TextIO
+from typing import Any, TextIO, cast
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 
-from grader.base.gate import behind
+from grader.base.gate import Readable, behind
 from grader.base.plain_text import visible
 
 
@@ -20,7 +20,7 @@ class GatedConsole(Console):
 
     def __init__(self, file: TextIO, **options: Any) -> None:
         plain: dict[str, Any] = {"markup": False, "emoji": False, "highlight": False}
-        super().__init__(file=behind(file), **(plain | options))
+        super().__init__(file=cast("TextIO", Readable(behind(file))), **(plain | options))
 
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import os
 import unicodedata
 from collections.abc import Collection, Iterable
+from itertools import islice
+from pathlib import Path
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
@@ -12,6 +15,7 @@ from grader.base.shown import shown
 LONGEST = 100  # characters of a marked text; a terminal line has as many
 LONGEST_RUN = 12  # characters; a longer difference is another word, not a typo
 ALIKE = 0.6  # of 1; below this ratio, marks are of no use
+MOST_NAMES = 2_000  # of a folder, that are compared
 
 
 def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
@@ -23,6 +27,31 @@ def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
     close = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=cutoff)
     alike = folded[close[0]] if close else [""]
     return max(alike, key=lambda other: difflib.SequenceMatcher(None, word, other).ratio())
+
+
+def nearest_path(path: Path) -> str:
+    """Return the path with its first wrong name corrected; "" if no name beside it is near.
+
+    Whatever follows that name is kept if it exists there.
+    """
+    wrong = Path(os.path.abspath(path))  # noqa: PTH100 - resolve() would follow links
+    rest: list[str] = []
+    while not os.path.isdir(wrong.parent):  # noqa: PTH112 - Path.is_dir raises PermissionError
+        rest.insert(0, wrong.name)
+        wrong = wrong.parent
+    try:
+        with os.scandir(wrong.parent) as entries:
+            names = [entry.name for entry in islice(entries, MOST_NAMES)]
+    except OSError:
+        return ""
+    close = nearest(wrong.name, names, cutoff=ALIKE)
+    if not close:
+        return ""
+    found = wrong.with_name(close).joinpath(*rest)
+    if not os.path.lexists(found):
+        found = wrong.with_name(close)
+    shorter = os.path.relpath(found) if not path.is_absolute() else str(found)
+    return str(shorter)
 
 
 def meant(word: str) -> str:

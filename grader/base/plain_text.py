@@ -14,6 +14,14 @@ from grader.base.i18n.message import say
 TAB = 4  # columns
 MOST_LINES, LONGEST_LINE = 5_000, 5_000  # of a text, and characters: nobody reads more
 Translate = Callable[[str], str]
+SIMPLER = {
+    **{"\u2026": "...", "\u2022": "*", "\u00b7": "*", "\u2192": "->", "\u00d7": "x"},
+    **{"\u2018": "'", "\u2019": "'", "\u201c": '"', "\u201d": '"'},
+    **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2212\u2500\u2501\u2550", "-"),
+    **dict.fromkeys("\u2502\u2503\u2551\u258c", "|"),
+}
+"""ASCII for punctuation and lines of other character sets."""
+TO_SIMPLER = str.maketrans(SIMPLER)
 
 
 def visible(text: str) -> str:
@@ -92,9 +100,29 @@ def points(value: float) -> str:
 
 
 def encodable(text: str, encoding: str | None) -> str:
-    """Return `text` with the characters that the encoding lacks escaped."""
+    """Return `text` without characters that the encoding lacks.
+
+    Punctuation and lines become ASCII, other characters are escaped.
+    """
     name = encoding or "utf-8"
-    return text.encode(name, "backslashreplace").decode(name)
+    try:
+        text.encode(name)
+    except UnicodeEncodeError:
+        return "".join(_encodable(character, name) for character in text)
+    return text
+
+
+def _encodable(character: str, encoding: str) -> str:
+    try:
+        character.encode(encoding)
+    except UnicodeEncodeError:
+        return SIMPLER.get(character) or _escaped(character)
+    return character
+
+
+def simpler(text: str) -> str:
+    """Return `text` with punctuation and lines in ASCII."""
+    return text if text.isascii() else text.translate(TO_SIMPLER)
 
 
 def _split(text: str) -> list[str]:

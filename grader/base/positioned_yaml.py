@@ -15,6 +15,7 @@ from typing import Any
 import yaml
 
 from grader.base.errors import AssignmentError
+from grader.base.nearest import meant, nearest_path
 
 MOST_BYTES = 1_000_000
 MOST_LEVELS = 50
@@ -83,7 +84,8 @@ def _read(path: Path) -> bytes:
             found = file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise fault(path, 1, f"cannot be read: {reason}") from None
+        hint = meant(nearest_path(path)) if isinstance(error, FileNotFoundError) else ""
+        raise fault(path, 1, f"cannot be read: {reason}{hint}") from None
     if len(found) > MOST_BYTES:
         raise fault(path, 1, f"larger than {MOST_BYTES // 1000} kB")
     return found

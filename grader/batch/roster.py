@@ -9,7 +9,7 @@ from datetime import datetime
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.nearest import nearest
+from grader.base.nearest import meant, nearest, nearest_path
 from grader.base.plain_text import one_line
 from grader.base.shown import shown
 from grader.batch.decoded import AS_CSV, decoded
@@ -126,7 +126,7 @@ def _content(path: Path, name: str) -> bytes:
     try:
         resolved = path.resolve(strict=True)
     except (OSError, ValueError, RuntimeError):
-        raise UsageError(f"there is no roster {name}") from None
+        raise UsageError(f"there is no roster {name}{meant(nearest_path(path))}") from None
     content = read_bytes(resolved, LARGEST)
     if isinstance(content, Unread):
         raise UsageError(f"the roster {name} cannot be read: {content.reason}")

@@ -9,8 +9,6 @@ import click
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import Translator, errors_in
 from grader.cli import options
-from grader.cli.mark_orders import mark_orders
-from grader.verdict.order import default_path, make_orders
 
 
 @click.command(
@@ -37,6 +35,9 @@ def check(
     verbose: bool,
 ) -> int:
     """Mark a student's own package, without the hidden checks."""
+    from grader.cli.mark_orders import mark_orders  # noqa: PLC0415 - keeps --help fast
+    from grader.verdict.order import default_path, make_orders  # noqa: PLC0415
+
     with errors_in(lang):
         place = path or default_path()
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)

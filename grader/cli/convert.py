@@ -6,17 +6,16 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
-from pydantic import ValidationError
 
 from grader.base.errors import UsageError
 from grader.base.gate import bytes_of
-from grader.batch.points import single
 from grader.batch.systems.known import report_forms
-from grader.publish import junit
-from grader.publish.markdown import markdown
-from grader.report.model import Report
+
+if TYPE_CHECKING:
+    from grader.report.model import Report
 
 OF_SYSTEMS = report_forms()
 FORMS = [*OF_SYSTEMS, "junit", "md"]
@@ -41,6 +40,10 @@ def convert(form: str, report: Path, show_hidden: bool) -> int:
 
 
 def _forms(*, show_hidden: bool) -> dict[str, Callable[[Report], str | bytes]]:
+    from grader.batch.points import single  # noqa: PLC0415 - keeps --help fast
+    from grader.publish import junit  # noqa: PLC0415
+    from grader.publish.markdown import markdown  # noqa: PLC0415
+
     return {
         **{name: partial(_as_in, form, show_hidden) for name, form in OF_SYSTEMS.items()},
         "junit": junit.report_xml,
@@ -53,6 +56,10 @@ def _as_in(form: Callable[[Report, bool], str], show_hidden: bool, report: Repor
 
 
 def _read(path: Path) -> Report:
+    from pydantic import ValidationError  # noqa: PLC0415 - keeps --help fast
+
+    from grader.report.model import Report  # noqa: PLC0415
+
     try:
         return Report.model_validate_json(path.read_bytes())
     except OSError as error:

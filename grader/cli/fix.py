@@ -10,8 +10,6 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
-from grader.cli.fix_package import FixRequest, fix_package
-from grader.verdict.order import default_path, make_orders
 
 
 @click.command(
@@ -51,6 +49,9 @@ def fix(
     lang: str | None,
 ) -> int:
     """Fix a student's own package."""
+    from grader.cli.fix_package import FixRequest, fix_package  # noqa: PLC0415 - keeps --help fast
+    from grader.verdict.order import default_path, make_orders  # noqa: PLC0415
+
     with errors_in(lang):
         place = path or default_path()
         if path is None and not dry_run and place != Path.home() / "ros2_ws":

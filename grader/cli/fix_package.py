@@ -23,6 +23,8 @@ from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding, finding_of
 from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
+from grader.package.intake.archive_kind import is_named_archive
+from grader.package.intake.given import package_above
 from grader.package.submission import Submission, take_in
 from grader.report.model import CheckResult
 from grader.verdict.checks.all import STATIC
@@ -109,10 +111,7 @@ def _check_id(only: str, assignment: Assignment) -> None:
 def _own_copy(order: Order) -> Submission:
     path, where = order.path, shown(str(order.path))
     if path.is_file():
-        raise UsageError(
-            say("{path} is a file: only the files of a folder can be fixed", path=where),
-            remedy=say("Unpack the archive, and give the folder that holds the package."),
-        )
+        raise _only_a_file(path)
     assignment = order.assignment
     found = take_in(path, package=assignment.package, node_file=assignment.node_file)
     if found.root is not None and found.origin in ("zip", "tar"):
@@ -121,6 +120,20 @@ def _own_copy(order: Order) -> Submission:
             remedy=say("Unpack it first."),
         )
     return found
+
+
+def _only_a_file(path: Path) -> UsageError:
+    folder = package_above(path.resolve())
+    if is_named_archive(path.name):
+        remedy = say("Unpack the archive, and give the folder that holds the package.")
+    elif folder is not None:
+        remedy = say("Give the folder of the package: {folder}", folder=shown(str(folder)))
+    else:
+        remedy = say("Give the folder that holds the package.")
+    where = shown(str(path))
+    return UsageError(
+        say("{path} is a file: only the files of a folder can be fixed", path=where), remedy=remedy
+    )
 
 
 def make_plan(request: FixRequest, submission: Submission, notify: Notify) -> FixPlan:

@@ -8,8 +8,6 @@ import click
 
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
-from grader.cli.mark_orders import mark_orders
-from grader.verdict.order import make_orders
 
 
 @click.command()
@@ -42,6 +40,9 @@ def grade(
     verbose: bool,
 ) -> int:
     """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
+    from grader.cli.mark_orders import mark_orders  # noqa: PLC0415 - keeps --help fast
+    from grader.verdict.order import make_orders  # noqa: PLC0415
+
     with errors_in(lang):
         orders = make_orders(
             path, assignment, distro, sandbox, limits, name=name, keys=keys, lang=lang

@@ -14,8 +14,6 @@ from grader.batch.override import LEDGER
 from grader.batch.sheets import SheetOptions
 from grader.batch.systems.known import DOWNLOADS, sheet_forms
 from grader.cli import options
-from grader.publish import class_run
-from grader.verdict.order import make_orders
 
 _file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
 
@@ -104,6 +102,9 @@ def grade_all(
     Stop it with Ctrl+C and run it again to continue: submissions that are already marked and
     have not changed are not marked again. The texts for students are in the language of --lang.
     """
+    from grader.publish import class_run  # noqa: PLC0415
+    from grader.verdict.order import make_orders  # noqa: PLC0415
+
     with errors_in(lang):
         orders = make_orders(path, assignment, distro, sandbox, limits, keys=keys, lang=lang)
     if len(orders) > 1:

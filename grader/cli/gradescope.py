@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from grader.batch.systems.gradescope.container import run
 from grader.cli import options
 
 
@@ -29,6 +28,8 @@ def gradescope(
 
     AUTOGRADER is the folder that Gradescope made (default: /autograder).
     """
+    from grader.batch.systems.gradescope.container import run  # noqa: PLC0415 - keeps --help fast
+
     return run(
         autograder, assignment=assignment, keys=keys, distro=distro, sandbox=sandbox, lang=lang
     )

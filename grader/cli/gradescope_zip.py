@@ -10,10 +10,7 @@ import click
 from grader.base.errors import SurroundingsError
 from grader.base.folder import Folder
 from grader.base.i18n.translator import chosen_language
-from grader.batch.systems.gradescope import archive
 from grader.cli import options
-from grader.ros.distro import find_distro
-from grader.sandbox.choose import check_name
 
 
 @click.command("gradescope-zip")
@@ -37,6 +34,10 @@ def gradescope_zip(
 
     OUT is the file to write (default: autograder.zip).
     """
+    from grader.batch.systems.gradescope import archive  # noqa: PLC0415 - keeps --help fast
+    from grader.ros.distro import find_distro  # noqa: PLC0415
+    from grader.sandbox.choose import check_name  # noqa: PLC0415
+
     check_name(sandbox)
     name = find_distro(distro).name
     made = archive.gradescope_zip(

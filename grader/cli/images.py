@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from grader.ros.distro import find_distro
-from grader.ros.image_build import Network, build_image
-from grader.ros.images import Base, connect, image_table
+if TYPE_CHECKING:
+    from grader.ros.images import Base
 
 
 @click.command()
@@ -37,11 +37,15 @@ def images(
 
     HTTP_PROXY, HTTPS_PROXY and NO_PROXY are passed to the build.
     """
+    from grader.ros.distro import find_distro  # noqa: PLC0415 - keeps --help fast
+    from grader.ros.image_build import Network, build_image  # noqa: PLC0415
+    from grader.ros.images import connect, image_table  # noqa: PLC0415
+
     wanted = [find_distro(word.strip()) for word in (distro or "").split(",") if word.strip()]
     network = Network(apt_mirror=apt_mirror, pip_index=pip_index, extra_ca=extra_ca)
     if base_image:
         network = replace(network, wheels_base=base_image, ros_base=base_image)
-    client = connect()
+    client = connect(instead="")
     for found in wanted:
         for stage in ("grade", "lab"):
             build_image(

@@ -37,6 +37,7 @@ def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hi
                 verbose=verbose,
                 show_hidden=show_hidden,
                 path=written if out is not None else None,
+                own_code=order.own_code,
             )
         if report.environment.sandbox == "none":
             bare = say(

@@ -7,10 +7,7 @@ from pathlib import Path
 import click
 
 from grader.base.errors import UsageError
-from grader.batch import override as corrections
-from grader.batch.ledger import Ledger
 from grader.cli import options
-from grader.verdict.order import load_with_hidden
 
 
 @click.command("override")
@@ -45,6 +42,10 @@ def override(
     The correction survives reruns and regrades; the next `grader grade-all` writes it into every
     output. Without --check it corrects the total.
     """
+    from grader.batch import override as corrections  # noqa: PLC0415 - keeps --help fast
+    from grader.batch.ledger import Ledger  # noqa: PLC0415
+    from grader.verdict.order import load_with_hidden  # noqa: PLC0415
+
     wanted = load_with_hidden(assignment, keys)
     place = corrections.find_ledger(ledger, out, Path.cwd())
     with Ledger(place, makes=False) as opened:

@@ -8,9 +8,6 @@ import click
 
 from grader.base.errors import UsageError
 from grader.cli import options
-from grader.course.find import assignment_file, own_keys
-from grader.validate import matrix, validation
-from grader.verdict.order import make_orders
 
 
 @click.command()
@@ -49,6 +46,10 @@ def validate(
 
     Exit status: 0 all verdicts are as expected, 1 otherwise.
     """
+    from grader.course.find import assignment_file, own_keys  # noqa: PLC0415 - keeps --help fast
+    from grader.validate import matrix, validation  # noqa: PLC0415
+    from grader.verdict.order import make_orders  # noqa: PLC0415
+
     file = assignment_file(assignment)
     order, *others = make_orders(Path(), assignment, distro, sandbox, limits, keys=keys, lang="en")
     if others:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import string
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from grader.base.i18n.message import Value
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 
 MOST = 200_000  # characters that are searched, at the end of the text: errors come last
 MOST_OF_A_KIND = 20  # matches of one kind of mistake that are examined
 LONGEST = 2_000  # characters of a line that are searched
+# a mistake that is only the consequence of another one, which explains it better
+CONSEQUENCES = {"lab.nothing_built": ("lab.unknown_select", "package.duplicate")}
 
 
 @dataclass(frozen=True)
@@ -43,16 +42,11 @@ def seen_in(text: str) -> list[Seen]:
             known = {name: value for name, value in match.groupdict("").items() if value}
             if all(seen.kind is not kind or seen.params != known for seen in found):
                 found.append(Seen(kind, known, _line_around(text, start, end)))
-    return found
+    there = {seen.kind.id for seen in found}
+    return [s for s in found if there.isdisjoint(CONSEQUENCES.get(s.kind.id, ()))]
 
 
 def _line_around(text: str, start: int, end: int) -> str:
     before = text.rfind("\n", 0, start + 1) + 1
     after = text.find("\n", max(end - 1, before))
     return text[before : after if after >= 0 else len(text)].strip()
-
-
-def filled(template: str, params: Mapping[str, Value]) -> dict[str, Value]:
-    """Return a value for every placeholder of a template; an unknown value is its name in <>."""
-    names = [name for _, name, _, _ in string.Formatter().parse(template) if name]
-    return {name: params.get(name, f"<{name}>") for name in names}

@@ -8,6 +8,13 @@ from grader.mistakes.kind import Kind
 
 FRESH = msg("A terminal knows a workspace only after you source its setup file in that terminal.")
 
+OF_ROS = (  # packages of ROS that tutorials run, and that a small installation lacks
+    r"turtlesim|turtle_tf2_\w{1,20}|demo_nodes_(?:cpp|py)|examples_rclpy_\w{1,40}|image_tools"
+    r"|rviz2|rqt(?:_\w{1,40})?|tf2_(?:tools|ros)|joint_state_publisher(?:_gui)?"
+    r"|robot_state_publisher|xacro|teleop_twist_(?:keyboard|joy)|joy|gazebo_ros|ros_gz_\w{1,20}"
+    r"|nav2_\w{1,40}|slam_toolbox|usb_cam|cv_bridge"
+)
+
 
 def _lab(
     slug: str, title: str, why: str, fix: str, link: str = links.COLCON, *, seen: str = ""
@@ -40,6 +47,13 @@ KINDS = (
              "button)."),
          msg("Run source /opt/ros/{distro}/setup.bash, and start the node with ros2 run."),
          links.ENVIRONMENT, seen=r"ModuleNotFoundError: No module named 'rclpy'"),
+    _lab("not_installed", msg("This package of ROS is not installed here"),
+         msg("{package} is a package of ROS, not one of your workspace. A small installation of ROS, "
+             "such as the lab's, has only what the lessons need. Building or sourcing your "
+             "workspace does not add it."),
+         msg("Ask your instructor if a lesson needs it. On a machine of your own, install it: sudo "
+             "apt-get install ros-{distro}-{debian}"),
+         links.INSTALLATION, seen=rf"^Package '(?P<package>{OF_ROS})' not found"),
     _lab("overlay_not_sourced", msg("The package is not found in this terminal"), FRESH,
          msg("Source the workspace in every new terminal: cd ~/ros2_ws && source "
              "install/local_setup.bash. If that does not help, build first, and compare the "
@@ -63,7 +77,9 @@ KINDS = (
          msg("colcon looks for packages below the folder in which you run it, and skips folders "
              "with a file COLCON_IGNORE."),
          msg("Run cd ~/ros2_ws, then colcon list, and check that the package is in src."),
-         seen=r"Summary: 0 packages finished"),
+         # (of a failed build, the next line says: 1 package failed)
+         seen=r"Summary: 0 packages finished[^\n]{0,40}$"
+              r"(?!\n +\d+ packages? (?:failed|aborted|not processed))"),
     _lab("build_in_src", msg("colcon build was run in src or in the package"),
          msg("colcon creates build, install and log where you run it; a second install folder "
              "confuses the terminal."),

@@ -9,6 +9,7 @@ import functools
 import html
 from dataclasses import replace
 
+from grader.base.carets import is_marks
 from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import LANGUAGES, Translator
 from grader.base.plain_text import one_line
@@ -133,7 +134,8 @@ def _check(one: CheckView, translate: Translator) -> str:
     text = f"<code>{_safe(check.id)}</code> {_safe(mark)}: {_safe(check.title)}"
     for field in one.fields:
         if field.label in labels:
-            text += f"<br>{_safe(field.label)}: {_safe(field.text)}"
+            lines = [line for line in field.text.split("\n") if not is_marks(line)]
+            text += f"<br>{_safe(field.label)}: {_safe(chr(10).join(lines))}"
     return text
 
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 
+from grader.base.carets import pieces
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, last_lines, one_line
 from grader.batch.model import GradebookEntry
 from grader.publish.feedback import feedback_view, headline, hidden_words, mark_of
 from grader.publish.pages.student import CheckView
+from grader.report.tracebacks import folded
 
 # CommonMark: a backslash before ASCII punctuation makes it a literal character
 ACTIVE = re.compile(r"([\\`*_\[\]<>&#|~!$@]|:(?=//)|(?<=www)\.|^[-+=])", re.I)
@@ -43,7 +45,8 @@ def markdown(entry: GradebookEntry, title: str, *, show_hidden: bool) -> str:
     ):
         if text.strip():
             lines += ["", f"## {_plain(translate(head))}", ""]
-            lines += _fenced(last_lines(text, lines=LOG_LINES, translate=translate)[0])
+            short = folded(text, translate=translate)
+            lines += _fenced(last_lines(short, lines=LOG_LINES, translate=translate)[0])
     return "\n".join(lines) + "\n"
 
 
@@ -52,7 +55,7 @@ def _block(one: CheckView, translate: Translator) -> list[str]:
     for field in one.fields:
         text = first_lines(field.text, lines=FIELD_LINES, most=1_000, translate=translate)
         if not field.code:
-            lines += ["", f"{field.label}: {_plain(field.text)}"]
+            lines += ["", *_prose(field.label, text)]
         elif len(text) > 1:
             lines += ["", f"{field.label}:", "", *_fenced(text)]
         else:
@@ -64,6 +67,18 @@ def _block(one: CheckView, translate: Translator) -> list[str]:
             correction = say("Corrected by {name}, because: {why}", name=by, why=why)
         lines += ["", _plain(translate(correction))]
     return lines
+
+
+def _prose(label: str, text: list[str]) -> list[str]:
+    """Return a labelled text as one line; lines with marks below them are fenced."""
+    lines, words = [], [f"{label}:"]
+    for piece in pieces(text):
+        if not piece.marked:
+            words += piece.lines
+            continue
+        lines += [_plain(" ".join(words)), "", *_fenced(list(piece.lines)), ""]
+        words = []
+    return [*lines, _plain(" ".join(words))] if words else lines[:-1]
 
 
 def _plain(text: str) -> str:

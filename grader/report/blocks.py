@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from grader.base.i18n.message import joined, say
 from grader.base.plain_text import first_lines, last_lines, one_line, points
 from grader.report.page import CheckRow
+from grader.report.tracebacks import folded
 
 if TYPE_CHECKING:
     from grader.report.model import CheckResult, Evidence, Quote
@@ -83,7 +84,7 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
     head = joined(mark, one_line(check.id, most=60))
     page.line((head, style), joined(": ", one_line(check.title), on, by=""))
     _field(page, say("expected"), check.expected, lines)
-    _found(page, check.actual, lines)
+    _field(page, say("found"), check.actual, lines)
     if check.where is not None:
         line = "" if check.where.line is None else f":{check.where.line}"
         page.code(say("where"), [one_line(check.where.file) + line])
@@ -107,18 +108,6 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
     if check.mistakes:
         names = ", ".join(one_line(mistake.id, most=80) for mistake in check.mistakes)
         page.field(say("mistake"), names, style="dim")
-
-
-def _found(page: Page, text: str, lines: int) -> None:
-    """Write what was found; if it contains a line of marks, keep its columns."""
-    shown: list[str] = []
-    if text.strip():
-        shown = first_lines(text, lines=lines, most=1_000, translate=page.translate)
-    marks = any(line.strip() and not line.strip("^ ") for line in shown)
-    if marks:
-        page.code(say("found"), shown)
-    elif shown:
-        page.field(say("found"), shown)
 
 
 def _field(page: Page, label: str, text: str, lines: int, *, style: str = "") -> None:
@@ -154,8 +143,9 @@ def evidence_of(
     return Excerpt("transcript", say("ros2 run printed"), evidence.transcript)
 
 
-def quotation(page: Page, text: str, title: str, *, lines: int) -> None:
-    """Write the end of a program's output."""
+def quotation(page: Page, text: str, title: str, *, lines: int, whole: bool) -> None:
+    """Write the end of a program's output; without `whole`, calls inside ROS are folded."""
+    text = text if whole else folded(text, translate=page.translate)
     shown, count = last_lines(text, lines=lines, translate=page.translate)
     head = say("What {title}:", title=title)
     if len(shown) != count:

@@ -7,18 +7,21 @@ environment or the terminal of this process.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from rich.cells import cell_len, chop_cells, set_cell_size
+from rich.cells import cell_len, set_cell_size
 from rich.table import Table
 from rich.text import Text
 
+from grader.base.carets import pieces, shortened
 from grader.base.gated_console import GatedConsole
+from grader.report.wrap import breaks, longest_word
 
 NARROW = 60  # columns; on a narrower page, columns are stacked
 WIDEST = 100  # columns; longer lines are hard to read
 LABEL = 12  # columns
+MOST_NARROW = 10  # columns, of text beside its label
 QUOTED, CONTINUED = "  | ", "  |   "
 
 
@@ -88,8 +91,7 @@ class Page:
         """Write `text` (lines, each wrapped at words) next to its label."""
         lines = self.translate(text).split("\n") if isinstance(text, str) else text
         first, rest = self._lead(label, lines)
-        for number, line in enumerate(lines):
-            self._hang(Text(line, style=style), first if number == 0 else rest, rest)
+        self._hang(Text("\n".join(lines), style=style), first, rest)
 
     def code(self, label: str, lines: Sequence[str]) -> None:
         """Write lines unwrapped: the terminal wraps long ones, so they can be copied."""
@@ -111,25 +113,24 @@ class Page:
 
     def quote(self, lines: Sequence[str]) -> None:
         """Write a program's output, with a bar before each line to distinguish it from ours."""
-        for line in lines:
-            pieces = chop_cells(line, self._width - len(CONTINUED)) or [""]
-            for number, piece in enumerate(pieces):
-                self._verbatim(Text(f"{CONTINUED if number else QUOTED}{piece}"))
+        for lead, line in self._wrapped(Text("\n".join(lines)), QUOTED, CONTINUED, QUOTED):
+            self._verbatim(Text(f"{lead}{line.plain}"))
 
     def table(self, rows: Sequence[CheckRow]) -> None:
         """Write the rows in columns; on a narrow page the text is below the name."""
+        cells = [(self.translate(r.mark), r.name, self.translate(r.text), r.score) for r in rows]
+        widths = [max(map(cell_len, column)) + 2 for column in zip(*cells)]
+        free = self._width - widths[0] - widths[1] - widths[3]
+        stacked = self.narrow or free < max(longest_word(text) for _, _, text, _ in cells)
         table = Table.grid(padding=(0, 2, 0, 0), expand=False)
         table.add_column(no_wrap=True)
-        if not self.narrow:
+        if not stacked:
             table.add_column(no_wrap=True)
         table.add_column(overflow="fold")
         table.add_column(justify="right", no_wrap=True)
-        for row in rows:
-            mark, score = Text(self.translate(row.mark), style=row.style), Text(row.score)
-            if self.narrow:
-                table.add_row(mark, Text(f"{row.name}\n{row.text}"), score)
-            else:
-                table.add_row(mark, Text(row.name), Text(row.text), score)
+        for row, (mark, name, text, score) in zip(rows, cells):
+            both = [Text(f"{name}\n{text}")] if stacked else [Text(name), Text(text)]
+            table.add_row(Text(mark, style=row.style), *both, Text(score))
         self._console.print(table)
 
     def grid(self, heads: Sequence[str], rows: Sequence[Sequence[tuple[str, str]]]) -> None:
@@ -173,11 +174,33 @@ class Page:
         self._console.print(table)
 
     def _hang(self, text: Text, first: str, rest: str) -> None:
-        width = max(self._width - max(len(first), len(rest)), 10)
-        for number, line in enumerate(text.wrap(self._console, width, overflow="fold")):
-            lead = Text(first if number == 0 else rest, style="bold" if number == 0 else "")
-            line.rstrip()
-            self._verbatim(Text.assemble(lead, line))
+        for number, (lead, line) in enumerate(self._wrapped(text, first, rest, rest)):
+            style = "bold" if number == 0 else ""
+            self._verbatim(Text.assemble((lead, style), line))
+
+    def _wrapped(
+        self, text: Text, first: str, rest: str, next_line: str
+    ) -> Iterator[tuple[str, Text]]:
+        """Yield the text's lines, wrapped, with their prefixes.
+
+        `first` is the prefix of the first line, `next_line` of each other line of the text, `rest`
+        of what is left of a wrapped line. Rows of marks are not wrapped (`grader.base.carets`).
+        """
+        lines = list(text.split("\n", allow_blank=True))
+        lead = first
+        for piece in pieces([line.plain for line in lines]):
+            own, lines = lines[: len(piece.lines)], lines[len(piece.lines) :]
+            if piece.marked:
+                width = max(self._width - cell_len(lead), MOST_NARROW)
+                own = [Text(line, style=text.style) for line in shortened(piece.lines, width)]
+            for line in own:
+                width = max(self._width - max(cell_len(lead), cell_len(rest)), MOST_NARROW)
+                parts = [line] if piece.marked else line.divide(breaks(line.plain, width))
+                for part in parts:
+                    part.rstrip()
+                    yield lead, part
+                    lead = rest
+                lead = next_line
 
     def _verbatim(self, text: Text) -> None:
         self._console.print(text, soft_wrap=True)

@@ -29,6 +29,7 @@ def report_page(
     verbose: bool,
     show_hidden: bool,
     path: Path | None,
+    own_code: bool = False,
 ) -> str:
     """Return the page as a string; it depends on the arguments alone (see `render_report`)."""
     page = Page(width=width, styled=styled, translate=Translator(report.lang))
@@ -36,12 +37,12 @@ def report_page(
     lines = LINES_VERBOSE if verbose else LINES
     _head(page, report)
     _table(page, report, checks)
-    quoted = _blocks(page, report, checks, quotes, lines)
+    quoted = _blocks(page, report, checks, quotes, lines, verbose=verbose)
     _skipped(page, report, checks)
     _advice(page, checks)
     if verbose:
         _details(page, report, checks, quoted)
-    _foot(page, report, checks, path)
+    _foot(page, report, checks, path, own_code=own_code)
     return str(page)
 
 
@@ -109,6 +110,8 @@ def _blocks(
     checks: Sequence[CheckResult],
     quotes: Mapping[str, Quote],
     lines: int,
+    *,
+    verbose: bool,
 ) -> frozenset[str]:
     """Write the block of each check that did not pass; return the titles of the quoted texts."""
     quoted: set[str] = set()
@@ -120,7 +123,7 @@ def _blocks(
         found = evidence_of(check, report.evidence, quotes)
         if found is not None and found.text.strip() and found.title not in quoted:
             quoted.add(found.title)
-            quotation(page, found.text, found.title, lines=lines)
+            quotation(page, found.text, found.title, lines=lines, whole=verbose)
     return frozenset(quoted)
 
 
@@ -189,21 +192,44 @@ def _details(
     ):
         if text.strip() and title not in quoted:
             page.gap()
-            quotation(page, text, title, lines=LINES_VERBOSE)
+            quotation(page, text, title, lines=LINES_VERBOSE, whole=True)
 
 
-def _foot(page: Page, report: Report, checks: Sequence[CheckResult], path: Path | None) -> None:
+def most_stopping(failed: Sequence[CheckResult], checks: Sequence[CheckResult]) -> CheckResult:
+    """Return the failed check because of which most checks were skipped; of equals, the first.
+
+    A failure that is only the consequence of another one comes after all others.
+    """
+    causes = [cause.id for c in checks if c.status == "skipped" for cause in roots(c, checks)]
+    return max(failed, key=lambda check: (not check.consequence_of, causes.count(check.id)))
+
+
+def _next(check: CheckResult, *, own_code: bool) -> str:
+    name = one_line(check.id, most=60)
+    if check.where is None:
+        if own_code:
+            return say("Fix {check}, save, and run check again.", check=name)
+        return say("Fix {check}, save, and grade again.", check=name)
+    place: str = one_line(check.where.file, most=100)
+    if check.where.line is not None:
+        place = say("{file}, line {line}", file=place, line=check.where.line)
+    if own_code:
+        return say("Fix {check} (in {place}), save, and run check again.", check=name, place=place)
+    return say("Fix {check} (in {place}), save, and grade again.", check=name, place=place)
+
+
+def _foot(
+    page: Page,
+    report: Report,
+    checks: Sequence[CheckResult],
+    path: Path | None,
+    *,
+    own_code: bool,
+) -> None:
     page.gap()
-    first = next((check for check in checks if check.status == "failed"), None)
-    if first is not None:
-        name = one_line(first.id, most=60)
-        next_ = say("Fix {check}, save, and grade again.", check=name)
-        if first.where is not None:
-            place: str = one_line(first.where.file, most=100)
-            if first.where.line is not None:
-                place = say("{file}, line {line}", file=place, line=first.where.line)
-            next_ = say("Fix {check} (in {place}), save, and grade again.", check=name, place=place)
-        page.field(say("next"), next_)
+    failed = [check for check in checks if check.status == "failed"]
+    if failed:
+        page.field(say("next"), _next(most_stopping(failed, report.checks), own_code=own_code))
     if report.observed.command:
         page.code(say("command"), [one_line(report.observed.command, most=4_000)])
     if path is not None:

@@ -31,12 +31,14 @@ def render_report(
     verbose: bool = False,
     show_hidden: bool = False,
     path: Path | None = None,
+    own_code: bool = False,
 ) -> str:
     """Return the page of a report, `width` columns wide; ASCII except for the report's own text.
 
     `quotes` has what of the evidence each check quotes, by its id. `verbose` adds versions, limits,
-    times and the whole evidence. Checks that are not `visible`
-    are only counted, unless `show_hidden`. `path` is where the report was written.
+    times and the whole evidence. Checks that are not `visible` are only counted, unless
+    `show_hidden`. `path` is where the report was written. `own_code` means that a student reads
+    about their own package.
     """
     from grader.report.report_page import report_page  # noqa: PLC0415 - rich costs 35 ms
 
@@ -48,6 +50,7 @@ def render_report(
         verbose=verbose,
         show_hidden=show_hidden,
         path=path,
+        own_code=own_code,
     )
 
 
@@ -76,6 +79,7 @@ def print_report(
     verbose: bool = False,
     show_hidden: bool = False,
     path: Path | None = None,
+    own_code: bool = False,
 ) -> None:
     """Print a report (see `render_report`) to `file`, by default standard output."""
     file = file or sys.stdout
@@ -87,6 +91,7 @@ def print_report(
         verbose=verbose,
         show_hidden=show_hidden,
         path=path,
+        own_code=own_code,
     )
     show(text, file)
 

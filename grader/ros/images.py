@@ -13,6 +13,7 @@ from grader.base.cache import cache_root
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import joined, say
 from grader.ros.distro import Distro, distros
+from grader.ros.prefix import WITHOUT_DOCKER
 
 if TYPE_CHECKING:
     from docker import DockerClient
@@ -29,7 +30,6 @@ VERSIONS = "/opt/ros/versions.json"
 OLDEST_API = (1, 40)  # Docker 19.03
 CONNECT_SECONDS = 20.0  # a daemon that hangs must not block us
 REQUEST_SECONDS = 120.0
-WITHOUT = say("Without Docker: SANDBOX=bubblewrap.")
 
 
 def image_name(distro: Distro, stage: Stage | Literal["base"], base: Base) -> str:
@@ -38,11 +38,11 @@ def image_name(distro: Distro, stage: Stage | Literal["base"], base: Base) -> st
     return f"{repository}:{stage}-{distro.name}" + ("-wheels" if base == "wheels" else "")
 
 
-def connect() -> DockerClient:
+def connect(*, instead: str = WITHOUT_DOCKER) -> DockerClient:
     """Return a connection to the Docker daemon.
 
     Raises SurroundingsError if no daemon answers, this user may not use its socket, or the daemon
-    is too old.
+    is too old; its remedy ends with `instead`, the way without Docker.
     """
     # imported lazily: most commands do not need Docker
     import docker  # noqa: PLC0415
@@ -52,7 +52,7 @@ def connect() -> DockerClient:
         client = docker.from_env(timeout=int(CONNECT_SECONDS))
         version = str(client.version(api_version=False)["ApiVersion"])
     except (docker.errors.DockerException, OSError) as error:
-        raise _unreachable(str(error)) from None
+        raise _unreachable(str(error), instead) from None
     client.api.timeout = int(REQUEST_SECONDS)
     if tuple(int(part) for part in version.split(".")[:2]) < OLDEST_API:
         raise SurroundingsError(
@@ -61,12 +61,12 @@ def connect() -> DockerClient:
                 version=version,
                 needed=".".join(map(str, OLDEST_API)),
             ),
-            remedy=joined(say("Update Docker to 19.03 or newer."), WITHOUT),
+            remedy=joined(say("Update Docker to 19.03 or newer."), instead),
         )
     return client
 
 
-def _unreachable(said: str) -> SurroundingsError:
+def _unreachable(said: str, instead: str) -> SurroundingsError:
     if "Permission denied" in said or "PermissionError" in said:
         return SurroundingsError(
             say("this user has no permission to use the Docker daemon's socket"),
@@ -75,7 +75,7 @@ def _unreachable(said: str) -> SurroundingsError:
                     "Join the group `docker` (sudo usermod -aG docker $USER, then log in again; its "
                     "members have the power of root), or use rootless Docker."
                 ),
-                WITHOUT,
+                instead,
             ),
         )
     address = os.environ.get("DOCKER_HOST") or say("its socket")
@@ -86,7 +86,7 @@ def _unreachable(said: str) -> SurroundingsError:
                 "Start it (sudo systemctl start docker), or install it (Debian and Ubuntu: sudo "
                 "apt-get install docker.io)."
             ),
-            WITHOUT,
+            instead,
         ),
     )
 

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from grader.base.cache import Notify, cache_root, discard, make_once
 from grader.base.errors import SurroundingsError
-from grader.base.i18n.message import Message, msg
+from grader.base.i18n.message import Message, joined, msg, say
 from grader.ros.distro import HERE, Distro
 from grader.ros.prefix_build import COMMAND, VERSION_NAMES, make_prefix
 
@@ -41,6 +41,9 @@ OTHER_PLATFORM = msg(
     "{python}"
 )
 OTHER_PYTHON = msg("Run the grader with one of those Pythons, e.g. `make setup PYTHON=python3.12`.")
+ONLY_DOCKER = msg("Use Docker: on this machine, ROS comes from an image.")
+WITHOUT_DOCKER = say("Without Docker: SANDBOX=bubblewrap.")
+NOT_WITHOUT = msg("Without Docker there is no ROS {distro} here.")
 MAKING = msg("making the ROS {distro} prefix from PyPI's wheels (300 MB, once)")
 MAKING_AGAIN = msg("{reason}\nmaking the prefix once more")
 READY = msg("ROS {distro} is ready in {path}")
@@ -112,7 +115,7 @@ def prefix_path(distro: Distro) -> Path:
             Message(NO_WHEELS, {"distro": distro.name}),
             remedy=Message(OTHER_DISTRO, {"distro": distro.name}),
         )
-    if platform.machine() != "x86_64" or sys.platform != "linux" or python not in PYTHONS:
+    if _other_machine() or python not in PYTHONS:
         raise SurroundingsError(
             Message(
                 OTHER_PLATFORM,
@@ -122,7 +125,7 @@ def prefix_path(distro: Distro) -> Path:
                     "python": python,
                 },
             ),
-            remedy=Message(OTHER_PYTHON),
+            remedy=Message(ONLY_DOCKER if _other_machine() else OTHER_PYTHON),
         )
     key = hashlib.sha256(b"%d " % FORMAT + os.fsencode(base_interpreter()))
     key.update(distro.lock.read_bytes())
@@ -147,6 +150,27 @@ def wheels_prefix(distro: Distro, *, prove: Prove, notify: Notify = print) -> Pa
         make_once(folder, lambda staging: _make(distro, staging, prove, notify), notify=notify)
         notify(Message(READY, {"distro": distro.name, "path": str(folder)}))
     return folder
+
+
+def instead_of_docker(distro: Distro) -> str:
+    """Return what to do if there is no Docker: a sandbox without it, or a distro that has wheels."""
+    if has_system_ros(distro):
+        return WITHOUT_DOCKER
+    try:
+        prefix_path(distro)
+    except SurroundingsError as error:
+        return joined(Message(NOT_WITHOUT, {"distro": distro.name}), error.remedy)
+    return WITHOUT_DOCKER
+
+
+def has_system_ros(distro: Distro) -> bool:
+    """Whether this machine has the distro at /opt/ros."""
+    return (Path("/opt/ros") / distro.name / "setup.bash").is_file()
+
+
+def _other_machine() -> bool:
+    """Whether PyPI has no wheels for this kind of machine."""
+    return platform.machine() != "x86_64" or sys.platform != "linux"
 
 
 def is_in_cache(ros: Ros) -> bool:

@@ -23,6 +23,7 @@ COMMAND_MODULE = "wheels_ros2"
 VERSION_NAMES = ("rclpy", "rmw", "colcon", "setuptools", "python")
 PROGRESS = msg("  {seen} of about {total} wheels")
 UNPACKING = msg("  unpacking")
+NO_VERSION = "(from versions: none)"  # pip's words if it reached no server
 PIP_FAILED = msg("pip could not install the ROS {distro} wheels:\n{output}")
 CHECK_NETWORK = msg(
     "Check the network (proxy: HTTPS_PROXY; certificate: PIP_CERT), then run the command again."
@@ -67,7 +68,12 @@ def _install(distro: Distro, staging: Path, notify: Notify) -> None:
     command += ["--no-warn-script-location", "--disable-pip-version-check", "--no-input"]
     environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PYTHONHOME")}
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        errors="replace",
+        env=environment,
     ) as pip:
         assert pip.stdout is not None
         tail: list[str] = []
@@ -82,9 +88,16 @@ def _install(distro: Distro, staging: Path, notify: Notify) -> None:
                 notify(Message(UNPACKING))
     if pip.returncode:
         raise SurroundingsError(
-            Message(PIP_FAILED, {"distro": distro.name, "output": "".join(tail).rstrip()}),
+            Message(PIP_FAILED, {"distro": distro.name, "output": _without_no_version(tail)}),
             remedy=Message(CHECK_NETWORK),
         )
+
+
+def _without_no_version(output: list[str]) -> str:
+    """Return pip's output; if it reached no server, without the lines that blame the package."""
+    offline = any(NO_VERSION in line for line in output)
+    kept = [line for line in output if not (offline and line.startswith("ERROR: "))]
+    return "".join(kept if any(line.strip() for line in kept) else output).rstrip()
 
 
 def _link(path: Path, target: str) -> None:

@@ -12,7 +12,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import did_you_mean
 from grader.ros import image_build, images
 from grader.ros.distro import Distro
-from grader.ros.prefix import BrokenRosError
+from grader.ros.prefix import BrokenRosError, instead_of_docker
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
@@ -96,7 +96,7 @@ def _docker(distro: Distro, limits: Limits, notify: Notify, *, required: bool) -
     from grader.sandbox.docker_sandbox import DockerSandbox  # noqa: PLC0415
 
     try:
-        client = images.connect()
+        client = images.connect(instead=instead_of_docker(distro))
     except SurroundingsError:
         if required:
             raise

@@ -9,6 +9,7 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import chosen_language
+from grader.base.nearest import meant, nearest_path
 from grader.course.assignment import Assignment
 from grader.course.find import assignment_file, own_keys
 from grader.course.load import load_assignment
@@ -109,7 +110,8 @@ def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assign
     file = assignment_file(assignment)
     folder = keys or own_keys(file)
     if keys is not None and not keys.is_dir():
-        raise UsageError(say("there is no folder {path}", path=str(keys)))
+        missing = say("there is no folder {path}", path=str(keys))
+        raise UsageError(missing + meant(nearest_path(keys)))
     hidden = folder / HIDDEN if folder is not None else None
     there = hidden is not None and hidden.is_file()
     loaded = _load(file, hidden=hidden if there else None)

@@ -46,6 +46,14 @@ def test_apply_writes_and_says_where_the_old_files_are(tmp_path: Path) -> None:
     assert "Nothing is wrong" in again.stderr
 
 
+def test_a_file_of_the_package_is_answered_with_its_folder(tmp_path: Path) -> None:
+    root = edited(tmp_path, NAME)
+    done = processes.run(processes.grader("fix", root / NODE))
+    assert done.returncode == 2
+    assert f"Give the folder of the package: {root}\n" in done.stderr
+    assert "archive" not in done.stderr
+
+
 def test_unfixable_mistakes_are_named_and_the_status_is_1(tmp_path: Path) -> None:
     root = edited(tmp_path, EMPTY, NAME)
     done = processes.run(processes.grader("fix", "--apply", root))

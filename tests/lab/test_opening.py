@@ -89,6 +89,16 @@ def test_a_distro_without_wheels_and_without_docker_says_what_it_needs(tmp_path:
     done = lab("--distro", "humble", "--workspace", tmp_path / "ws", "--", "true", env=NO_DAEMON)
     assert done.returncode == 3
     assert "humble has no wheels on PyPI, so its lab needs Docker" in done.stderr
+    assert "SANDBOX=bubblewrap" not in done.stderr, "which has no ROS humble either"
+    assert "DISTRO=jazzy" in done.stderr
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy"])
+def test_without_docker_only_what_works_is_recommended(distro: str, tmp_path: Path) -> None:
+    words = ["--distro", distro, "--sandbox", "docker", "--workspace", str(tmp_path / "ws")]
+    done = lab(*words, "--", "true", env=NO_DAEMON)
+    assert done.returncode == 3
+    assert ("SANDBOX=bubblewrap" in done.stderr) == (distro == "jazzy")
 
 
 @pytest.mark.docker

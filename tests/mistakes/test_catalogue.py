@@ -9,15 +9,17 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from grader.base.i18n.message import Message
 from grader.base.i18n.translator import Translator
 from grader.mistakes.catalogue import CATALOGUE, RANK
-from grader.mistakes.from_terminal import filled
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
 from grader.mistakes.recognise import SYMPTOMS
 from grader.ros.distro import distros
+from grader.verdict.checks.all import CHECKS
 from tests.corpus.broken import BROKEN
 from tests.corpus.hostile import HOSTILE
+from tests.mistakes.filled import filled
 
 ROOT = Path(__file__).resolve().parents[2]
 HOSTS = (
@@ -89,6 +91,15 @@ def test_an_entry_can_be_read_in_every_language(kind: Kind) -> None:
             assert translate(kind.rationale(filled(why, {}), variant)).strip()
     assert kind.title.strip()
     assert not [field for _, field, _, _ in string.Formatter().parse(kind.title) if field]
+
+
+def test_titles_are_plain_text() -> None:
+    """A backtick is markup only where a page renders it."""
+    titles = [kind.title for kind in CATALOGUE.values()]
+    titles += [str(check.title) for check in CHECKS.values()]
+    for lang in ("en", "ko"):
+        translate = Translator(lang)
+        assert [title for title in titles if "`" in translate(Message(title, {}))] == []
 
 
 @pytest.mark.parametrize("kind", entries())

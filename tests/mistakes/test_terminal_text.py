@@ -17,6 +17,7 @@ from grader.mistakes.from_terminal import seen_in
 
 TRACE = 'Traceback (most recent call last):\n  File "/ws/install/x/lib/x/test_node", line 33\n'
 SHOWN = {
+    "lab.not_installed": ["Package 'turtlesim' not found", "Package 'demo_nodes_cpp' not found"],
     "lab.overlay_not_sourced": ["Package 'my_robot_controller' not found"],
     "lab.ros_not_sourced": ["bash: ros2: command not found", "zsh: command not found: ros2"][:1],
     "lab.wrong_folder": ["bash: install/local_setup.bash: No such file or directory"],
@@ -201,6 +202,10 @@ def test_every_entry_with_a_pattern_matches_some_text() -> None:
         "[INFO] [1795226661.262229158] [my_first_node]: Hello time: 0",
         "Starting >>> my_robot_controller\nFinished <<< my_robot_controller [1.46s]\n\n"
         "Summary: 1 package finished [1.61s]",
+        # a build that failed is not a build without a package
+        "Summary: 0 packages finished [0.66s]\n  1 package failed: my_robot_controller\n  1 package "
+        "had stderr output: my_robot_controller",
+        "Summary: 0 packages finished [0.66s]\n  1 package aborted: my_robot_controller",
         "my_robot_controller test_node",
         "",
     ],
@@ -212,6 +217,25 @@ def test_no_mistake_is_found_in_right_output(text: str) -> None:
 def test_the_root_cause_comes_before_its_consequences() -> None:
     text = "No executable found\n'distutils.core.setup()' was never called\n"
     assert [s.kind.id for s in seen_in(text)] == ["build.entry_unreadable", "lab.no_executable"]
+
+
+@pytest.mark.parametrize(
+    ("cause", "kind"),
+    [
+        (
+            "WARNING:colcon.colcon_core.package_selection:ignoring unknown package 'my_robot' in "
+            "--packages-select",
+            "lab.unknown_select",
+        ),
+        (
+            "ERROR:colcon:colcon build: Duplicate package names not supported:\n- my_robot:",
+            "package.duplicate",
+        ),
+    ],
+)
+def test_a_build_of_nothing_has_the_cause_that_stands_above_it(cause: str, kind: str) -> None:
+    text = f"{cause}\n\nSummary: 0 packages finished [0.16s]\n"
+    assert [seen.kind.id for seen in seen_in(text)] == [kind]
 
 
 def test_parts_of_the_text_become_parameters() -> None:

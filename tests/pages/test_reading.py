@@ -7,13 +7,16 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect
 
+from grader.base.nearest import compared
 from grader.batch.model import Student
+from grader.batch.points import single
+from grader.publish.feedback import html_page
 from grader.publish.pages import write_site
 from grader.report.model import Evidence, Report
 from tests.pages import classes
 from tests.pages.axe import violations
 from tests.pages.browser import Open
-from tests.report.samples import failing_report
+from tests.report.samples import check, failing_report, report
 
 pytestmark = pytest.mark.full  # `make test` has no Chromium
 
@@ -66,6 +69,26 @@ def test_axe_finds_a_planted_violation(visit: Open, site: Path, axe_source: str)
     assert {"image-alt", "page-has-heading-one"} <= {
         found.partition(":")[0] for found in violations(page, axe_source)
     }
+
+
+def test_marks_stay_below_what_they_mark_on_a_phone(
+    visit: Open, tmp_path: Path, axe_source: str
+) -> None:
+    """The lines are not wrapped, and the page is not wider than the screen: the block scrolls."""
+    names = [f"the_executable_of_my_package = my_robot_controller.my_{n}_node:main"
+             for n in ("frist", "first")]  # fmt: skip
+    failed = check("entry_point.mapping", "failed", actual=compared(*names))
+    page_file = tmp_path / "feedback.html"
+    page_file.write_bytes(html_page(single(report(failed)), "Hello", show_hidden=False))
+    page = visit(viewport={"width": 320, "height": 640}).open(page_file)
+    block = page.locator("pre.marks")
+    expect(block).to_have_count(1)
+    style = "e => [e.clientHeight, parseFloat(getComputedStyle(e).lineHeight)]"
+    height, line = block.evaluate(style)
+    assert round(height / line) == 3
+    assert block.evaluate("e => e.scrollWidth > e.clientWidth")
+    assert page.evaluate(WIDTH) == 320
+    assert violations(page, axe_source) == []
 
 
 @pytest.mark.parametrize("width", [320, 640, 1280])

@@ -193,6 +193,25 @@ def test_the_end_says_what_to_do_next_and_where_the_files_are() -> None:
     assert end[-1].endswith(str(path))
 
 
+def test_next_is_the_failure_that_stops_the_most() -> None:
+    minor = check("source.exec_bit", "failed", where={"file": "node.py", "line": None})
+    page = words(render_report(failing_report(checks=[minor, *failing_report().checks[6:]])))
+    assert "next Fix entry_point.mapping (in setup.py, line 23), save, and grade again." in page
+    consequence = check("run.starts", "failed", consequence_of="run.output")
+    page = words(render_report(report(consequence, check("run.output", "failed"))))
+    assert "next Fix run.output, save" in page
+
+
+def test_a_student_is_told_to_check_again_and_not_to_grade() -> None:
+    end = words(render_report(failing_report(), own_code=True))
+    assert "next Fix entry_point.mapping (in setup.py, line 23), save, and run check again." in end
+    assert "grade again" not in end
+    nowhere = report(check("run.starts", "failed"))
+    assert "Fix run.starts, save, and run check again." in words(
+        render_report(nowhere, own_code=True)
+    )
+
+
 @pytest.mark.parametrize("width", [40, 80])
 def test_commands_paths_and_patches_are_not_wrapped(width: int) -> None:
     path = Path("/home/anna/a rather long folder name/reports/anna/jazzy/report.json")

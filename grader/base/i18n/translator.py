@@ -15,6 +15,7 @@ from grader.base.i18n.message import Message
 DOMAIN = "grader"
 FOLDER = Path(__file__).resolve().parent
 LANGUAGES = ("en", "ko")
+SAMPLES = {"en": "", "ko": "\uac00"}  # a character that an encoding must have
 SOURCE = "en"  # the language of the templates
 OWN = "GRADER_LANG"  # for a locale that has no language: a container has only C.UTF-8
 

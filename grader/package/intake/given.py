@@ -9,6 +9,7 @@ from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
+from grader.base.nearest import meant, nearest_path
 from grader.base.shown import shown
 from grader.package.intake.archive import read_archive
 from grader.package.intake.archive_kind import HEAD, is_named_archive, kind_of
@@ -18,6 +19,8 @@ from grader.package.intake.place import Folder, Place
 from grader.package.intake.reading import Unread, open_file
 
 CHUNK = 1_000_000
+OF_A_PACKAGE = ("package.xml", "setup.py")
+MOST_ABOVE = 6  # folders above a file
 
 
 def resolved(path: Path) -> Path:
@@ -28,7 +31,8 @@ def resolved(path: Path) -> Path:
         if stat.S_ISDIR(kind) or stat.S_ISREG(kind):
             return path.resolve()
     except FileNotFoundError:
-        raise UsageError(say("there is no file or folder {name}", name=name)) from None
+        missing = say("there is no file or folder {name}", name=name)
+        raise UsageError(missing + meant(nearest_path(path))) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise cannot_be_read(path, str(reason)) from None
@@ -56,13 +60,31 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
         if kind is None and is_named_archive(path.name):
             raise ArchiveError(no_archive(path.name))
         if kind is None:
-            raise UsageError(
-                say("{name} is neither a folder nor an archive", name=shown(str(path))),
-                remedy=say("Give the folder that contains the package, or a zip or tar of it."),
-            )
+            raise _only_a_file(path)
         spent.archive(path.name, os.fstat(file.fileno()).st_size, outermost=True)
         file.seek(0)
         return read_archive(file, kind, path.name, spent)
+
+
+def package_above(path: Path) -> Path | None:
+    """Return the nearest folder above a file that has a package.xml or a setup.py."""
+    for folder in list(path.parents)[:MOST_ABOVE]:
+        if any(os.path.isfile(folder / name) for name in OF_A_PACKAGE):  # noqa: PTH113 - no OSError
+            return folder
+    return None
+
+
+def _only_a_file(path: Path) -> UsageError:
+    name, folder = shown(str(path)), package_above(path)
+    if folder is None:
+        return UsageError(
+            say("{name} is neither a folder nor an archive", name=name),
+            remedy=say("Give the folder that contains the package, or a zip or tar of it."),
+        )
+    return UsageError(
+        say("{name} is one file of a package", name=name),
+        remedy=say("Give the folder of the package: {folder}", folder=shown(str(folder))),
+    )
 
 
 def digest_of_file(path: Path, *, most: int) -> str:

@@ -15,6 +15,7 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
+from grader.base.carets import pieces
 from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import one_line, points, shorten, visible
@@ -58,7 +59,12 @@ def _environment(translate: Translator) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(seconds="{:.3f} s".format, whole=_whole)
+    environment.filters.update(
+        seconds="{:.3f} s".format,
+        whole=_whole,
+        marked=_marked,
+        short=lambda text: shorten(translate(text), most=MOST),
+    )
     environment.globals.update(
         lang=translate.lang,
         say=say,
@@ -92,6 +98,22 @@ def _tamed(value: object) -> object:
 def _whole(text: str) -> Markup:
     """Return an already shortened text escaped for use between two tags."""
     return escape(visible(text))
+
+
+def _marked(text: str) -> Markup:
+    """Return an already shortened text escaped; a line with marks below it is not wrapped.
+
+    On a narrow screen such a block is scrolled sideways, so the keyboard must reach it.
+    """
+    html, prose = Markup(), list[str]()
+    for piece in pieces(visible(text).split("\n")):
+        if not piece.marked:
+            prose += piece.lines
+            continue
+        block = Markup('<pre class="marks" tabindex="0" dir="ltr">{}</pre>')
+        html += escape("\n".join(prose)) + block.format("\n".join(piece.lines))
+        prose = []
+    return html + escape("\n".join(prose))
 
 
 def _policy(css: str, js: str) -> str:

@@ -17,6 +17,7 @@ from grader.publish.pages.overview import shown
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
+from grader.report.tracebacks import folded
 from grader.verdict.checks.all import QUOTES
 
 FIELD_LINES, FIELD_CHARACTERS = 30, 1_000
@@ -184,6 +185,7 @@ def _cut(text: str, translate: Translator) -> str:
 
 
 def _log(text: str, translate: Translator) -> str:
+    text = folded(text, translate=translate)
     return _lines(text, translate, most_lines=LOG_LINES, most=LOG_CHARACTERS)
 
 

@@ -25,7 +25,7 @@ ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which 
     quotes="build_log",
 )
 def colcon_builds(evidence: Evidence) -> Passed:
-    """`colcon build` builds and installs the package."""
+    """The package is built and installed with colcon build."""
     build = evidence.build
     package = evidence.assignment.package
     if build.stopped_by:

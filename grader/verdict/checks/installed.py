@@ -64,7 +64,7 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
     quotes="transcript",
 )
 def executable(evidence: Evidence) -> Passed:
-    """The executable is where `ros2 run` looks for it."""
+    """The executable is where ros2 run looks for it."""
     package, name = evidence.assignment.package, evidence.assignment.executable
     files = evidence.build.files
     place = f"install/{package}/lib/{package}/{name}"

@@ -138,7 +138,7 @@ def _installed_in(data_files: Value | None, folder: str) -> tuple[list[Text], bo
 
 @check("package.setup_cfg", stage=INTAKE, depends=["package.found"])
 def setup_cfg(evidence: Evidence) -> Passed:
-    """setup.cfg installs executables where `ros2 run` looks."""
+    """setup.cfg installs executables where ros2 run looks."""
     package = evidence.assignment.package
     wanted = f"$base/lib/{package}"
     expected = say(

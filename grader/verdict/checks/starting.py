@@ -26,7 +26,7 @@ SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, mod
     quotes="transcript",
 )
 def starts(evidence: Evidence) -> Passed:
-    """`ros2 run` starts the node, and the node keeps running."""
+    """ros2 run starts the node, and the node keeps running."""
     run = evidence.run
     if run.started:
         seconds = f"{run.node_seconds or 0:.1f}"

@@ -18,6 +18,7 @@ from grader.batch.model import GradebookEntry
 from grader.batch.points import Mark, adjustments, marks, rounded
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
+from grader.report.tracebacks import folded
 
 MOST_BYTES = 1_000_000
 # from generous to strict, the first that fits is used: check_lines, log_lines, check_characters
@@ -90,7 +91,7 @@ def _output(report: Report, lines: int, translate: Translator) -> str:
         (say("What ros2 run printed"), report.evidence.transcript),
     ):
         if text.strip():
-            shown, _ = last_lines(text, lines=lines)
+            shown, _ = last_lines(folded(text, translate=translate), lines=lines)
             found += [f"{translate(title)}:", *shown, ""]
     return "\n".join(found)
 

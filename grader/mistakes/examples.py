@@ -1,0 +1,79 @@
+"""Example values for the placeholders of the catalogue, for texts about no particular package."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from grader.base.i18n.message import Value
+from grader.course.assignment import Assignment
+from grader.mistakes.placeholders import EXAMPLE, placeholder_values
+
+NAMES: Mapping[str, Value] = {
+    **EXAMPLE,
+    "before": "talker = my_package.talker:main",
+    "close": "create_timer",
+    "file": "my_node.py",
+    "debian": "turtlesim",
+    "key": "script_dir",
+    "line": "Count: 0",
+    "name": "MyNode",
+    "node": "node",
+    "node_name": "my_node",
+    "package": "my_package",
+    "path": "my_package/my_node.py",
+    "period": "1.0",
+    "callback": "timer_callback",
+    "start": 0,
+    "statement": "from rclpy.node import Node",
+    "step": 1,
+    "tag": "name",
+    "there": "my_package/my_nod.py",
+    "value": 0,
+    "wanted": "my_node = my_package.my_node:main",
+    "written": 1000,
+}
+COUNTER: Mapping[str, Value] = {"name": "self.counter"}
+BARE_COUNTER: Mapping[str, Value] = {"name": "counter"}
+OF_KIND: Mapping[str, Mapping[str, Value]] = {
+    "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package"},
+    "source.misplaced_node_file": {"wanted": "my_package/my_node.py"},
+    "run.wrong_node_name": {"wanted": "my_node"},
+    "lab.not_installed": {"package": "turtlesim"},
+    "node.main_misspelt": {"name": "mian"},
+    "node.waits_first": {"name": "input()"},
+    "node.init_underscores": {"name": "_init_"},
+    "node.method_misspelt": {"name": "creat_timer"},
+    "node.argument_missing": {"name": "args", "function": "main"},
+    "node.callback_never_ends": {"name": "while True"},
+    "node.exits": {"name": "sys.exit()"},
+    "node.attribute_not_set": BARE_COUNTER,
+    "node.counter_local": BARE_COUNTER,
+    "node.str_plus_int": COUNTER,
+    "node.step_is_text": COUNTER,
+    "node.plus_reversed": COUNTER,
+    "node.counter_not_increased": COUNTER,
+    "node.counter_reset": COUNTER,
+    "node.adds_before_log": COUNTER,
+    "node.starts_elsewhere": COUNTER,
+    "node.adds_twice": COUNTER,
+    "node.other_step": COUNTER,
+}
+"""What differs in the texts of one mistake."""
+
+
+def example_values(kind: str) -> Mapping[str, Value]:
+    """Return a value for every placeholder of a mistake."""
+    return {**NAMES, **OF_KIND.get(kind, {})}
+
+
+def lesson_values(kind: str, assignment: Assignment) -> Mapping[str, Value]:
+    """Return the values that a lesson gives to the placeholders of a mistake."""
+    path = f"{assignment.package}/{assignment.node_file}"
+    wanted = {
+        "package.setup_cfg_wrong": f"$base/lib/{assignment.package}",
+        "source.misplaced_node_file": path,
+        "run.wrong_node_name": assignment.node_name,
+    }
+    entry = f"{assignment.executable} = {assignment.target}"
+    own = {"file": assignment.node_file, "path": path, "wanted": wanted.get(kind, entry)}
+    return {**placeholder_values(assignment), **own}

@@ -1,0 +1,26 @@
+"""The invented mistakes are packages of their own, and each names a check that exists."""
+
+from __future__ import annotations
+
+from grader.package.edit.tree import apply_all, digest, read_tree
+from grader.verdict.checks.all import CHECKS
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import SOLUTION
+from tests.mistakes.invented import INVENTED
+
+
+def test_there_are_more_than_sixty_and_none_is_in_the_corpus() -> None:
+    solution = read_tree(SOLUTION)
+    known = {digest(apply_all(package.edits, solution)) for package in BROKEN}
+    made = [digest(apply_all(one.edits, solution)) for one in INVENTED]
+    assert len(set(made)) == len(INVENTED) > 60
+    assert known.isdisjoint(made)
+
+
+def test_each_names_a_check_a_cause_and_a_place() -> None:
+    names = [one.name for one in INVENTED]
+    assert len(set(names)) == len(names)
+    for one in INVENTED:
+        assert one.fails in CHECKS, one.name
+        assert one.cause.endswith("."), one.name
+        assert one.place, one.name
