@@ -78,7 +78,11 @@ MANIFEST = (
         whys={"setup": msg("Python installs the package under the name in setup.py, and ROS looks "
                            "for the name in package.xml: the two must be the same.")},
         fix=msg("Write <name>{package}</name> in package.xml."),
-        fixes={"setup": msg("Set name (or package_name) in setup.py to '{package}'.")},
+        fixes={
+            "setup": msg("Set name (or package_name) in setup.py to '{package}'."),
+            "throughout": msg("Use the name {package} in package.xml, setup.py, setup.cfg and for "
+                              "the file in resource/. Your package was marked under its own name."),
+        },
         link=links.PACKAGE,
     ),
     Kind(
