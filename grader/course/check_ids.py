@@ -17,6 +17,7 @@ CHECK_IDS = (
     "entry_point.mapping",
     "entry_point.executable",
     "run.starts",
+    "run.spins",
     "run.node_name",
     "run.output",
     "run.logger",

@@ -165,6 +165,19 @@ def wrong_period(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
 
 
+def never_spins(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the loop that does a timer's work, or for the reason why nothing spins."""
+    for node in suspect.source.all_nodes:
+        if isinstance(node, ast.While | ast.For):
+            for call, name in calls_in(node):
+                if last_part(name) == "sleep":
+                    return suspect.finding("sleep_loop", call)
+    found = no_spin(suspect)
+    named = any(isinstance(n, ast.Attribute) and n.attr == "spin" for n in suspect.source.all_nodes)
+    missing = found is not None and found.kind == "node.spin_missing"
+    return None if missing and named else found  # (as in Thread(target=rclpy.spin))
+
+
 def stops(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the code that stops the timer."""
     for call, name in suspect.source.calls:
@@ -217,5 +230,6 @@ BY_SYMPTOM: dict[str, Recognise] = {
     "run.by_hand": by_hand,
     "run.wrong_period": wrong_period,
     "run.stops": stops,
+    "run.never_spins": never_spins,
     "run.ended_early": ends,
 }

@@ -117,4 +117,12 @@ KINDS = (
               "digit."),
           msg("Write super().__init__('{node_name}')."), links.NAMES,
           seen=r"InvalidNodeNameException: Invalid node name"),
+    _node("sleep_loop", "spin", msg("A loop with sleep() does the work of a timer"),
+          msg("While your loop runs or sleeps, ROS cannot call the node's callbacks: ros2 param "
+              "list and ros2 service call get no answer, no message reaches the node, and it does "
+              "not follow simulated time."),
+          msg("Put what the loop does into a method, call it with a timer that __init__ creates: "
+              "self.create_timer({period}, self.{callback}), and write rclpy.spin(node) in "
+              "{function} instead of the loop."),
+          links.EXECUTORS),
 )  # fmt: skip

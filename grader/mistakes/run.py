@@ -15,6 +15,11 @@ RECORD = msg(
     "programs can read it. print() only writes text to this terminal."
 )
 LOG = msg("Write self.get_logger().info(…) in the callback.")
+UNSPUN = msg(
+    "Only spinning calls a node's callbacks. If it never spins, its timers, subscriptions and "
+    "services never run: ros2 param list and ros2 service call get no answer, no message reaches "
+    "the node, and it does not follow simulated time."
+)
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 
 _run = Family("run", links.FIRST_NODE)
@@ -103,4 +108,22 @@ KINDS = (
          msg("You do not have to fix anything. To avoid the traceback, write try: … except "
              "KeyboardInterrupt: around rclpy.spin."), links.PYTHON_ERRORS,
          seen=r"^KeyboardInterrupt$"),
+    Kind(
+        id="run.never_spins",
+        stage="spin",
+        title=msg("The node never spins"),
+        why=UNSPUN,
+        whys={"beside": msg("rclpy.spin calls the callbacks of timers. A loop or a thread of your "
+                            "own that logs beside it does not follow ROS time: in a simulation or "
+                            "a replay it runs at the wrong speed, and it does not stop when time "
+                            "stops.")},
+        fix=msg("Create a timer in __init__: self.create_timer({period}, self.{callback}). Log in "
+                "its callback, and call rclpy.spin(node) in {function}."),
+        link=links.EXECUTORS,
+    ),
+    _run("other_clock", "timer", msg("The timer does not use the node's clock"),
+         msg("create_timer uses the node's clock, which is ROS time: in a simulation or a replay "
+             "it follows /clock. A timer with another clock does not."),
+         msg("Remove the argument clock: self.create_timer({period}, self.{callback})"),
+         links.FIRST_NODE),
 )  # fmt: skip

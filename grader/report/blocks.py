@@ -30,7 +30,7 @@ WORDS = {
 }
 UNSEEN = say("a hidden check")
 # what a node prints when it is stopped does not concern these
-BEFORE_CTRL_C = ("run.node_name", "run.output", "run.logger", "run.period")
+BEFORE_CTRL_C = ("run.spins", "run.node_name", "run.output", "run.logger", "run.period")
 
 
 def row(check: CheckResult) -> CheckRow:

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from grader.verdict.checks import build, counting, installed, package, source, starting, timing
+from grader.verdict.checks import (
+    build,
+    counting,
+    installed,
+    package,
+    source,
+    spinning,
+    starting,
+    timing,
+)
 from grader.verdict.checks.declare import Check
 
 CHECKS: dict[str, Check] = {
@@ -19,6 +28,7 @@ CHECKS: dict[str, Check] = {
         build.colcon_builds,
         installed.executable,
         starting.starts,
+        spinning.spins,
         starting.node_name,
         counting.output,
         counting.logger,
