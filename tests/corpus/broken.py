@@ -8,6 +8,7 @@ from .broken_entry import ENTRY_POINT
 from .broken_output import OUTPUT
 from .broken_package import PACKAGES
 from .broken_source import SOURCE
+from .broken_spin import SPIN
 from .broken_start import START
 from .model import Package
 
@@ -17,6 +18,7 @@ BROKEN: tuple[Package, ...] = (
     *BUILD,
     *ENTRY_POINT,
     *START,
+    *SPIN,
     *CALLBACK,
     *OUTPUT,
 )
