@@ -17,7 +17,7 @@ def _stops(name: str, *edits: Edit, mistake: str, mapping: bool = True, note: st
         *edits,
         failed={"build.colcon": mistake},
         skipped=blocked,
-        score=55 if mapping else 40,
+        score=50 if mapping else 40,
         note=note,
     )
 

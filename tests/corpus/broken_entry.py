@@ -18,7 +18,7 @@ def _lost(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
         *edits,
         failed={"entry_point.mapping": mistake},
         skipped=INSTALLED,
-        score=50,
+        score=45,
         note=note,
     )
 
@@ -33,7 +33,7 @@ def _unbuilt(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
 def _dead(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
     """Return a package whose executable exists but fails because of its entry point."""
     return broken(
-        name, *edits, failed={"entry_point.mapping": mistake}, skipped=RUN, score=55, note=note
+        name, *edits, failed={"entry_point.mapping": mistake}, skipped=RUN, score=50, note=note
     )
 
 

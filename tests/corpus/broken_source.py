@@ -13,7 +13,7 @@ ENTRY = "            'test_node = my_robot_controller.my_first_node:main',\n"
 
 def _unreadable(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
     return broken(
-        name, *edits, failed={"source.node_file": mistake}, skipped=RUN, score=65, note=note
+        name, *edits, failed={"source.node_file": mistake}, skipped=RUN, score=55, note=note
     )
 
 
@@ -21,25 +21,25 @@ SOURCE = (
     broken("as_created", Delete(NODE), Replace(SETUP, ENTRY, ""),
            failed={"source.node_file": "source.no_node_file",
                    "entry_point.mapping": "setup.no_entry"},
-           skipped=RUN | {"source.exec_bit", "source.shebang", "entry_point.executable"}, score=30,
+           skipped=RUN | {"source.exec_bit", "source.shebang", "entry_point.executable"}, score=25,
            note="only ros2 pkg create and a build"),
     broken("node_not_written", Delete(NODE), failed={"source.node_file": "source.no_node_file"},
-           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50,
+           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=40,
            note="the entry point exists, its file does not"),
     broken("node_in_package_root", Move(NODE, "my_first_node.py"),
            failed={"source.node_file": "source.misplaced_node_file"},
-           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
+           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=40),
     broken("node_in_scripts", Move(NODE, "scripts/my_first_node.py"),
            failed={"source.node_file": "source.misplaced_node_file"},
-           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
+           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=40),
     broken("node_misnamed", Move(NODE, f"{INNER}/my_frist_node.py"),
            failed={"source.node_file": "source.misnamed_node_file"},
-           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
+           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=40),
     broken("inner_folder_misnamed", Move(INNER, "my_robot_controler"),
            failed={"source.node_file": "source.misplaced_node_file"},
-           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=50),
+           skipped=RUN | {"source.exec_bit", "source.shebang"}, score=40),
     broken("node_empty", Write(NODE, b""), failed={"source.node_file": "source.empty_node_file",
-           "source.shebang": "source.no_shebang"}, skipped=RUN, score=60,
+           "source.shebang": "source.no_shebang"}, skipped=RUN, score=50,
            note="not saved in VS Code"),
     _unreadable("bracket_missing", Replace(NODE, "str(self.counter_))", "str(self.counter_)"),
                 mistake="source.syntax_error"),
@@ -58,7 +58,7 @@ SOURCE = (
                 mistake="source.syntax_error", note="UTF-16, or a damaged copy"),
     broken("word_document", Write(NODE, b"PK\3\4\x14\0\6\0\x08\0\0\0!\0"),
            failed={"source.node_file": "source.syntax_error",
-                   "source.shebang": "source.no_shebang"}, skipped=RUN, score=60),
+                   "source.shebang": "source.no_shebang"}, skipped=RUN, score=50),
     broken("exec_bit_missing", Chmod(NODE, 0o644),
            failed={"source.exec_bit": "source.not_executable"}, score=90,
            note="37 of 147 public packages; ros2 run works anyway"),
@@ -74,6 +74,6 @@ SOURCE = (
            failed={"source.shebang": "source.wrong_shebang"}, score=95),
     broken("shebang_bash", Replace(NODE, SHEBANG, "#!/bin/bash\n"),
            failed={"source.shebang": "source.wrong_shebang"}, score=95),
-    broken("init_missing", Delete(INIT), failed={"run.starts": None}, skipped=AFTER_START, score=70,
+    broken("init_missing", Delete(INIT), failed={"run.starts": None}, skipped=AFTER_START, score=60,
            note="find_packages finds nothing; builds, then fails with ModuleNotFoundError"),
 )  # fmt: skip

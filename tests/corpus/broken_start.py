@@ -20,7 +20,7 @@ def main():
 
 def _dies(name: str, mistake: str, *edits: Edit, note: str = "") -> Package:
     return broken(
-        name, *edits, failed={"run.starts": mistake}, skipped=AFTER_START, score=70, note=note
+        name, *edits, failed={"run.starts": mistake}, skipped=AFTER_START, score=60, note=note
     )
 
 
