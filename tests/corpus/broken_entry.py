@@ -23,6 +23,17 @@ def _lost(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
     )
 
 
+def _renamed(name: str, executable: str, *, note: str = "") -> Package:
+    """Return a package whose executable has another name and leads to the right function."""
+    return broken(
+        name,
+        Replace(SETUP, "'test_node =", f"'{executable} ="),
+        failed={"entry_point.mapping": "setup.other_executable"},
+        score=90,
+        note=note,
+    )
+
+
 def _unbuilt(name: str, *edits: Edit, mistake: str, note: str = "") -> Package:
     """Return a package whose entry point makes the build fail."""
     return broken(
@@ -47,14 +58,13 @@ ENTRY_POINT = (
           mistake="setup.no_entry"),
     _lost("entry_points_lost", Replace(SETUP, "    entry_points={\n        'console_scripts': [\n"
           f"{ENTRY}        ],\n    }},\n", ""), mistake="setup.no_entry"),
-    _lost("executable_is_file_name", Replace(SETUP, "'test_node =", "'my_first_node ="),
-          mistake="setup.other_executable", note="No executable found"),
-    _lost("executable_misspelt", Replace(SETUP, "'test_node =", "'test_nod ="),
-          mistake="setup.other_executable"),
-    _lost("executable_capital", Replace(SETUP, "'test_node =", "'Test_node ="),
-          mistake="setup.other_executable"),
-    _lost("executable_with_suffix", Replace(SETUP, "'test_node =", "'test_node.py ="),
-          mistake="setup.other_executable"),
+    _renamed("executable_is_file_name", "my_first_node", note="the name that many courses use"),
+    _renamed("executable_misspelt", "test_nod"),
+    _renamed("executable_capital", "Test_node"),
+    _renamed("executable_with_suffix", "test_node.py"),
+    _lost("two_other_executables", Replace(SETUP, ENTRY, ENTRY.replace("test_node", "hello")
+                                           + ENTRY.replace("test_node", "hello_too")),
+          mistake="setup.other_executable", note="two lead to the right function: none is run"),
     _lost("console_script", Replace(SETUP, "'console_scripts'", "'console_script'"),
           mistake="setup.group_misspelt", note="a group that nobody reads"),
     _lost("gui_scripts", Replace(SETUP, "'console_scripts'", "'consol_scripts'"),

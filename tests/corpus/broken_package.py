@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.validate.tree import Copy, Delete, Move, Nest, Replace, Write
+from grader.validate.tree import Copy, Delete, Edit, Move, Nest, Replace, Write
 
 from .model import (
     BUILT,
@@ -32,6 +32,23 @@ ament_package()
 """
 NAME_LINE = f"<name>{PACKAGE}</name>"
 TYPE = "<build_type>ament_python</build_type>"
+MISSPELT = "my_robot_conroller"
+
+
+def _called(other: str) -> tuple[Edit, ...]:
+    """Return the edits that give the package another name, except to its inner folder."""
+    return (
+        Replace(MANIFEST, NAME_LINE, f"<name>{other}</name>"),
+        Replace(SETUP, f"package_name = '{PACKAGE}'", f"package_name = '{other}'"),
+        Write(CFG, f"[develop]\nscript_dir=$base/lib/{other}\n[install]\n"
+                   f"install_scripts=$base/lib/{other}\n"),
+        Move(MARKER, f"resource/{other}"),
+    )  # fmt: skip
+
+
+def _folder(other: str) -> tuple[Edit, ...]:
+    return Replace(SETUP, f"test_node = {PACKAGE}.", f"test_node = {other}."), Move(INNER, other)
+
 
 PACKAGES = (
     broken("empty_folder", *ALL, failed={"package.found": "package.empty"}, skipped=FOUND, score=0),
@@ -45,23 +62,29 @@ PACKAGES = (
            failed={"package.found": "package.no_manifest"}, skipped=FOUND, score=0),
     broken("no_manifest", Delete(MANIFEST), failed={"package.manifest": "package.no_manifest"},
            skipped=BUILT, score=45, note="colcon takes the folder for plain Python"),
-    broken("two_of_one_name", Nest(f"src/{PACKAGE}"), Copy(f"src/{PACKAGE}", "src/backup"),
+    broken("two_of_one_name", Nest(f"src/{PACKAGE}"), Copy(f"src/{PACKAGE}", "src/first_try"),
            failed={"package.found": "package.duplicate"}, skipped=FOUND, score=0,
-           note="a backup copy kept in src"),
-    broken("other_name_throughout",
-           Replace(MANIFEST, NAME_LINE, f"<name>{OTHER}</name>"),
-           Replace(SETUP, f"package_name = '{PACKAGE}'", f"package_name = '{OTHER}'"),
-           Replace(SETUP, f"test_node = {PACKAGE}.", f"test_node = {OTHER}."),
-           Write(CFG, f"[develop]\nscript_dir=$base/lib/{OTHER}\n[install]\n"
-                      f"install_scripts=$base/lib/{OTHER}\n"),
-           Move(MARKER, f"resource/{OTHER}"), Move(INNER, OTHER),
-           failed={"package.manifest": "package.name_mismatch",
-                   "package.marker": "package.marker_missing",
-                   "package.setup_cfg": "package.setup_cfg_wrong",
-                   "source.node_file": "source.misplaced_node_file",
-                   "entry_point.mapping": "setup.other_package"},
-           skipped=BUILT | {"source.exec_bit", "source.shebang"}, score=5,
-           note="a valid package, but not the requested one"),
+           note="which of the two is meant is unknown"),
+    *(
+        broken(name, Nest(f"src/{PACKAGE}"), Copy(f"src/{PACKAGE}", f"src/{copy}"),
+               Replace(f"src/{copy}/{NODE}", "import rclpy\n", "import rclpi\n"),
+               failed={"build.colcon": "package.duplicate"}, score=95,
+               note="colcon refuses both, but which one is meant is clear")
+        for name, copy in (("backup_beside", "backup"), ("old_beside", f"{PACKAGE}_old"),
+                           ("copy_beside", f"{PACKAGE} copy"))
+    ),
+    broken("unfinished_beside", Nest(f"src/{PACKAGE}"), Copy(f"src/{PACKAGE}", "src/first_try"),
+           Delete(f"src/first_try/{NODE}"), failed={"build.colcon": "package.duplicate"}, score=95,
+           note="the other one lacks the node"),
+    *(
+        broken(name, *_called(other), *more, failed={"package.manifest": "package.name_mismatch"},
+               score=95, note=note)
+        for name, other, more, note in (
+            ("other_name_throughout", OTHER, _folder(OTHER), "builds and runs under its own name"),
+            ("name_misspelt_throughout", MISSPELT, _folder(MISSPELT), ""),
+            ("name_misspelt_but_the_folder", MISSPELT, (), "the inner folder has the right name"),
+        )
+    ),
     broken("cmake_package", *(Delete(p) for p in (SETUP, CFG, "resource", INNER)),
            Write("CMakeLists.txt", CMAKE), Replace(MANIFEST, "ament_python", "ament_cmake"),
            failed={"package.manifest": "package.build_type",
