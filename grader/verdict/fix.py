@@ -17,7 +17,7 @@ from grader.report.model import CheckResult
 from grader.verdict.static import static_findings
 
 MOST_STEPS = 30
-"""The most fixes of one package: each mistake needs one, and a package has 16 checks."""
+"""The most fixes of one package: each mistake needs one, and a package has 17 checks."""
 MOST_PATCH = 50_000
 """Bytes of a diff in a report: twice the size of a diff that changes all lines of an exercise."""
 Judge = Callable[[Files], list[Finding]]

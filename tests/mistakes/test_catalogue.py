@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from grader.base.i18n.translator import Translator
+from grader.course.check_ids import CHECK_IDS
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.from_source import BY_SYMPTOM
 from grader.mistakes.from_terminal import filled
@@ -51,11 +52,7 @@ def named_in_the_code() -> set[str]:
                     head, dot, slug = node.value.partition(".")
                     if head in prefixes and dot and slug.isidentifier():
                         named.add(node.value)
-    checks = {"package.found", "package.manifest", "package.marker", "package.setup_cfg"}
-    checks |= {"source.node_file", "source.exec_bit", "source.shebang", "build.colcon"}
-    checks |= {"entry_point.mapping", "entry_point.executable", "run.starts", "run.node_name"}
-    checks |= {"run.output", "run.logger", "run.period", "run.interrupt"}
-    return named - files - checks
+    return named - files - set(CHECK_IDS)
 
 
 def test_every_mistake_that_the_code_names_has_an_entry() -> None:
