@@ -85,6 +85,11 @@ class StandIn:
     assignment: Assignment
     submission: Submission
 
+    @property
+    def asked(self) -> Assignment:
+        """The assignment: the package has the names that it requires."""
+        return self.assignment
+
 
 class Bench:
     """A right package on disk that a test changes and checks."""

@@ -50,15 +50,31 @@ class SlowConsole(Console):
 class Node(ProbeLink):
     """A node that counts on /clock, as seen by its probe, with prints around each log line."""
 
-    def __init__(self, console: SlowConsole, *, before: str, after: str) -> None:
+    def __init__(
+        self,
+        console: SlowConsole,
+        *,
+        before: str = "",
+        after: str = "",
+        text: str = OUTPUT.text,
+        period: float = OUTPUT.period,
+        barrier: bool | None = True,
+    ) -> None:
         self._console = console
         self._prints = (before, after)
+        self._text, self._period, self._barrier = text, period, barrier
         self._count = 0
+        self._next = round(period * SECOND)
 
-    def ask(self, do: str, *, seconds: float = 0, **more: int) -> Answer:
+    def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
         logs = []
-        while do == "clock" and more["at"] >= (self._count + 1) * round(OUTPUT.period * SECOND):
-            text = OUTPUT.text.format(n=self._count)
+        if do == "wait":
+            time.sleep(min(seconds, 0.01))
+        if do == "clock" and int(more["at"]) >= self._next:
+            # (after a jump a timer runs once, then at the next multiple of its period)
+            period = round(self._period * SECOND)
+            self._next = int(more["at"]) // period * period + period
+            text = self._text.format(n=self._count)
             stamp = time.time_ns()
             logs.append(LogRecord(20, "node", text, "", "", 1, stamp))
             line = f"[INFO] [{stamp // SECOND}.{stamp % SECOND:09}] [node]: {text}\r\n"
@@ -66,7 +82,15 @@ class Node(ProbeLink):
             pieces = (before, line, after)
             self._console.pieces += [piece.encode() for piece in pieces if piece]
             self._count += 1
-        return Answer(barrier=True, logs=tuple(logs))
+        return Answer(barrier=self._barrier, logs=tuple(logs))
+
+
+def driven(node: Node, console: SlowConsole) -> Watch:
+    """Return what the clock finds of a node."""
+    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
+    watch = Watch()
+    VirtualClock(observer, OUTPUT, deadline=time.monotonic() + 30).drive(watch, lambda event: None)
+    return watch
 
 
 @pytest.mark.parametrize(
@@ -77,9 +101,7 @@ class Node(ProbeLink):
 def test_late_terminal_output_belongs_to_its_own_tick(before: str, after: str) -> None:
     console = SlowConsole()
     node = Node(console, before=before, after=after)
-    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
-    watch = Watch()
-    VirtualClock(observer, OUTPUT, deadline=time.monotonic() + 30).drive(watch, lambda event: None)
+    watch = driven(node, console)
     assert (watch.early, watch.missing, watch.period) == ([], [], None)
     assert {(e.n, e.due) for e in watch.counted} == {(k, k) for k in range(OUTPUT.ticks)}
 
@@ -93,3 +115,29 @@ def test_a_logger_that_is_not_shown_is_waited_for_only_once() -> None:
     assert [event.text for event in observer.catch_up(records)] == ["no record of its own"]
     console.pieces = [b"and another\r\n"]
     assert observer.catch_up(records) == []
+
+
+@pytest.mark.parametrize("text", ["Hello World", "hello {n}"])
+@pytest.mark.parametrize("period", [0.1, 0.5, 2.0])
+def test_the_period_of_another_text_is_measured_too(text: str, period: float) -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, text=text, period=period), console)
+    assert watch.period == pytest.approx(period)
+    assert watch.early or watch.missing
+    assert len(watch.counted) > 2
+
+
+def test_another_text_at_the_right_instants_has_the_right_period() -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, text="Hello World"), console)
+    assert (watch.early, watch.missing) == ([], [])
+    assert [event.due for event in watch.counted] == list(range(OUTPUT.ticks))
+
+
+@pytest.mark.parametrize(("period", "right"), [(OUTPUT.period, True), (0.5, False)])
+def test_a_node_without_services_is_judged_by_the_clock_alone(period: float, right: bool) -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, period=period, barrier=None), console)
+    assert watch.clock == "virtual"
+    assert not watch.settled
+    assert (not watch.early and not watch.missing and len(watch.dues) == OUTPUT.ticks) == right

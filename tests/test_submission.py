@@ -125,15 +125,57 @@ def test_the_name_comes_from_the_manifest_then_setup_py_then_the_folder(tmp_path
 
 def test_two_packages_with_the_right_name_are_a_mistake_that_names_both(tmp_path: Path) -> None:
     make(tmp_path / "src/b")
-    make(tmp_path / "src/backup")
+    make(tmp_path / "src/c")
     found = take(tmp_path)
     assert found.root is None
     assert not found.files
     assert found.problem_mistake == "package.duplicate"
     assert "src/b" in found.problem
-    assert "src/backup" in found.problem
-    (tmp_path / "src/backup/COLCON_IGNORE").touch()
+    assert "src/c" in found.problem
+    (tmp_path / "src/c/COLCON_IGNORE").touch()
     assert take(tmp_path).root == "src/b"
+
+
+@pytest.mark.parametrize(
+    ("meant", "copy"),
+    [
+        (PACKAGE, f"{PACKAGE}_old"),
+        (PACKAGE, f"{PACKAGE} copy"),
+        (PACKAGE, f"{PACKAGE} - Copy (2)"),
+        (PACKAGE, f"Copy of {PACKAGE}"),
+        (PACKAGE, f"{PACKAGE}(1)"),
+        (PACKAGE, f"{PACKAGE} - 복사본"),
+        (PACKAGE, f"old/{PACKAGE}"),
+        (f"{PACKAGE}_final", f"{PACKAGE}.bak"),
+        ("src", "before/src"),
+    ],
+)
+def test_a_package_beside_a_folder_named_like_a_copy_is_the_one_that_is_meant(
+    meant: str, copy: str, tmp_path: Path
+) -> None:
+    make(tmp_path / "ws" / meant)
+    make(tmp_path / "ws" / copy)
+    found = take(tmp_path)
+    assert (found.root, found.copies) == (f"ws/{meant}", (f"ws/{copy}",))
+
+
+@pytest.mark.parametrize("other", ["bold", "holder", "scopy", f"{PACKAGE}2"])
+def test_a_folder_is_no_copy_because_its_name_contains_the_letters(
+    other: str, tmp_path: Path
+) -> None:
+    make(tmp_path / "ws" / PACKAGE)
+    make(tmp_path / "ws" / other)
+    assert take(tmp_path).problem_mistake == "package.duplicate"
+
+
+def test_of_two_packages_the_complete_one_is_meant(tmp_path: Path) -> None:
+    make(tmp_path / "ws/a")
+    make(tmp_path / "ws/b")
+    (tmp_path / "ws/a" / NODE_PATH).write_text("")
+    assert take(tmp_path).root == "ws/b"
+    (tmp_path / "ws/b/setup.cfg").unlink(missing_ok=True)
+    (tmp_path / "ws/a/setup.cfg").touch()
+    assert take(tmp_path).root is None, "each has what the other lacks"
 
 
 def test_a_package_inside_another_is_explained_as_colcon_treats_it(tmp_path: Path) -> None:

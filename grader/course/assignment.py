@@ -49,6 +49,7 @@ class Assignment(_Part):
     target: str
     output: Output
     modes: Literal["accept-unknown", "require"] = "accept-unknown"
+    timer: Literal["ros", "any"] = "ros"
     hidden_checks: int = Field(default=0, ge=0)
     limits: dict[str, float] = Field(default_factory=dict)
     checks: tuple[CheckUse, ...]
@@ -59,6 +60,11 @@ class Assignment(_Part):
     def function(self) -> str:
         """The function of the entry point's target."""
         return self.target.partition(":")[2]
+
+    @property
+    def folder(self) -> str:
+        """The inner folder: the Python package that the target names."""
+        return self.target.partition(":")[0].partition(".")[0]
 
     @property
     def max_score(self) -> float:

@@ -228,26 +228,36 @@ KINDS = (
                 "executable_is_file_name",
                 Replace(SETUP, "'test_node =", "'my_first_node ="),
                 fails="entry_point.mapping",
-                blocks=UNINSTALLED,
-                note="No executable found",
+                note="the name that many courses use",
             ),
             example(
                 "executable_misspelt",
                 Replace(SETUP, "'test_node =", "'test_nod ="),
                 fails="entry_point.mapping",
-                blocks=UNINSTALLED,
             ),
             example(
                 "executable_capital",
                 Replace(SETUP, "'test_node =", "'Test_node ="),
                 fails="entry_point.mapping",
-                blocks=UNINSTALLED,
             ),
             example(
                 "executable_with_suffix",
                 Replace(SETUP, "'test_node =", "'test_node.py ="),
                 fails="entry_point.mapping",
+            ),
+            example(
+                "two_other_executables",
+                Replace(
+                    SETUP,
+                    "            'test_node = my_robot_controller.my_first_node:main',\n",
+                    (
+                        "            'hello = my_robot_controller.my_first_node:main',\n"
+                        "            'hello_too = my_robot_controller.my_first_node:main',\n"
+                    ),
+                ),
+                fails="entry_point.mapping",
                 blocks=UNINSTALLED,
+                note="two lead to the right function: none is run",
             ),
         ),
     ),

@@ -218,7 +218,7 @@ KINDS = (
             "{function}."
         ),
         links.NODES,
-        behind={"run.exits_at_once": _no_ros, "run.no_node": _no_ros},
+        behind={"run.exits_at_once": _no_ros, "run.no_node": _no_ros, "run.never_spins": _no_ros},
         examples=(
             example(
                 "loop_without_node",
@@ -401,7 +401,11 @@ KINDS = (
             "rclpy.spin(node)."
         ),
         links.NODES,
-        behind={"run.exits_at_once": _main_empty, "run.no_node": _main_empty},
+        behind={
+            "run.exits_at_once": _main_empty,
+            "run.no_node": _main_empty,
+            "run.never_spins": _main_empty,
+        },
         examples=(
             example(
                 "main_empty",

@@ -177,41 +177,19 @@ KINDS = (
             )
         },
         fix=msg("Write <name>{package}</name> in package.xml."),
-        fixes={"setup": msg("Set name (or package_name) in setup.py to '{package}'.")},
+        fixes={
+            "setup": msg("Set name (or package_name) in setup.py to '{package}'."),
+            "throughout": msg(
+                "Use the name {package} in package.xml, setup.py, setup.cfg and for "
+                "the file in resource/. Your package was marked under its own name."
+            ),
+        },
         link=links.PACKAGE,
         fixed_by=(
             manifest.name,
             setup_py.name,
         ),
         examples=(
-            example(
-                "other_name_throughout",
-                Replace(MANIFEST, "<name>my_robot_controller</name>", "<name>my_controller</name>"),
-                Replace(
-                    SETUP, "package_name = 'my_robot_controller'", "package_name = 'my_controller'"
-                ),
-                Replace(SETUP, "test_node = my_robot_controller.", "test_node = my_controller."),
-                Write(
-                    CFG,
-                    (
-                        "[develop]\n"
-                        "script_dir=$base/lib/my_controller\n"
-                        "[install]\n"
-                        "install_scripts=$base/lib/my_controller\n"
-                    ),
-                ),
-                Move(MARKER, "resource/my_controller"),
-                Move(INNER, "my_controller"),
-                fails="package.manifest",
-                also={
-                    "package.marker": "package.marker_missing",
-                    "package.setup_cfg": "package.setup_cfg_wrong",
-                    "source.node_file": "source.misplaced_node_file",
-                    "entry_point.mapping": "setup.other_package",
-                },
-                blocks=(*NO_FILE, *UNBUILT),
-                note="a valid package, but not the requested one",
-            ),
             example(
                 "manifest_other_name",
                 Replace(
@@ -235,6 +213,76 @@ KINDS = (
                 fails="package.manifest",
                 also={"package.marker": "package.marker_missing"},
                 blocks=UNBUILT,
+            ),
+            example(
+                "other_name_throughout",
+                Replace(MANIFEST, "<name>my_robot_controller</name>", "<name>my_controller</name>"),
+                Replace(
+                    SETUP, "package_name = 'my_robot_controller'", "package_name = 'my_controller'"
+                ),
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_controller\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_controller\n"
+                    ),
+                ),
+                Move(MARKER, "resource/my_controller"),
+                Replace(SETUP, "test_node = my_robot_controller.", "test_node = my_controller."),
+                Move(INNER, "my_controller"),
+                fails="package.manifest",
+                note="builds and runs under its own name",
+            ),
+            example(
+                "name_misspelt_throughout",
+                Replace(
+                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"
+                ),
+                Replace(
+                    SETUP,
+                    "package_name = 'my_robot_controller'",
+                    "package_name = 'my_robot_conroller'",
+                ),
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_robot_conroller\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_robot_conroller\n"
+                    ),
+                ),
+                Move(MARKER, "resource/my_robot_conroller"),
+                Replace(
+                    SETUP, "test_node = my_robot_controller.", "test_node = my_robot_conroller."
+                ),
+                Move(INNER, "my_robot_conroller"),
+                fails="package.manifest",
+            ),
+            example(
+                "name_misspelt_but_the_folder",
+                Replace(
+                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"
+                ),
+                Replace(
+                    SETUP,
+                    "package_name = 'my_robot_controller'",
+                    "package_name = 'my_robot_conroller'",
+                ),
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_robot_conroller\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_robot_conroller\n"
+                    ),
+                ),
+                Move(MARKER, "resource/my_robot_conroller"),
+                fails="package.manifest",
+                note="the inner folder has the right name",
             ),
         ),
     ),

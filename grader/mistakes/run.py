@@ -18,6 +18,11 @@ RECORD = msg(
     "programs can read it. print() only writes text to this terminal."
 )
 LOG = msg("Write self.get_logger().info(…) in the callback.")
+UNSPUN = msg(
+    "Only spinning calls a node's callbacks. If it never spins, its timers, subscriptions and "
+    "services never run: ros2 param list and ros2 service call get no answer, no message reaches "
+    "the node, and it does not follow simulated time."
+)
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 
 _run = Family("run", links.FIRST_NODE)
@@ -97,6 +102,17 @@ KINDS = (
                 Replace(NODE, "'my_first_node')", "'my_first_node', namespace='robot')"),
                 fails="run.node_name",
             ),
+            example(
+                "another_node_has_the_name",
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    other = Node('my_first_node')\n    node = MyFirstNode()\n",
+                ),
+                Replace(NODE, "super().__init__('my_first_node')", "super().__init__('my_node')"),
+                fails="run.node_name",
+                note="the node that counts is judged",
+            ),
         ),
     ),
     _run(
@@ -162,6 +178,46 @@ KINDS = (
                 "text_of_another_course",
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello World'"),
                 fails="run.output",
+            ),
+            example(
+                "period_tenth_and_text",
+                Replace(NODE, "(1.0,", "(0.1,"),
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello World ' + str(self.counter_)",
+                ),
+                fails="run.output",
+                also={"run.period": "run.wrong_period"},
+            ),
+            example(
+                "period_half_and_text",
+                Replace(NODE, "(1.0,", "(0.5,"),
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello World ' + str(self.counter_)",
+                ),
+                fails="run.output",
+                also={"run.period": "run.wrong_period"},
+            ),
+            example(
+                "period_two_and_text",
+                Replace(NODE, "(1.0,", "(2.0,"),
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello World ' + str(self.counter_)",
+                ),
+                fails="run.output",
+                also={"run.period": "run.wrong_period"},
+            ),
+            example(
+                "period_half_and_constant_text",
+                Replace(NODE, "(1.0,", "(0.5,"),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello World'"),
+                fails="run.output",
+                also={"run.period": "run.wrong_period"},
             ),
         ),
     ),
@@ -414,5 +470,81 @@ KINDS = (
         ),
         links.PYTHON_ERRORS,
         seen=r"^KeyboardInterrupt$",
+    ),
+    Kind(
+        id="run.never_spins",
+        stage="spin",
+        title=msg("The node never spins"),
+        why=UNSPUN,
+        whys={
+            "beside": msg(
+                "rclpy.spin calls the callbacks of timers. A loop or a thread of your own that "
+                "logs beside it does not follow ROS time: in a simulation or a replay it runs at "
+                "the wrong speed, and it does not stop when time stops."
+            )
+        },
+        fix=msg(
+            "Create a timer in __init__: self.create_timer({period}, self.{callback}). Log in its "
+            "callback, and call rclpy.spin(node) in {function}."
+        ),
+        link=links.EXECUTORS,
+        examples=(
+            example(
+                "thread_timer",
+                Replace(NODE, "import rclpy\nfrom", "import threading\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    (
+                        "timer = threading.Timer(1.0, self.timer_callback)\n"
+                        "        timer.daemon = True\n"
+                        "        timer.start()"
+                    ),
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    (
+                        "self.counter_ += 1\n"
+                        "        timer = threading.Timer(1.0, self.timer_callback)\n"
+                        "        timer.daemon = True\n"
+                        "        timer.start()"
+                    ),
+                ),
+                fails="run.spins",
+            ),
+        ),
+    ),
+    _run(
+        "other_clock",
+        "timer",
+        msg("The timer does not use the node's clock"),
+        msg(
+            "create_timer uses the node's clock, which is ROS time: in a simulation or a replay "
+            "it follows /clock. A timer with another clock does not."
+        ),
+        msg("Remove the argument clock: self.create_timer({period}, self.{callback})"),
+        examples=(
+            example(
+                "steady_timer",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    (
+                        "from rclpy.clock import Clock\n"
+                        "from rclpy.clock import ClockType\n"
+                        "import rclpy\n"
+                        "from"
+                    ),
+                ),
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, self.timer_callback, clock=Clock(clock_type=ClockType.STEADY_TIME))",
+                ),
+                fails="run.period",
+                note="subscribes to /clock anyway",
+            ),
+        ),
     ),
 )

@@ -6,12 +6,12 @@ import ast
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
-from grader.package.edit.tree import Replace
-from grader.package.source.names import dotted, last_part
+from grader.package.edit.tree import Edit, Replace, Write
+from grader.package.source.names import calls_in, dotted, last_part
 
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
@@ -49,6 +49,22 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("spin_missing", suspect.place_of_function)
 
 
+def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the loop that does a timer's work."""
+    for node in suspect.source.all_nodes:
+        if isinstance(node, ast.While | ast.For):
+            for call, name in calls_in(node):
+                if last_part(name) == "sleep":
+                    return suspect.finding("sleep_loop", call)
+    return None
+
+
+def _nowhere(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a node without spin, not even as in Thread(target=rclpy.spin)."""
+    named = any(isinstance(n, ast.Attribute) and n.attr == "spin" for n in suspect.source.all_nodes)
+    return None if named else _missing(suspect)
+
+
 def _exits(suspect: Suspect) -> RecognisedMistake | None:
     for node in suspect.source.all_nodes:
         if not isinstance(node, ast.Raise | ast.Call):
@@ -60,8 +76,155 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+IMPORT = Replace(NODE, "import rclpy\nfrom", "import threading\nimport time\nimport rclpy\nfrom")
+SPINS = """\
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+"""
+LOOPS = """\
+    try:
+        while rclpy.ok():
+            time.sleep(1.0)
+            node.timer_callback()
+    except KeyboardInterrupt:
+        pass
+    rclpy.try_shutdown()
+"""
+BESIDE = "    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n"
+PROCEDURAL = """\
+#!/usr/bin/env python3
+import time
+
+import rclpy
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('my_first_node')
+    n = 0
+    while rclpy.ok():
+        time.sleep(1)
+        node.get_logger().info('Hello time: ' + str(n))
+        n += 1
+
+
+main() if __name__ == '__main__' else None
+"""
+NO_ARGUMENTS = Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args=[])")
+
+
+def _loop(new: str = LOOPS) -> tuple[Edit, ...]:
+    """Return the edits that write a loop instead of the timer and of spin."""
+    no_timer = Replace(NODE, "self.create_timer(1.0, self.timer_callback)", "pass")
+    return IMPORT, no_timer, Replace(NODE, SPINS, new)
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "sleep_loop",
+        "spin",
+        msg("A loop with sleep() does the work of a timer"),
+        msg(
+            "While your loop runs or sleeps, ROS cannot call the node's callbacks: ros2 param list "
+            "and ros2 service call get no answer, no message reaches the node, and it does not "
+            "follow simulated time."
+        ),
+        msg(
+            "Put what the loop does into a method, call it with a timer that __init__ creates: "
+            "self.create_timer({period}, self.{callback}), and write rclpy.spin(node) in "
+            "{function} instead of the loop."
+        ),
+        links.EXECUTORS,
+        behind={"run.never_spins": _sleep_loop},
+        examples=(
+            example(
+                "sleep_loop",
+                *_loop(),
+                fails="run.spins",
+                note="right lines and times, but no callback is ever called",
+            ),
+            example(
+                "procedural_sleep",
+                Write(NODE, PROCEDURAL, 0o755),
+                fails="run.spins",
+                note="ends with the KeyboardInterrupt traceback",
+            ),
+            example(
+                "sleep_loop_without_arguments",
+                *_loop(),
+                NO_ARGUMENTS,
+                fails="run.spins",
+                note="use_sim_time does not reach it",
+            ),
+            example(
+                "sleep_loop_without_parameter_services",
+                *_loop(),
+                Replace(
+                    NODE,
+                    "super().__init__('my_first_node')",
+                    "super().__init__('my_first_node', start_parameter_services=False)",
+                ),
+                fails="run.spins",
+            ),
+            example(
+                "sleep_loop_beside_spin",
+                *_loop(BESIDE + LOOPS),
+                fails="run.spins",
+                note="it answers, but ROS time stands still",
+            ),
+            example(
+                "sleep_loop_beside_spin_without_arguments",
+                *_loop(BESIDE + LOOPS),
+                NO_ARGUMENTS,
+                fails="run.spins",
+                note="its parameter service sets use_sim_time, and the lines go on",
+            ),
+            example(
+                "short_sleep_loop_beside_spin",
+                *_loop(BESIDE + LOOPS.replace("sleep(1.0)", "sleep(0.1)")),
+                fails="run.spins",
+                also={"run.period": "run.wrong_period"},
+                note="a line soon after each barrier seems to be on time",
+            ),
+            example(
+                "spin_once_in_a_sleep_loop",
+                *_loop(
+                    LOOPS.replace(
+                        "time.sleep(1.0)\n",
+                        "time.sleep(1.0)\n            rclpy.spin_once(node, timeout_sec=0)\n",
+                    )
+                ),
+                fails="run.spins",
+            ),
+            example(
+                "sleep_loop_of_two_nodes",
+                *_loop(),
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    other = Node('other_node')\n"
+                    + BESIDE.replace("node,", "other,")
+                    + "    node = MyFirstNode()\n",
+                ),
+                fails="run.spins",
+                note="another node spins, the one that counts does not",
+            ),
+            example(
+                "timer_and_sleep_loop",
+                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
+                Replace(NODE, SPINS, LOOPS.replace("            node.timer_callback()\n", "")),
+                fails="run.spins",
+                blocks=("run.output", *SILENT),
+                note="the timer is there, and nothing calls it",
+            ),
+        ),
+    ),
     _node(
         "spin_once",
         "spin",
@@ -69,7 +232,11 @@ KINDS = (
         msg("rclpy.spin_once handles one callback and returns; then {function} ends."),
         msg("Write rclpy.spin({node})."),
         links.EXECUTORS,
-        behind={"run.exits_at_once": _once_only, "run.ended_early": _once},
+        behind={
+            "run.exits_at_once": _once_only,
+            "run.never_spins": _once_only,
+            "run.ended_early": _once,
+        },
         fixed_by=(node_life.spin,),
         examples=(
             example(
@@ -97,7 +264,7 @@ KINDS = (
         msg("A function's name alone does nothing; only calling it does."),
         msg("Write rclpy.spin({node})."),
         links.EXECUTORS,
-        behind={"run.exits_at_once": _not_called},
+        behind={"run.exits_at_once": _not_called, "run.never_spins": _not_called},
         fixed_by=(node_life.spin,),
         examples=(
             example(
@@ -114,7 +281,7 @@ KINDS = (
         SPIN,
         msg("Call rclpy.spin(node) in {function}, after creating the node."),
         links.EXECUTORS,
-        behind={"run.exits_at_once": _missing},
+        behind={"run.exits_at_once": _missing, "run.never_spins": _nowhere},
         fixed_by=(node_life.spin,),
         examples=(
             example(

@@ -8,7 +8,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import CFG, INIT, INNER, MANIFEST, NODE, SETUP, example
 from grader.mistakes.kind import Kind, Parts
-from grader.package.edit.tree import Copy, Delete, Move, Nest
+from grader.package.edit.tree import Copy, Delete, Move, Nest, Replace
 from grader.package.intake import archive_problems as archives
 from grader.package.intake import problems
 
@@ -129,9 +129,53 @@ KINDS = (
             example(
                 "two_of_one_name",
                 Nest("src/my_robot_controller"),
-                Copy("src/my_robot_controller", "src/backup"),
+                Copy("src/my_robot_controller", "src/first_try"),
                 fails="package.found",
-                note="a backup copy kept in src",
+                note="which of the two is meant is unknown",
+            ),
+            example(
+                "backup_beside",
+                Nest("src/my_robot_controller"),
+                Copy("src/my_robot_controller", "src/backup"),
+                Replace(
+                    "src/backup/my_robot_controller/my_first_node.py",
+                    "import rclpy\n",
+                    "import rclpi\n",
+                ),
+                fails="build.colcon",
+                note="colcon refuses both, but which one is meant is clear",
+            ),
+            example(
+                "old_beside",
+                Nest("src/my_robot_controller"),
+                Copy("src/my_robot_controller", "src/my_robot_controller_old"),
+                Replace(
+                    "src/my_robot_controller_old/my_robot_controller/my_first_node.py",
+                    "import rclpy\n",
+                    "import rclpi\n",
+                ),
+                fails="build.colcon",
+                note="colcon refuses both, but which one is meant is clear",
+            ),
+            example(
+                "copy_beside",
+                Nest("src/my_robot_controller"),
+                Copy("src/my_robot_controller", "src/my_robot_controller copy"),
+                Replace(
+                    "src/my_robot_controller copy/my_robot_controller/my_first_node.py",
+                    "import rclpy\n",
+                    "import rclpi\n",
+                ),
+                fails="build.colcon",
+                note="colcon refuses both, but which one is meant is clear",
+            ),
+            example(
+                "unfinished_beside",
+                Nest("src/my_robot_controller"),
+                Copy("src/my_robot_controller", "src/first_try"),
+                Delete("src/first_try/my_robot_controller/my_first_node.py"),
+                fails="build.colcon",
+                note="the other one lacks the node",
             ),
         ),
     ),

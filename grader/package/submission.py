@@ -67,7 +67,7 @@ def take_in(
         name=sanitise(name),
         origin=_origin(tree, root or "."),
         modes=modes,
-        sha256=_digest(files if root is not None else _outline(tree), modes),
+        sha256=_digest(files if root is not None else _outline(tree), modes, choice.copies),
         root=root,
         files=files,
         candidates=tuple(candidates),
@@ -78,6 +78,7 @@ def take_in(
         hints=choice.hints,
         node_files=_named(tree, node_file),
         links_out=tuple(tree.links_out),
+        copies=choice.copies,
     )
 
 
@@ -118,8 +119,11 @@ def _outline(tree: Tree) -> Iterable[SourceFile]:
         yield SourceFile(path, entry.kind, entry.mode, str(entry.size).encode(), entry.target)
 
 
-def _digest(files: Iterable[SourceFile], modes: Modes) -> str:
-    """Return the hash of a submission: paths, kinds, exec bits (if known) and contents."""
+def _digest(files: Iterable[SourceFile], modes: Modes, copies: Iterable[str] = ()) -> str:
+    """Return the hash of a submission: paths, kinds, exec bits (if known) and contents.
+
+    Copies of the package beside it are part of it, because they cost points.
+    """
     digest = hashlib.sha256()
     for file in files:
         bits = "x" if file.kind == "file" and file.mode & 0o100 else "-"
@@ -127,4 +131,6 @@ def _digest(files: Iterable[SourceFile], modes: Modes) -> str:
         for part in (file.path, file.kind, bits, file.target, file.reason):
             digest.update(f"{len(part.encode())}:{part}".encode())
         digest.update(f"{len(file.data)}:".encode() + file.data)
+    for path in copies:
+        digest.update(f"{len(path.encode())}:{path}copy".encode())
     return digest.hexdigest()

@@ -2,23 +2,28 @@
 
 After each `/clock` message a barrier proves that the node has run the callbacks that were due (two
 round trips to its parameter service, docs/architecture.md). The measured period is therefore exact
-on a busy machine too. Nodes that do not follow `/clock` are watched on the wall clock.
+on a busy machine too. A node without services is judged by `/clock` alone, with a short wait instead
+of the barrier. Nodes that do not follow `/clock` are watched on the wall clock.
 """
 
 from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Output
-from grader.run.observer import SECOND, Event, Observer, Watch
+from grader.run.observer import SECOND, Event, Observer, Watch, recurring
+from grader.run.probe_link import Answer
 
 MILLISECOND = 1_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier
 SETTLE_SECONDS = 2.5  # wall time within which a spinning node gives its first answer
+OTHERS_SECONDS = 1.0  # wall time for the first answers of the other nodes, after one has answered
+QUIET_SECONDS = 0.03  # wall time in which a node without services logs what was due
+UNASKED_SECONDS = 2.0  # the same until a tick is missing
 SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record ends the next ones
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
 TRIES, TRY_SECONDS = 12, 0.5  # barriers and wall time after which a tick is missing
@@ -42,13 +47,15 @@ class VirtualClock:
         self._before = 0
         self._unanswered = 0
         self._slow = False
+        self._unasked = False  # whether no node has a service that can be asked
+        self._late = 0  # ticks that came after their barrier
         self._due: int | None = None
         self._due_at = -1
         self._period = round(output.period * SECOND)
 
     def drive(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Fill `watch`: check that one tick comes at each due instant and none 1 ms before it."""
-        if not self._settle(watch):
+        if not self._settle(watch) and not self._unasked:
             if self._over():
                 return
             watch.note = say("the node does not answer: it is not spinning")
@@ -60,18 +67,29 @@ class VirtualClock:
         if not self._at_due_instants(watch, self._period, on_event):
             self._find_period(watch, on_event)
         promptly = time.monotonic() - began < 0.5 * self._output.period * len(watch.dues)
-        if watch.missing or watch.early or not promptly:
+        # a loop beside the node logs at any time: its lines only seem to be on time
+        driven = not self._unasked and 2 * self._late <= len(watch.dues)
+        if watch.missing or watch.early or not promptly or not driven:
             self._unmask(watch, on_event)
 
     def _settle(self, watch: Watch) -> bool:
-        """Start the clock at 1 ms; return whether the node answers, that is, whether it spins."""
+        """Start the clock at 1 ms; return whether a node answers, that is, whether it spins.
+
+        All nodes get time for their first answer; one that is not spun may stand beside another.
+        """
         deadline = time.monotonic() + SETTLE_SECONDS
         while True:
-            events, barrier = self._step(MILLISECOND, seconds=SETTLE_SECONDS / 10)
+            events, answer = self._ask(MILLISECOND, seconds=SETTLE_SECONDS / 10, patient=1)
             watch.before_start += events
             watch.events += events
-            if barrier or self._over() or time.monotonic() > deadline:
-                watch.settled = watch.settled or bool(barrier)
+            if answer.barrier is None:
+                self._unasked = True
+                return False
+            now = time.monotonic()
+            if answer.barrier and not watch.settled:
+                watch.settled = True
+                deadline = min(deadline, now + OTHERS_SECONDS)
+            if (watch.settled and not answer.silent) or self._over() or now > deadline:
                 return watch.settled
 
     def _at_due_instants(self, watch: Watch, phase: int, on_event: Callable[[Event], None]) -> bool:
@@ -81,8 +99,8 @@ class VirtualClock:
             due = phase + (k - already) * self._period
             early = self._go_to(due - MILLISECOND)
             watch.events += early
-            watch.early += [e for e in early if e.n is not None and e.due is None]
             found = self._wait_for_tick(due, k)
+            watch.early += _ticks_among(early, found)
             self._due, self._due_at = k, due
             watch.dues.append(due / SECOND)
             watch.events += found
@@ -104,20 +122,22 @@ class VirtualClock:
             step = self._period // GRID
             for between in range(self._at - self._at % step + step, at, step):
                 if not self._over():
-                    events += self._step(between)[0]
-        return events + self._step(at)[0]
+                    events += self._step(between)
+        return events + self._step(at)
 
     def _wait_for_tick(self, due: int, k: int) -> list[Event]:
         """Step to a due instant and return the events; [] only after enough barriers and time."""
         began = time.monotonic()
         found: list[Event] = []
         for attempt in range(10 * TRIES):
-            events, _ = self._step(due, wait=attempt > 0, until_log=True)
+            events = self._step(due, wait=attempt > 0, until_log=True)
+            self._late += bool(attempt and events and not found)
             found += [event if event.due is not None else replace(event, due=k) for event in events]
             if any(event.n is not None for event in found):
                 break
             enough = TRIES / 4 if found else TRIES  # (another line came; the tick may follow)
-            if attempt >= enough and (found or time.monotonic() - began > TRY_SECONDS):
+            seconds = UNASKED_SECONDS if self._unasked else TRY_SECONDS
+            if attempt >= enough and (found or time.monotonic() - began > seconds):
                 break
             if self._over():
                 break
@@ -129,14 +149,15 @@ class VirtualClock:
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
         stop = self._at + 12 * self._period
+        lines: list[Event] = []
         fresh: list[float] = []
         while self._at < stop and len(fresh) < 6 and not self._over():
-            events, _ = self._step(self._at + step)
+            events = self._step(self._at + step)
             watch.events += events
-            ticks = [event for event in events if event.n is not None] or events
-            for event in ticks:
+            for event in [e for e in events if e.n is not None] or events:
                 on_event(event)
-            fresh += [event.virtual for event in ticks]
+            lines += events
+            fresh = [event.virtual for event in _ticks(lines)]
         instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))
         if len(instants) > 1:
             gaps = [b - a for a, b in zip(instants, instants[1:])]
@@ -149,12 +170,12 @@ class VirtualClock:
         self, watch: Watch, last: int, step: int, on_event: Callable[[Event], None]
     ) -> None:
         """Find the phase to 1 ms and check the due instants again: the timer may be late."""
-        events, _ = self._step(last + self._period - step)
+        events = self._step(last + self._period - step)
         watch.events += events
         at = self._at
         while at < last + self._period and not events and not self._over():
             at += MILLISECOND
-            events, _ = self._step(at)
+            events = self._step(at)
             watch.events += events
         if not events:
             return
@@ -167,12 +188,11 @@ class VirtualClock:
 
     def _unmask(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Stop the clock for a while: lines that still come follow the wall clock."""
-        deadline = min(self._deadline, time.monotonic() + STILL * self._output.period)
-        still: list[Event] = []
-        while time.monotonic() < deadline and not self._observer.over:
-            still += self._observer.take(self._observer.probe.ask("wait", seconds=0.1))
+        left = self._deadline - time.monotonic()
+        still = self._observer.watch_for(min(left, STILL * self._output.period))
         watch.events += still
-        if any(event.n is not None for event in still) or (still and not watch.dues):
+        kinds = {event.kind for event in watch.counted}
+        if any(event.kind in kinds for event in still) or (still and not watch.dues):
             watch.note = say("lines came while the ROS clock stood still")
             watch.period = None
             self._watch_wall(watch, on_event)
@@ -181,31 +201,42 @@ class VirtualClock:
         """Watch a node that does not follow `/clock`."""
         watch_wall(self._observer, self._output, watch, on_event, deadline=self._deadline)
 
-    def _step(
+    def _step(self, at: int, *, wait: bool = False, until_log: bool = False) -> list[Event]:
+        """Set the clock, make the barrier, and return the new events."""
+        events, _ = self._ask(at, wait=wait, until_log=until_log)
+        return events
+
+    def _ask(
         self,
         at: int,
         *,
         wait: bool = False,
         until_log: bool = False,
+        patient: int = 0,
         seconds: float = BARRIER_SECONDS,
-    ) -> tuple[list[Event], bool | None]:
-        """Set the clock, make the barrier, and return the new events and the barrier's result."""
+    ) -> tuple[list[Event], Answer]:
+        """Set the clock, make the barrier, and return the new events and the probe's answer."""
         self._at = max(at, self._at)
         observer = self._observer
         observer.now = self._at / SECOND
         published = time.time()
         enough = int(until_log and self._slow)
-        answer = observer.probe.ask("clock", seconds=seconds, at=self._at, until_log=enough)
-        self._slow = self._slow or time.time() - published > SLOW_BARRIER
+        answer = observer.probe.ask(
+            "clock", seconds=seconds, at=self._at, until_log=enough, patient=patient
+        )
+        self._slow = self._slow or (not patient and time.time() - published > SLOW_BARRIER)
         events = observer.take(answer, seconds=0.02 if wait else 0)
         events += observer.catch_up(answer.logs)
+        if self._unasked:
+            quiet = observer.probe.ask("wait", seconds=QUIET_SECONDS)
+            events += observer.take(quiet) + observer.catch_up(quiet.logs)
         events = self._at_their_instants(events, published)
         silent = answer.barrier is False and not events
         self._unanswered = self._unanswered + 1 if silent else 0
         self._before = self._at
         if answer.clocks > 1:
             raise ForeignClock(events)
-        return events, answer.barrier
+        return events, answer
 
     def _at_their_instants(self, events: list[Event], published: float) -> list[Event]:
         """Assign events from before this step's clock message to the previous instant."""
@@ -220,6 +251,20 @@ class VirtualClock:
     def _over(self) -> bool:
         stuck = self._unanswered >= UNANSWERED and self._at > MILLISECOND
         return stuck or self._observer.over or time.monotonic() > self._deadline
+
+
+def _ticks(events: Sequence[Event]) -> Sequence[Event]:
+    """Return the lines of the count: of the expected form, else those that recur, else all."""
+    own = [event for event in events if event.n is not None]
+    return own or recurring(events, on_wall=False) or events
+
+
+def _ticks_among(early: Sequence[Event], found: Sequence[Event]) -> list[Event]:
+    """Return the lines before a due instant that belong to the count, as those found at it do."""
+    if any(event.n is not None for event in (*early, *found)):
+        return [event for event in early if event.n is not None and event.due is None]
+    kinds = {event.kind for event in found}
+    return [event for event in early if event.kind in kinds and event.due is None]
 
 
 class ForeignClock(Exception):  # noqa: N818

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -15,6 +15,7 @@ from grader.run.terminal import Line, Terminal
 SECOND = 1_000_000_000
 GRACE = 0.1  # seconds of wall time within which a log record follows its line on the terminal
 LATE_GRACE = 1.0  # the same for records from before the probe had discovered the node
+NUMBER = re.compile(r"\d+")
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
 Source = Literal["logger", "print", "faked"]
@@ -37,10 +38,20 @@ class Event:
     record: LogRecord | None = None
     logger: str = ""
 
+    @property
+    def kind(self) -> Hashable:
+        """Equal for the lines of one log call, or of one text with different numbers in it."""
+        if self.record is not None and self.record.line > 0:
+            return self.record.file, self.record.line
+        return NUMBER.sub("#", self.text)
+
 
 @dataclass
 class Watch:
-    """The events of a run in order, and the timing of its count."""
+    """The events of a run in order, and the timing of its count.
+
+    `while_still` is whether lines came although ROS time stood still, None if this is unknown.
+    """
 
     clock: Literal["virtual", "wall"] | None = None
     events: list[Event] = field(default_factory=list)
@@ -51,18 +62,35 @@ class Watch:
     period: float | None = None
     settled: bool = False
     note: str = ""
+    while_still: bool | None = None
 
     @property
     def counted(self) -> list[Event]:
-        """The events of the count: lines of the expected form, else any lines."""
+        """The events of the count: lines of the expected form, else those that recur, else any."""
         own = [event for event in self.events if event.n is not None]
         if own:
             return own
         before = {id(event) for event in self.before_start}
         others = [e for e in without_tracebacks(self.events) if id(e) not in before]
+        repeated = recurring(others, on_wall=self.clock != "virtual")
+        if repeated:
+            return repeated
         moments = {event.due if self.clock == "virtual" else event.wall for event in others}
         # lines at one moment only are a message or a traceback, not a count
         return others if len(moments - {None}) > 1 else []
+
+
+def recurring(events: Iterable[Event], *, on_wall: bool) -> list[Event]:
+    """Return the lines of the kind that came at most moments; [] if none came at two."""
+    kinds: dict[Hashable, list[Event]] = {}
+    for event in events:
+        kinds.setdefault(event.kind, []).append(event)
+
+    def moments(found: list[Event]) -> int:
+        return len({event.wall if on_wall else event.virtual for event in found})
+
+    most = max(kinds.values(), key=moments, default=[])
+    return most if moments(most) > 1 else []
 
 
 def without_tracebacks(events: Iterable[Event]) -> Iterator[Event]:
@@ -179,6 +207,14 @@ class Observer:
             events += self.take(seconds=GRACE / 4)
             if not self._has_unshown(records):
                 events += self.take(seconds=max(late, GRACE / 4))
+        return events
+
+    def watch_for(self, seconds: float) -> list[Event]:
+        """Return the new events of a time on the wall clock."""
+        deadline = time.monotonic() + seconds
+        events: list[Event] = []
+        while time.monotonic() < deadline and not self.over:
+            events += self.take(self.probe.ask("wait", seconds=0.1))
         return events
 
     def settle(self) -> list[Event]:

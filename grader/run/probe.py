@@ -7,14 +7,19 @@ imports nothing of the grader, because it may run under another Python.
 Commands (`do`); times are nanoseconds of ROS time, `seconds` is the most wall time to take:
 - `look` answers at once;
 - `wait` answers when something was logged or the graph changed;
-- `clock` publishes `at` and makes two round trips to every node (docs/architecture.md, "The
-  barrier"); with `until_log` it also answers when something was logged;
+- `clock` publishes `at` and makes two round trips to every node that has ever answered
+  (docs/architecture.md, "The barrier"); with `until_log` it also answers when something was logged;
+  with `patient` it waits for every node that has a service to ask;
+- `follow` sets `use_sim_time` of the node `name`; `barrier` is whether the node accepted it;
+- `try` asks the other services of the node `name`; `barrier` is whether one answered;
 - `end` ends the probe.
-The answer has `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock).
+The answer has `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock),
+`silent` (the number of nodes that were asked and have never answered).
 """
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import sys
@@ -22,8 +27,8 @@ import time
 from typing import Any
 
 import rclpy
-from rcl_interfaces.msg import Log
-from rcl_interfaces.srv import GetParameters
+from rcl_interfaces.msg import Log, Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
@@ -32,6 +37,79 @@ NAME = "_grader_probe"
 LONGEST_TEXT = 2_000  # characters of a log record that are passed on
 MOST_LOGS = 2_000  # records in one answer
 MOST_NODES = 8
+MOST_LATE = 4  # unanswered requests to one node that may still be answered
+OTHER_SERVICE_SECONDS = 1.0  # after which a node without parameter services is asked otherwise
+AGAIN_SECONDS = 1.0  # between two requests to a node that does not answer
+ASKABLE = ("std_srvs", "example_interfaces", "rcl_interfaces", "type_description_interfaces")
+DESCRIPTIONS = "type_description_interfaces/srv/GetTypeDescription"  # from jazzy on
+
+
+def service_type(name: str) -> Any:
+    """Return the class of a service type such as std_srvs/srv/Empty; None if it is not known."""
+    package, _, kind = name.partition("/srv/")
+    if package not in ASKABLE:  # the name comes from the student's node
+        return None
+    try:
+        return getattr(importlib.import_module(package + ".srv"), kind, None)
+    except ImportError:
+        return None
+
+
+class Peer:
+    """A node, and the service by which it is asked whether it has run what was due."""
+
+    def __init__(self, client: Any, request: Any) -> None:
+        self.client = client
+        self.request = request
+        self.answered = False  # ever
+        self.sim_time: bool | None = None
+        self.left = 0  # round trips of the current barrier that are missing
+        self.current: Any = None
+        self.late: list[Any] = []
+        self.sent = 0.0  # time.monotonic()
+
+    def ready(self) -> bool:
+        """Return whether the service is there."""
+        return bool(self.client.service_is_ready())
+
+    def begin(self, trips: int) -> None:
+        """Begin a barrier; an older request may still be answered, but proves nothing for it."""
+        self.left = trips
+        self.drop()
+        self.send()
+
+    def send(self) -> None:
+        """Send a request."""
+        self.current = self.client.call_async(self.request)
+        self.sent = time.monotonic()
+
+    def drop(self) -> None:
+        """No longer wait for the current request."""
+        if self.current is not None:
+            self.late.append(self.current)
+            self.current = None
+        for future in self.late[:-MOST_LATE]:
+            self.client.remove_pending_request(future)
+        self.late = self.late[-MOST_LATE:]
+
+    def collect(self) -> None:
+        """Take the answers that have come, and send the next request of the barrier."""
+        for future in [f for f in self.late if f.done()]:
+            self.late.remove(future)
+            self.read(future)
+        if self.current is not None and self.current.done():
+            self.read(self.current)
+            self.current = None
+            self.left -= 1
+            if self.left > 0:
+                self.send()
+
+    def read(self, future: Any) -> None:
+        """Read an answer; that of the parameter service has the value of use_sim_time."""
+        self.answered = True
+        values: list[Any] = getattr(future.result(), "values", [])
+        if len(values) == 1 and values[0].type == ParameterType.PARAMETER_BOOL:
+            self.sim_time = bool(values[0].bool_value)
 
 
 class Probe:
@@ -45,7 +123,8 @@ class Probe:
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
         self.logs: list[dict[str, Any]] = []
-        self.clients: dict[str, Any] = {}
+        self.peers: dict[str, Peer] = {}
+        self.since: dict[str, float] = {}  # when a node was seen first
         self.clock = self.node.create_publisher(Clock, "/clock", 10)
         rosout = QoSProfile(
             depth=1000,
@@ -89,65 +168,151 @@ class Probe:
                 if full in found:
                     found[full][key] = True
         for full, node in found.items():
-            node["parameters"] = self.client(full).service_is_ready()
+            peer = self.peer(full)
+            peer.collect()
+            node["parameters"] = isinstance(peer.request, GetParameters.Request) and peer.ready()
+            node["services"] = peer.ready()
+            node["answers"], node["sim_time"] = peer.answered, peer.sim_time
         return list(found.values())
 
-    def client(self, full: str) -> Any:
-        """Return the client of a node's parameter service."""
-        if full not in self.clients:
-            self.clients[full] = self.node.create_client(GetParameters, full + "/get_parameters")
-        return self.clients[full]
+    def peer(self, full: str) -> Peer:
+        """Return how a node is asked: by its parameter service, or by another without an effect."""
+        now = time.monotonic()
+        peer = self.peers.get(full)
+        if peer is None:
+            client = self.node.create_client(GetParameters, full + "/get_parameters")
+            peer = Peer(client, GetParameters.Request(names=["use_sim_time"]))
+            self.peers[full], self.since[full] = peer, now
+        elif (
+            isinstance(peer.request, GetParameters.Request)
+            and now - self.since[full] > OTHER_SERVICE_SECONDS
+            and not peer.ready()
+            and self.services(full).get(full + "/get_type_description") == DESCRIPTIONS
+        ):
+            kind = service_type(DESCRIPTIONS)
+            client = self.node.create_client(kind, full + "/get_type_description")
+            peer = self.peers[full] = Peer(client, kind.Request())
+        return peer
 
-    def matched(self) -> bool:
-        """Return whether a subscription has matched our /clock publisher."""
-        return bool(self.clock.get_subscription_count() > 0)
+    def services(self, full: str) -> dict[str, str]:
+        """Return the services of a node with their types."""
+        space, _, name = full.rpartition("/")
+        try:
+            found = self.node.get_service_names_and_types_by_node(name, space or "/")
+        except RuntimeError:  # the node has gone
+            return {}
+        return {service: kinds[0] for service, kinds in found if kinds}
 
-    def barrier(self, trips: int, deadline: float, *, until_log: bool) -> bool | None:
-        """Make round trips to every node with parameter services; return whether all answered.
+    def matched(self, nodes: list[dict[str, Any]]) -> bool:
+        """Return whether the nodes' subscriptions have matched our /clock publisher."""
+        wanted = sum(node["clock"] for node in nodes)
+        return bool(self.clock.get_subscription_count() >= max(1, wanted))
 
-        None if there is no such node, or if `until_log` and a log record came first: the
-        parameter services of a node with many threads can be slow.
+    def barrier(
+        self, trips: int, deadline: float, *, until_log: bool, patient: bool
+    ) -> bool | None:
+        """Make round trips to every node that answers; return whether they succeeded.
+
+        The others do not count: a node that is not spun may stand beside one that is. None if
+        there is no node to ask, or if `until_log` and a log record came first: the services of a
+        node with many threads can be slow.
         """
         known = len(self.logs)
-        ready = [client for client in self.clients.values() if client.service_is_ready()]
-        if not ready:
+        peers = [peer for peer in self.peers.values() if peer.ready()]
+        if not peers:
             return None
-        request = GetParameters.Request(names=["use_sim_time"])
-        for _ in range(trips):
-            futures = [client.call_async(request) for client in ready]
-            while not all(future.done() for future in futures):
-                left = deadline - time.monotonic()
-                heard = until_log and len(self.logs) > known
-                if left <= 0 or heard:
-                    for client, future in zip(ready, futures):
-                        client.remove_pending_request(future)
-                    return None if heard else False
-                self.executor.spin_once(timeout_sec=left)
-        return True
+        spun = any(peer.answered for peer in peers)
+        for peer in peers:
+            if patient or peer.answered or not spun:
+                peer.begin(trips)
+        while True:
+            for peer in peers:
+                peer.collect()
+            answering = [peer for peer in peers if peer.answered]
+            awaited = peers if patient else answering or peers
+            if all(peer.left == 0 for peer in awaited):
+                return True
+            left = deadline - time.monotonic()
+            heard = until_log and len(self.logs) > known
+            if left <= 0 or heard:
+                complete = bool(answering) and all(peer.left == 0 for peer in answering)
+                return None if heard else complete
+            self.executor.spin_once(timeout_sec=left)
+
+    def ask_silent(self) -> None:
+        """Ask the nodes again that have not answered: a first answer can be lost in discovery."""
+        for peer in self.peers.values():
+            idle = time.monotonic() - peer.sent > AGAIN_SECONDS
+            if not peer.answered and idle and peer.ready():
+                peer.begin(1)
+
+    def follow(self, full: str, deadline: float) -> bool:
+        """Set use_sim_time of a node; return whether it accepted."""
+        value = ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=True)
+        wanted = Parameter(name="use_sim_time", value=value)
+        client = self.node.create_client(SetParameters, full + "/set_parameters")
+        answer = self.call(client, SetParameters.Request(parameters=[wanted]), deadline)
+        results: list[Any] = getattr(answer, "results", [])
+        return len(results) == 1 and bool(results[0].successful)
+
+    def try_services(self, full: str, deadline: float) -> bool:
+        """Ask the services of a node, whatever they do; return whether one answered."""
+        for service, name in self.services(full).items():
+            kind = service_type(name)
+            if kind is not None:
+                part = min(deadline, time.monotonic() + AGAIN_SECONDS)
+                if self.call(self.node.create_client(kind, service), kind.Request(), part):
+                    self.peer(full).answered = True
+                    return True
+        return False
+
+    def call(self, client: Any, request: Any, deadline: float) -> Any:
+        """Call a service and return its answer; None if none came."""
+        while not client.service_is_ready() and time.monotonic() < deadline:
+            self.executor.spin_once(timeout_sec=0.01)
+        future = client.call_async(request)
+        while not future.done() and time.monotonic() < deadline:
+            self.executor.spin_once(timeout_sec=0.01)
+        answer = future.result() if future.done() else None
+        self.node.destroy_client(client)
+        return answer
 
     def answer(self, command: dict[str, Any]) -> dict[str, Any]:
         """Carry out one command and return its answer."""
         deadline = time.monotonic() + command.get("seconds", 0)
-        barrier = None
+        barrier: bool | None = None
         if command["do"] == "clock":
-            at = command["at"]
-            message = Clock()
-            message.clock.sec, message.clock.nanosec = divmod(at, 1_000_000_000)
-            self.clock.publish(message)
-            until_log = bool(command.get("until_log"))
-            barrier = self.barrier(2, deadline, until_log=until_log)
+            barrier = self.set_clock(command, deadline)
+        elif command["do"] == "follow":
+            barrier = self.follow(command["name"], deadline)
+        elif command["do"] == "try":
+            barrier = self.try_services(command["name"], deadline)
         elif command["do"] == "wait":
+            self.ask_silent()
             before = self.graph()
             while not self.logs and self.graph() == before and time.monotonic() < deadline:
                 self.executor.spin_once(timeout_sec=0.01)
         self.executor.spin_once(timeout_sec=0)
         logs, self.logs = self.logs, []
-        answer = {"barrier": barrier, "logs": logs}
+        answer: dict[str, Any] = {"barrier": barrier, "logs": logs}
         if command["do"] != "clock":
             answer["nodes"] = self.graph()
-            answer["matched"] = self.matched()
+            answer["matched"] = self.matched(answer["nodes"])
+        silent = [p for p in self.peers.values() if not p.answered and p.ready()]
+        answer["silent"] = len(silent)
         answer["clocks"] = self.node.count_publishers("/clock")
         return answer
+
+    def set_clock(self, command: dict[str, Any], deadline: float) -> bool | None:
+        """Publish an instant and make the barrier."""
+        message = Clock()
+        message.clock.sec, message.clock.nanosec = divmod(command["at"], 1_000_000_000)
+        patient = bool(command.get("patient"))
+        if patient:
+            self.graph()  # nodes that were made after the first one was seen
+        self.clock.publish(message)
+        until_log = bool(command.get("until_log"))
+        return self.barrier(2, deadline, until_log=until_log, patient=patient)
 
 
 def main() -> None:

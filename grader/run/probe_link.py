@@ -37,24 +37,39 @@ class LogRecord:
 class NodeSeen:
     """A node on the graph: its full name, and which endpoints it has.
 
-    `clock` is a /clock subscription, `rosout` a /rosout publisher, `parameters` the services.
+    `clock` is a /clock subscription, `rosout` a /rosout publisher, `parameters` the parameter
+    service, `services` any service that can be asked. `answers` is whether one ever answered,
+    `sim_time` the value of use_sim_time, None if it is unknown.
     """
 
     name: str
     clock: bool
     rosout: bool
     parameters: bool
+    services: bool = False
+    answers: bool = False
+    sim_time: bool | None = None
+
+    @property
+    def logger(self) -> str:
+        """The name of the node's logger (rcl's `rcl_node_get_logger_name`)."""
+        return self.name.strip("/").replace("/", ".")
 
 
 @dataclass(frozen=True)
 class Answer:
-    """An answer of the probe; `barrier` is whether every node answered, None if unknown."""
+    """An answer of the probe.
+
+    `barrier` is whether the nodes that spin answered, None if unknown; `silent` is the number of
+    nodes that were asked and have never answered.
+    """
 
     barrier: bool | None = None
     logs: tuple[LogRecord, ...] = ()
     nodes: tuple[NodeSeen, ...] = ()
     clocks: int = 0
     matched: bool = False
+    silent: int = 0
 
 
 class ProbeError(SurroundingsError):
@@ -81,7 +96,7 @@ class ProbeLink:
             self._read(START_SECONDS)
             self._ready = True
 
-    def ask(self, do: str, *, seconds: float = 0, **more: int) -> Answer:
+    def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
         """Send one command and return the answer; ProbeError if none comes."""
         self.ready()
         try:
@@ -97,6 +112,7 @@ class ProbeLink:
                 nodes=tuple(NodeSeen(**node) for node in said.get("nodes", ())),
                 clocks=said["clocks"],
                 matched=said.get("matched", False),
+                silent=said.get("silent", 0),
             )
         except (KeyError, TypeError) as error:
             raise self._lost("its answer lacks keys or has unknown ones") from error

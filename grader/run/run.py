@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import shlex
 import time
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.run.clock import ForeignClock, VirtualClock, watch_wall
+from grader.run.clock import STILL, ForeignClock, VirtualClock, watch_wall
 from grader.run.observer import Event, Observer, Watch
 from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
 from grader.run.terminal import Terminal
@@ -19,6 +20,9 @@ from grader.sandbox.base import UNRUNNABLE, Sandbox
 UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
 COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
 OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
+FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
+TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
+SETTLE_SECONDS = 0.1  # wall time in which lines come that were logged before the time stood still
 END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
 
@@ -26,6 +30,7 @@ END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by
 class Run:
     """The result of one run; times in seconds.
 
+    `counting` is the node whose logger carried the count, "" if it is unknown.
     `first_line_seconds` is counted from the start of `ros2 run`; `logged` is the number of bytes
     that the log records would take on a terminal.
     """
@@ -33,6 +38,7 @@ class Run:
     command: str
     watch: Watch = field(default_factory=Watch)
     nodes: tuple[NodeSeen, ...] = ()
+    counting: str = ""
     started: bool = False
     ended_by_itself: bool = False
     interrupted: bool = False
@@ -47,6 +53,11 @@ class Run:
     seconds: float = 0
     node_seconds: float | None = None
     first_line_seconds: float | None = None
+
+    @property
+    def counting_node(self) -> NodeSeen | None:
+        """The node whose logger carried the count, None if it is unknown."""
+        return next((node for node in self.nodes if node.name == self.counting), None)
 
     @property
     def doubts_ros2(self) -> bool:
@@ -133,8 +144,8 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
             first_seen = first_seen or now
             run.nodes = answer.nodes
             run.node_seconds = first_seen - begin
-            node = answer.nodes[0]
-            if node.clock and node.parameters and answer.matched:
+            complete = all(node.clock and node.services for node in answer.nodes)
+            if complete and answer.matched:
                 return True
             if now - first_seen > COMPLETE_SECONDS:
                 return any(node.clock for node in answer.nodes)
@@ -154,19 +165,58 @@ def _watch(
     follows: bool,
     deadline: float,
 ) -> None:
-    output = observer.output
+    output, watch = observer.output, run.watch
+    foreign = False
     if follows:
         try:
-            clock.drive(run.watch, on_event)
-        except ForeignClock as foreign:
-            run.watch.events += foreign.events
-            run.watch.note = say("the node publishes /clock itself")
-            watch_wall(observer, output, run.watch, on_event, deadline=deadline)
+            clock.drive(watch, on_event)
+        except ForeignClock as error:
+            watch.events += error.events
+            watch.note = say("the node publishes /clock itself")
+            watch_wall(observer, output, watch, on_event, deadline=deadline)
+            foreign = True
     else:
-        run.watch.note = say("the node does not follow /clock")
-        watch_wall(observer, output, run.watch, on_event, deadline=deadline)
-    nodes = observer.probe.ask("look").nodes
-    run.nodes = nodes or run.nodes
+        watch.note = say("the node does not follow /clock")
+        watch_wall(observer, output, watch, on_event, deadline=deadline)
+    run.nodes = observer.probe.ask("look").nodes or run.nodes
+    run.counting = counting_node(run.nodes, watch.counted)
+    if watch.clock == "wall" and watch.counted and not foreign and not observer.over:
+        watch.while_still = _count_while_still(run, observer)
+        run.nodes = observer.probe.ask("look").nodes or run.nodes
+
+
+def counting_node(nodes: Sequence[NodeSeen], counted: Sequence[Event]) -> str:
+    """Return the full name of the node whose logger carried most lines of the count, else ""."""
+    loggers = {node.logger: node.name for node in nodes}
+    records = Counter(
+        event.record.name
+        for event in counted
+        if event.record is not None and event.record.name in loggers
+    )
+    return loggers[records.most_common(1)[0][0]] if records else ""
+
+
+def _count_while_still(run: Run, observer: Observer) -> bool | None:
+    """Return whether lines come while ROS time stands still; None if it cannot be made to.
+
+    A node that did not get its arguments gets `use_sim_time` from its parameter service.
+    """
+    node = run.counting_node
+    if node is None:
+        return True if all(each.clock for each in run.nodes) else None
+    if node.clock and node.sim_time is not False:
+        return True  # time stood still while it was watched on the wall clock
+    if not node.answers:
+        if not node.services:
+            observer.probe.ask("try", name=node.name, seconds=TRY_SECONDS)
+        return None
+    if not observer.probe.ask("follow", name=node.name, seconds=FOLLOW_SECONDS).barrier:
+        return None
+    run.watch.events += observer.watch_for(SETTLE_SECONDS)
+    kinds = {event.kind for event in run.watch.counted}
+    still = observer.watch_for(STILL * observer.output.period)
+    run.watch.events += still
+    return any(event.kind in kinds for event in still)
 
 
 def _stop(run: Run, terminal: Terminal, seconds: float) -> None:

@@ -67,9 +67,10 @@ class Session:
             self.timing["build"] += time.monotonic() - begin
         return replace(made, stopped_by=made.stopped_by or self._resource(made.status))
 
-    def run(self, on_event: Callable[[Event], None]) -> Run:
+    def run(self, on_event: Callable[[Event], None], *, named: Assignment | None = None) -> Run:
         """Run the node and return the result; repeat the run if our own side failed.
 
+        `named` is the assignment with the names that the built package has, if they differ.
         A run that would cost points for its timing is repeated too, with the clock in fine steps,
         because load or a jump of the clock must not look like the node's fault. A run is repeated
         only if the verdict's time limit leaves time for it.
@@ -78,17 +79,20 @@ class Session:
         """
         begin = time.monotonic()
         try:
-            run = self._run(on_event)
+            run = self._run(on_event, named or self.assignment)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
             if self._doubtful(run):
                 # the second run reports no ticks: the listener already has those of the first
-                run = self._second_opinion(run, self._run(unheard, fine=True))
+                again = self._run(unheard, named or self.assignment, fine=True)
+                run = self._second_opinion(run, again)
             return run
         finally:
             self.timing["run"] += time.monotonic() - begin
 
-    def _run(self, on_event: Callable[[Event], None], *, fine: bool = False) -> Run:
+    def _run(
+        self, on_event: Callable[[Event], None], named: Assignment, *, fine: bool = False
+    ) -> Run:
         failure: ProbeError | None = None
         tries = 0
         while tries < RUNS and self._has_time():
@@ -96,9 +100,7 @@ class Session:
             self._probe = self._probe or ProbeLink(self.sandbox)
             until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
             try:
-                run = observe(
-                    self.sandbox, self.assignment, self._probe, on_event, until=until, fine=fine
-                )
+                run = observe(self.sandbox, named, self._probe, on_event, until=until, fine=fine)
             except ProbeError as error:
                 failure = error
                 self._drop_probe()

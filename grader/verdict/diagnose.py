@@ -98,7 +98,7 @@ def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMi
 
 def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
     """Return why the node's own module was not installed; None if another one is missing."""
-    package = evidence.assignment.package
+    package = evidence.assignment.folder
     module = rf"{re.escape(package)}(?:\.{re.escape(evidence.assignment.node_file[:-3])})?"
     if not re.search(rf"No module named '{module}'", error):
         return None

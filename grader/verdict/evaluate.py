@@ -127,6 +127,8 @@ def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
         return _Result(status="inconclusive", actual=outcome.reason)
     if isinstance(outcome, Blocked):
         return _skipped(assigned, outcome.by, evidence)
+    if not outcome.blocks:
+        evidence.not_blocking.add(assigned.check.id)
     diagnosis = diagnose(outcome, evidence)
     return _Result(
         status="failed",
@@ -144,6 +146,8 @@ def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
 def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
     for dependency in assigned.check.depends:
         result = evidence.results.get(dependency)
+        if dependency in evidence.not_blocking:
+            continue
         if result is not None and result.status != "passed":
             return result.blocked_by or dependency
     return ""

@@ -12,12 +12,14 @@ from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import Build
 from grader.verdict.outcome import Inconclusive
+from grader.verdict.own_names import own_executable, with_own_names
 
 
 class Evidence:
     """The evidence of one verdict; `results` has the results of the checks evaluated so far.
 
-    The build and the run are made on first access.
+    `asked` is the assignment as it is, `assignment` the same with the package's own names.
+    `not_blocking` has the failed checks that prevent no other check. The build and the run are made on first access.
     """
 
     def __init__(
@@ -28,9 +30,11 @@ class Evidence:
         build: Callable[[], Build],
         run: Callable[[], Run],
     ) -> None:
-        self.assignment = assignment
+        self.asked = assignment
+        self.assignment = with_own_names(assignment, submission)
         self.submission = submission
         self.results: dict[str, CheckResult] = {}
+        self.not_blocking: set[str] = set()
         self._make_build = build
         self._make_run = run
         self._run: Run | None = None
@@ -40,6 +44,14 @@ class Evidence:
     def build(self) -> Build:
         """The build; made on first access."""
         return self._make_build()
+
+    @property
+    def named(self) -> Assignment:
+        """The assignment with all names that the built package has, the executable's included."""
+        name = own_executable(self.assignment, self.build.entry_points)
+        if not self.build.installed(f"lib/{self.assignment.package}/{name}"):
+            return self.assignment
+        return self.assignment.model_copy(update={"executable": name})
 
     @property
     def run(self) -> Run:

@@ -18,7 +18,7 @@ from grader.verdict.checks.all import STATIC
 from grader.verdict.static import static_findings
 
 MOST_STEPS = 30
-"""The most fixes of one package: each mistake needs one, and a package has 16 checks."""
+"""The most fixes of one package: each mistake needs one, and a package has 17 checks."""
 MOST_PATCH = 50_000
 """Bytes of a diff in a report: twice the size of a diff that changes all lines of an exercise."""
 ADVISED: tuple[Fix, ...] = (manifest.depend, layout.init_file, setup_cfg.dashes)

@@ -140,12 +140,13 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
     def tick(event: Event) -> None:
         listener(events.TickSeen(event.n, event.text, event.virtual))
 
-    return Evidence(
+    evidence = Evidence(
         session.assignment,
         submission,
         build=lambda: session.build(submission),
-        run=lambda: session.run(tick),
+        run=lambda: session.run(tick, named=evidence.named),
     )
+    return evidence
 
 
 def _decide(

@@ -26,7 +26,8 @@ class Failed(Outcome):
 
     The catalogue entry supplies the rationale and the fix: `variant` selects one of its texts,
     `params` and `words` fill the placeholders (only `params` are in the report). `fix` replaces
-    the entry's fix if only the check knows what to do.
+    the entry's fix if only the check knows what to do. If not `blocks`, the checks that depend on
+    this one are evaluated all the same.
     """
 
     def __init__(
@@ -41,6 +42,7 @@ class Failed(Outcome):
         fix: str = "",
         where: Where | None = None,
         advice: Sequence[str] = (),
+        blocks: bool = True,
     ) -> None:
         super().__init__(actual)
         self.mistake = Mistake(id=mistake, params=dict(params or {}))
@@ -51,6 +53,7 @@ class Failed(Outcome):
         self.fix = fix
         self.where = where
         self.advice = tuple(advice)
+        self.blocks = blocks
 
 
 class Blocked(Outcome):

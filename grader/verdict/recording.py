@@ -122,7 +122,7 @@ class Recording(_Part):
 def record(evidence: Evidence, environment: Environment) -> Recording:
     """Return the recording of a verdict's evidence after its last check."""
     return Recording(
-        asked=_asked(evidence.assignment),
+        asked=_asked(evidence.asked),
         submission=evidence.submission.sha256,
         environment=environment,
         build=evidence.build if evidence.was_built else None,

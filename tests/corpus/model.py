@@ -30,7 +30,7 @@ STATIC = frozenset(
     }
 )
 AFTER_START = frozenset(
-    {"run.node_name", "run.output", "run.logger", "run.period", "run.interrupt"}
+    {"run.spins", "run.node_name", "run.output", "run.logger", "run.period", "run.interrupt"}
 )
 RUN = AFTER_START | {"run.starts"}
 INSTALLED = RUN | {"entry_point.executable"}

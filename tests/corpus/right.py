@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from .model import Package
 from .right_node import COUNTING
+from .right_nodes import NODES
 from .right_package import PACKAGING
 from .right_style import STYLE
 from .right_timing import TIMING
 
-RIGHT: tuple[Package, ...] = (*COUNTING, *TIMING, *PACKAGING, *STYLE)
+RIGHT: tuple[Package, ...] = (*COUNTING, *NODES, *TIMING, *PACKAGING, *STYLE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grader.package.edit.tree import Edit, Replace, Write
+from grader.package.edit.tree import Edit, Replace
 
 from .model import NODE, right
 from .right_node import CATCH, LINE, STEP, TIMER
@@ -44,15 +44,6 @@ RATE = """\
         pass
     rclpy.try_shutdown()
     thread.join()
-"""
-LOOP = """\
-    try:
-        while rclpy.ok():
-            time.sleep(1.0)
-            node.timer_callback()
-    except KeyboardInterrupt:
-        pass
-    rclpy.try_shutdown()
 """
 TENTHS = f"""\
         self.tenths += 1
@@ -118,29 +109,4 @@ TIMING = (
           note="ten short periods a line: a clock that jumps by a second skips nine of them"),
     right("escapes_sim_time", Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args=[])"),
           wall_clock=True, note="use_sim_time never reaches it, but it is right"),
-    right("steady_timer", _imports("from rclpy.clock import Clock", "from rclpy.clock import "
-          "ClockType"), _timer("self.create_timer(1.0, self.timer_callback, "
-                               "clock=Clock(clock_type=ClockType.STEADY_TIME))"),
-          wall_clock=True, note="subscribes to /clock anyway"),
-    right("sleep_loop", _imports("import time", ""), _timer("pass"), Replace(NODE, CATCH, LOOP),
-          wall_clock=True, note="not taught in the lesson, but lines and times are right"),
-    right("procedural_sleep", Write(NODE, """\
-#!/usr/bin/env python3
-import time
-
-import rclpy
-
-
-def main():
-    rclpy.init()
-    node = rclpy.create_node('my_first_node')
-    n = 0
-    while rclpy.ok():
-        time.sleep(1)
-        node.get_logger().info('Hello time: ' + str(n))
-        n += 1
-
-
-main() if __name__ == '__main__' else None
-"""), wall_clock=True, note="ends with the KeyboardInterrupt traceback"),
 )  # fmt: skip

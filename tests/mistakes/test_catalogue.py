@@ -53,11 +53,7 @@ def named_in_the_code() -> set[str]:
                     head, dot, slug = node.value.partition(".")
                     if head in prefixes and dot and slug.isidentifier():
                         named.add(node.value)
-    checks = {"package.found", "package.manifest", "package.marker", "package.setup_cfg"}
-    checks |= {"source.node_file", "source.exec_bit", "source.shebang", "build.colcon"}
-    checks |= {"entry_point.mapping", "entry_point.executable", "run.starts", "run.node_name"}
-    checks |= {"run.output", "run.logger", "run.period", "run.interrupt"}
-    return named - files - checks
+    return named - files - set(CHECKS)
 
 
 def test_every_mistake_that_the_code_names_has_an_entry() -> None:

@@ -51,7 +51,7 @@ class Case:
     @property
     def node_path(self) -> str:
         """The required path of the node's file."""
-        return f"{self.assignment.package}/{self.assignment.node_file}"
+        return f"{self.assignment.folder}/{self.assignment.node_file}"
 
     @property
     def entry(self) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
+from grader.package.intake.copies import original
 from grader.package.intake.model import Candidate
 from grader.package.intake.problems import Problem, duplicate, no_package
 from grader.package.intake.reading import Unread
@@ -23,10 +24,14 @@ TOO_MANY = say("not examined, as there are more than {count} packages", count=MO
 
 @dataclass(frozen=True)
 class Choice:
-    """The chosen candidate, or the problem; `hints` are for the student."""
+    """The chosen candidate, or the problem; `hints` are for the student.
+
+    `copies` are other packages with its name that colcon would find too.
+    """
 
     chosen: Candidate | None
     hints: tuple[str, ...] = ()
+    copies: tuple[str, ...] = ()
     problem: Problem | None = None
 
 
@@ -63,14 +68,16 @@ def choose(tree: Tree, candidates: list[Candidate], *, package: str, node_file: 
     right = _outermost([c for c in seen if c.name == package])
     # colcon does not search inside a package: prefer a package that is not nested in another
     free = [c for c in right if not _around(c, seen)]
-    if len(free or right) > 1:
-        return Choice(None, problem=duplicate([c.path for c in free or right], package))
-    chosen = next(iter(free or right), None)
+    same = free or right
+    chosen = original(tree, same, package=package, node_file=node_file) if same else None
+    if same and chosen is None:
+        return Choice(None, problem=duplicate([c.path for c in same], package))
+    copies = tuple(c.path for c in same if c is not chosen)
     if chosen is None:
         chosen = next((c for c in candidates if c.name == package), None)
     if chosen is None:
         return _nearest(tree, seen or candidates, package=package, node_file=node_file)
-    return Choice(chosen, tuple(_hints(tree, chosen, candidates)))
+    return Choice(chosen, tuple(_hints(tree, chosen, candidates)), copies)
 
 
 def _ignored(tree: Tree, candidate: Candidate) -> bool:

@@ -17,6 +17,14 @@ class Timer:
     period: ast.expr | None
     callback: ast.expr | None
     function: Function | None
+    clock: ast.expr | None = None
+
+    @property
+    def has_other_clock(self) -> bool:
+        """Whether the timer is given a clock that is not the node's."""
+        own = self.clock is not None and dotted(self.clock).endswith("get_clock()")
+        none = isinstance(self.clock, ast.Constant) and self.clock.value is None
+        return self.clock is not None and not own and not none
 
     @property
     def _named(self) -> ast.expr | None:
@@ -50,7 +58,11 @@ class Timer:
 def timer_of(call: ast.Call, function: Function | None) -> Timer:
     """Return the timer that a call of create_timer makes in a function."""
     given = {keyword.arg: keyword.value for keyword in call.keywords}
-    period, callback = (*call.args[:2], None, None)[:2]
+    period, callback, _, clock = (*call.args[:4], None, None, None, None)[:4]
     return Timer(
-        call, period or given.get("timer_period_sec"), callback or given.get("callback"), function
+        call,
+        period or given.get("timer_period_sec"),
+        callback or given.get("callback"),
+        function,
+        clock or given.get("clock"),
     )

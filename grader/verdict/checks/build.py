@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
+from grader.base.shown import shown
 from grader.report.model import Where
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.outcome import Blocked, Failed, Passed
@@ -31,6 +32,7 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if build.stopped_by:
         raise _stopped(evidence)
     if build.status == 0 and build.is_installed(package):
+        _must_be_the_only_one(evidence)
         return Passed(
             actual=say(
                 "{command}: 1 package finished in {seconds} s",
@@ -48,6 +50,25 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
     raise _broken(evidence)
+
+
+def _must_be_the_only_one(evidence: Evidence) -> None:
+    """Raise Failed if the workspace has copies of the package: colcon then builds none of them."""
+    submission = evidence.submission
+    if not submission.copies or submission.root is None:
+        return
+    places = ", ".join(shown(path) for path in submission.copies[:3])
+    raise Failed(
+        "package.duplicate",
+        expected=say("one package called {package}", package=evidence.assignment.package),
+        actual=say(
+            "there are copies of it in {places}: colcon build refuses to build the workspace. "
+            "{root} was built alone and marked.",
+            places=places,
+            root=shown(submission.root),
+        ),
+        blocks=False,
+    )
 
 
 def _is_about(cause: str, log: str) -> bool:

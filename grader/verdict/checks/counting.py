@@ -35,6 +35,8 @@ def output(evidence: Evidence) -> Passed:
     if run.flooded:
         raise flood(evidence, expected)
     if not events:
+        if evidence.has_failed("run.spins") and not run.resource:
+            raise Blocked(by="run.spins")
         raise resource(evidence, expected) if run.resource else _silent(evidence, expected)
     shown = ", ".join(event.text[:80] for event in events[:4])
     numbers = [event.n for event in events if event.n is not None]
@@ -157,13 +159,15 @@ def logger(evidence: Evidence) -> Passed:
     events = run.watch.counted
     if not events:
         raise Blocked(by="run.output")
-    names = {node.name.strip("/").replace("/", ".") for node in run.nodes}
+    names = {node.logger for node in run.nodes}
     expected = say("log records of the node on /rosout, level INFO")
     for event in events:
         if run.ended_by_itself and event.source == "faked" and event.wall > events[-1].wall - LOST:
             continue  # the last records of a node that ends may be lost
         _judge_record(event, names, expected, line_of(evidence, event.record))
-    said = say("{count} records of [{name}], INFO", count=len(events), name=min(names, default=""))
+    node = run.counting_node
+    name = node.logger if node is not None else min(names, default="")
+    said = say("{count} records of [{name}], INFO", count=len(events), name=name)
     return Passed(actual=said)
 
 

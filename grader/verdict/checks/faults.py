@@ -9,6 +9,7 @@ from grader.base.i18n.message import Value, say
 from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
 from grader.verdict.checks.build import limit_name, python_error
+from grader.verdict.checks.parsed import node_path
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
 
@@ -22,7 +23,7 @@ FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
 
 def node_file(evidence: Evidence) -> Where:
     """Return the node's file as the place of a fault without a line."""
-    return Where(file=f"{evidence.assignment.package}/{evidence.assignment.node_file}")
+    return Where(file=node_path(evidence))
 
 
 def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
@@ -40,8 +41,8 @@ def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
 def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
     """Return the last error that the run printed, and the line of the student's code, if any."""
     error, _ = python_error(run.transcript, evidence.assignment.node_file)
-    package = evidence.assignment.package
-    mine = [m for m in FRAME.findall(run.transcript) if m[0].startswith(f"{package}/")]
+    folder = evidence.assignment.folder
+    mine = [m for m in FRAME.findall(run.transcript) if m[0].startswith(f"{folder}/")]
     if not mine:
         return error, None
     return error, Where(file=mine[-1][0], line=int(mine[-1][1]))

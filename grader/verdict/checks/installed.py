@@ -45,6 +45,21 @@ def mapping(evidence: Evidence) -> Passed:
     raise _computed(evidence, none)
 
 
+def _other_name(evidence: Evidence) -> list[str]:
+    """Return which executable is run, if it is not the one that the assignment names."""
+    name, wanted = evidence.named.executable, evidence.assignment.executable
+    if name == wanted:
+        return []
+    return [
+        say(
+            "There is no executable {wanted}. {name} leads to the right function and was run "
+            "instead.",
+            wanted=wanted,
+            name=name,
+        )
+    ]
+
+
 def _computed(evidence: Evidence, actual: str) -> Failed:
     entry = wanted_entry(evidence)
     return Failed(
@@ -65,13 +80,13 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
 )
 def executable(evidence: Evidence) -> Passed:
     """The executable is where ros2 run looks for it."""
-    package, name = evidence.assignment.package, evidence.assignment.executable
+    package, name = evidence.assignment.package, evidence.named.executable
     files = evidence.build.files
     place = f"install/{package}/lib/{package}/{name}"
     there = evidence.build.installed(f"lib/{package}/{name}")
     found = files[there[0]] if there else None
     if found is not None and found.kind == "f" and found.mode & 0o111:
-        return Passed(actual=there[0])
+        return Passed(actual=there[0], advice=_other_name(evidence))
     if found is not None and found.kind == "f":
         raise Failed(
             "entry_point.no_exec_bit",

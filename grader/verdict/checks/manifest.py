@@ -155,16 +155,18 @@ def _line_of_fault(manifest: Manifest) -> int | None:
 
 
 def _check_name(evidence: Evidence, manifest: Manifest) -> None:
-    package = evidence.assignment.package
+    package = evidence.asked.package
     if manifest.name == package:
         return
     element = manifest.first("name")
     name = shown(manifest.name)
+    throughout = evidence.assignment.package != package
     raise _failed(
         "package.name_mismatch",
         with_difference(Message("<name>{name}</name>", {"name": name}), name, package),
         element.line if element else None,
         expected=f"<name>{package}</name>",
+        variant="throughout" if throughout else "",
         params={"name": name, "file": FILE},
         words={"package": package},
     )

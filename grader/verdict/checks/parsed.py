@@ -33,7 +33,7 @@ def setup_py_of(evidence: Evidence) -> SetupPy | None:
 
 def node_path(evidence: Evidence) -> str:
     """Return the path of the node's file in the package, as the assignment requires it."""
-    return f"{evidence.assignment.package}/{evidence.assignment.node_file}"
+    return f"{evidence.assignment.folder}/{evidence.assignment.node_file}"
 
 
 def names_in(evidence: Evidence, folder: str) -> list[str]:

@@ -54,7 +54,7 @@ def node_file(evidence: Evidence) -> Passed:
     except PythonFault as fault:
         raise _not_python(path, fault) from None
     advice = hints(parsed.tree)
-    inner = evidence.assignment.package
+    inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
         no_init = say(
             "There is no {inner}/__init__.py: without it find_packages() finds nothing to "
@@ -67,7 +67,7 @@ def node_file(evidence: Evidence) -> Passed:
 
 def _not_there(evidence: Evidence, path: str) -> Failed:
     submission, name = evidence.submission, evidence.assignment.node_file
-    inner = evidence.assignment.package
+    inner = evidence.assignment.folder
     expected = say("a file {path} in the package", path=path)
     if path in submission.links_out:
         return Failed(

@@ -82,16 +82,25 @@ def _no_node(evidence: Evidence, actual: str) -> Failed:
     )
 
 
-@check("run.node_name", stage=RUN, depends=["run.starts"], quotes="before_ctrl_c")
+@check(
+    "run.node_name",
+    stage=RUN,
+    depends=["run.starts"],
+    after=["run.spins"],
+    quotes="before_ctrl_c",
+)
 def node_name(evidence: Evidence) -> Passed:
     """The node has the required name."""
     wanted = evidence.assignment.node_name
-    names = [node.name for node in evidence.run.nodes]
+    counting = evidence.run.counting
+    names = [counting] if counting else [node.name for node in evidence.run.nodes]
     if f"/{wanted}" in names:
         return Passed(actual=f"/{wanted}")
     if not names:
         raise Inconclusive(say("the ROS graph could not be read"))
     listed = ", ".join(names)
+    if any(node.name == f"/{wanted}" for node in evidence.run.nodes):
+        listed = say("the lines come from {name}", name=counting)
     close = nearest(f"/{wanted}", names) or names[0]
     raise Failed(
         "run.wrong_node_name",

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.mistakes.callback import longest_sleep
+from grader.mistakes.recognised import place_of
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import line_of, words
+from grader.verdict.checks.spinning import timer_of_other_clock
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
@@ -93,18 +95,53 @@ def _wall_period(evidence: Evidence, expected: str) -> Passed:
     median = f"{watch.period:.3f}"
     actual = say("a line every {period} s of wall time (median)", period=median)
     if abs(watch.period - wanted.period) <= slack:
-        advice = say(
-            "Measured on the wall clock, because {note}. A timer made with create_timer follows "
-            "ROS time, in simulation too; a loop with sleep does not.",
-            note=watch.note,
-        )
-        return Passed(actual=actual, advice=[advice])
+        _must_use_ros_time(evidence)
+        return Passed(actual=actual, advice=_advice(evidence))
     if evidence.run.inconsistent:
         busy = say(
             "{actual}, but another run differed: the machine is too busy to tell", actual=actual
         )
         raise Inconclusive(busy)
     raise _wrong_period(evidence, expected, actual, seconds=watch.period)
+
+
+def _must_use_ros_time(evidence: Evidence) -> None:
+    """Raise Failed for a timer with a clock of its own, unless the assignment allows any."""
+    if evidence.assignment.timer == "any" or not evidence.run.watch.while_still:
+        return
+    timer = timer_of_other_clock(evidence)
+    source = source_of_node(evidence)
+    if timer is None or source is None:
+        return
+    raise Failed(
+        "run.other_clock",
+        expected=say("a timer on the node's clock, which is ROS time"),
+        actual=say("a timer, but not on the node's clock: it goes on while ROS time stands still"),
+        where=place_of(source, timer.call),
+        words=words(evidence),
+    )
+
+
+def _advice(evidence: Evidence) -> list[str]:
+    """Return why the period was measured on the wall clock; run.spins says it if it failed."""
+    note, still = evidence.run.watch.note, evidence.run.watch.while_still
+    if evidence.has_failed("run.spins") or evidence.assignment.timer == "any":
+        return []
+    if still is False:
+        return [
+            say(
+                "Measured on the wall clock, because {note}. Write rclpy.init(args=args): it "
+                "gives the node the arguments of ros2 run, such as use_sim_time.",
+                note=note,
+            )
+        ]
+    return [
+        say(
+            "Measured on the wall clock, because {note}. A timer made with create_timer follows "
+            "ROS time, in simulation too; a loop with sleep does not.",
+            note=note,
+        )
+    ]
 
 
 def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:

@@ -1,0 +1,80 @@
+"""The run stage: does the node spin, so that ROS calls its callbacks?
+
+A node that never spins can write right lines at right instants from a loop with sleep(). But its
+parameters and services never answer, no message reaches it, and it does not follow ROS time.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.verdict.checks.declare import RUN, check
+from grader.verdict.checks.faults import line_of, node_file, words
+from grader.verdict.node_files import source_of_node
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
+
+if TYPE_CHECKING:
+    from grader.package.source.timer import Timer
+    from grader.run.run import Run
+    from grader.verdict.evidence import Evidence
+
+
+@check("run.spins", stage=RUN, depends=["run.starts"], quotes="before_ctrl_c")
+def spins(evidence: Evidence) -> Passed:
+    """The node spins, so that ROS calls its callbacks."""
+    run = evidence.run
+    if not _answers(run) and not _follows(run):
+        raise _never(evidence)
+    if not run.watch.while_still:
+        return Passed(actual=say("the node answers while it counts"))
+    if timer_of_other_clock(evidence) is not None:
+        return Passed(actual=say("the node answers, but its timer does not use the node's clock"))
+    raise Failed(
+        "run.never_spins",
+        expected=say("the lines come from a callback that spin calls"),
+        actual=say("lines come while ROS time stands still: no timer of the node makes them"),
+        where=line_of(evidence, run.watch.counted[0].record),
+        variant="beside",
+        words=words(evidence),
+    )
+
+
+def _never(evidence: Evidence) -> Failed | Blocked | Inconclusive:
+    """Return the outcome of a node of which nothing answered."""
+    run = evidence.run
+    if run.flooded or run.resource or run.ended_by_itself:
+        return Blocked(by="run.output")
+    node = run.counting_node
+    if node is not None and not node.services and not node.clock:
+        return Inconclusive(
+            say("the node has no services and does not follow /clock: nothing of it can be asked")
+        )
+    return Failed(
+        "run.never_spins",
+        expected=say("a node that spins: it answers, and ROS calls its callbacks"),
+        actual=say("the node does not answer: nothing calls its callbacks"),
+        where=node_file(evidence),
+        words=words(evidence),
+    )
+
+
+def _answers(run: Run) -> bool:
+    """Whether a service of the node that counts has answered; of any node if it is unknown."""
+    node = run.counting_node
+    if node is not None and len(run.nodes) > 1:
+        return node.answers
+    return run.watch.settled or any(each.answers for each in run.nodes)
+
+
+def _follows(run: Run) -> bool:
+    """Whether lines came at their instants on /clock, which only a node that spins receives."""
+    watch = run.watch
+    return watch.clock == "virtual" and any(event.due is not None for event in watch.counted)
+
+
+def timer_of_other_clock(evidence: Evidence) -> Timer | None:
+    """Return the node's timer that has a clock of its own, if its source has one."""
+    source = source_of_node(evidence)
+    timers = source.timers if source is not None else []
+    return next((timer for timer in timers if timer.has_other_clock), None)
