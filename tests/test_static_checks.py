@@ -64,9 +64,15 @@ def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "wanted", "at", "words"),
     [
-        ("</description>", "</decription>", "broken_xml", 6, "mismatched tag"),
-        ("</package>", "", "broken_xml", 13, "XML"),
-        ("jane</m", "Jane & co</m", "broken_xml", 7, "XML"),
+        (
+            "</description>",
+            "</decription>",
+            "broken_xml",
+            6,
+            "</decription> should be </description>",
+        ),
+        ("</package>", "", "broken_xml", 3, "</package> is missing"),
+        ("jane</m", "Jane & co</m", "broken_xml", 7, "bare &"),
         (f"<name>{NAME}", "<name>my_robot", "name_mismatch", 4, "my_robot"),
         ("  <version>0.0.0</version>\n", "", "manifest_tag", None, "<version> is missing"),
         ("0.0.0", "", "manifest_tag", 5, "<version> is empty"),
@@ -78,7 +84,7 @@ def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
         (">ament_python<", ">ament_pyton<", "build_type", 11, "ament_pyton"),
         ("<build_type>ament_python</build_type>", "", "build_type", 10, "no <build_type>"),
         ("  <export>", "  <build_type>x</build_type><export>", "build_type", 10, "outside"),
-        ("<package format", "<pakage format", "broken_xml", 13, "mismatched"),
+        ("<package format", "<pakage format", "broken_xml", 3, "<pakage> should be <package>"),
         ("<?xml-model", "<!DOCTYPE package>\n<?xml-model", "manifest_doctype", 2, "document type"),
     ],
 )

@@ -31,6 +31,11 @@ PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
     "folder, which has the package's name and contains __init__.py."
 )
+OWN_COPIES = msg(
+    "A build copies your files into build and install. Only the files in src are yours: each build "
+    "overwrites the copies."
+)
+BUILT = msg("Copy your code from {copy} into {path}, and edit only that file from now on.")
 EXEC = msg(
     "The exec bit (chmod +x) lets you start the file itself: ./{file}. ros2 run does not need it: "
     "it starts a small script that colcon creates in install/. The exercise asks for the exec "
@@ -80,6 +85,7 @@ KINDS = (
         title=msg("The node's file is missing"),
         why=PLACE,
         fix=msg("Create the file {path} and write the node in it."),
+        fixes={"built": BUILT},
         link=links.FIRST_NODE,
         fixed_by=(
             layout.node_file,
@@ -200,6 +206,8 @@ KINDS = (
         title=msg("The node's file is empty"),
         why=msg("What you type in the editor is in the file only after you save it."),
         fix=msg("Save the file in your editor (Ctrl+S), then look at it with: cat {path}"),
+        whys={"built": OWN_COPIES},
+        fixes={"built": BUILT},
         link=links.FIRST_NODE,
         examples=(
             example(
@@ -238,7 +246,7 @@ KINDS = (
     Kind(
         id="source.pasted",
         stage="file",
-        title=msg("The node's file contains something that is not code, such as parts of a page"),
+        title=msg("The node's file contains characters or lines that are not Python code"),
         why=WEB,
         whys=PASTED_WHYS,
         fix=msg("Remove what does not belong to the code, or type that line again."),
@@ -305,7 +313,7 @@ KINDS = (
     Kind(
         id="source.other_language",
         stage="file",
-        title=msg("A line of the node's file is in another language than Python"),
+        title=msg("A line of the node's file is written as in another language"),
         why=OTHER_LANGUAGE,
         fix=msg("Write that line in Python."),
         fixes=LANGUAGE,

@@ -40,10 +40,10 @@ LANGUAGE = {
     "compare": msg("Python compares with == and !=. Write: {wanted}"),
     "operator": msg("Python has the words and, or, not instead of &&, ||, !. Write: {wanted}"),
     "elif": msg("Python has the word elif. Write: {wanted}"),
-    "declaration": msg("In Python, no type comes before a variable. Write: {wanted}"),
+    "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
     "function": msg("A function begins with def in Python. Write: {wanted}"),
     "new": msg("Python has no new: to make an object, call its class. Write: {wanted}"),
-    "member": msg("Python has a dot there. Write: {wanted}"),
+    "member": msg("Python has a dot between an object and its part. Write: {wanted}"),
     "except": msg("Python has try: and except …: for errors, and raise instead of throw."),
     "choice": msg("Python has no ? : for a choice. Write: a if condition else b"),
     "backtick": msg("A text is in quotes, ' or \", not in backticks."),
@@ -53,7 +53,7 @@ LANGUAGE = {
     ),
 }
 SIGNS = {
-    "commas": msg("Remove that comma: there is already one before it, or nothing to separate."),
+    "commas": msg("Remove that comma: there is nothing before it to separate."),
     "colon": msg("Write ':' instead of '=' between a key and its value: that is a dict, in {{ }}."),
     "equals": msg(
         "In a call, write name=value: '=' between the two, and no quotes around the name."

@@ -46,7 +46,8 @@ class Submission:
     and `problem_mistake` the mistake's id in the catalogue. `notes` list what was left out;
     `hints` what the student should change although it costs no points; `node_files` all files
     with the node's name, relative to `path`; `links_out` the package's links, relative to it,
-    that lead out of it and were left out.
+    that lead out of it and were left out; `newer_copy` a copy of the node's file in build or
+    install, relative to `path`, that is newer or holds the content of an empty file.
     """
 
     path: Path
@@ -64,6 +65,7 @@ class Submission:
     hints: tuple[str, ...] = ()
     node_files: tuple[str, ...] = ()
     links_out: tuple[str, ...] = ()
+    newer_copy: str = ""
 
     @cached_property
     def _by_path(self) -> dict[str, SourceFile]:

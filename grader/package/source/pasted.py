@@ -70,7 +70,11 @@ KINDS = (
 )
 VARIANTS = {"shell": "command", "entity": "tag", "nothing": "blank", "fence": "label"}
 WHOLE_LINES = frozenset({"label", "command"})
-PLAIN = re.compile(r"(?:[^\\\r\n]|\\(?:\r\n|[^\r]|\r))*")
+INSIDE = {
+    quotes: re.compile(rf"(?:[^\\\r\n{quotes}]|\\(?:\r\n|.))*", re.DOTALL)
+    for quotes in ("'", '"', SINGLE + "'", DOUBLE + '"')
+}
+"""What can be inside a string that ends with one of these quotes."""
 
 
 @dataclass(frozen=True)
@@ -192,23 +196,22 @@ def _string(text: str, start: int, quote: str) -> _Closed:
     three = text[start : start + 3]
     if len(quote) == 3 or (quote != plain and len(three) == 3 and set(three) <= set(family)):
         return _long(text, start, family, plain, is_plain=len(quote) == 3)
-    line = PLAIN.match(text, start + 1)
-    stop = line.end() if line else start + 1
-    if quote == plain:
-        end = _first(text, start + 1, stop, plain)
-        if end is not None:
-            return _Closed(end + 1)
-    end = _first(text, start + 1, stop, family)
-    ends = [] if end is None else [end]
-    changes = [Splice(at, at + 1, plain) for at in (start, *ends) if text[at] != plain]
-    return _Closed(stop if end is None else end + 1, tuple(changes))
+    end = _closer(text, start + 1, plain if quote == plain else family)
+    if quote == plain and end < len(text) and text[end] == plain:
+        return _Closed(end + 1)
+    stop = end
+    if quote == plain:  # it has no end on its line, unless a typographic quote is meant
+        end = min(_closer(text, start + 1, family), stop)
+    closed = end < len(text) and text[end] in family
+    changes = [Splice(at, at + 1, plain) for at in (start, *([end] if closed else []))]
+    kept = tuple(change for change in changes if text[change.start] != plain)
+    return _Closed(end + 1 if closed else stop, kept)
 
 
-def _first(text: str, start: int, stop: int, quotes: str) -> int | None:
-    """Return where one of the quotes is first, unless a backslash is before it."""
-    match = re.compile(rf"(?:[^\\{re.escape(quotes)}]|\\.)*", re.DOTALL).match(text, start, stop)
-    end = match.end() if match else stop
-    return end if end < stop and text[end] in quotes else None
+def _closer(text: str, start: int, quotes: str) -> int:
+    """Return where one of the quotes is first, or where the line ends."""
+    match = INSIDE[quotes].match(text, start)
+    return match.end() if match else start
 
 
 def _long(text: str, start: int, family: str, plain: str, *, is_plain: bool) -> _Closed:

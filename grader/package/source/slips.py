@@ -182,17 +182,31 @@ def _by_rules(text: Broken, rules: tuple[Rule, ...]) -> Slip | None:
         matches = list(rule.pattern.finditer(text.line))[:MOST_TRIES]
         if not matches:
             continue
-        matches = matches[:1] if rule.variant == "comment" else matches
         sign = matches[0][0]
         if rule.new is None:
             return text.slip("language", rule.variant, sign)
-        splices = [text.within(*m.span(), m.expand(rule.new)) for m in matches]
-        if rule.variant == "comment":
-            splices = [_as_comment(text, matches[0])]
-        fixed = text.changed(*splices)
-        if fixed is not None or rule.certain:
-            return text.slip("language", rule.variant, sign, *splices, fixed=fixed)
+        for splices in _ways(text, rule, matches):
+            fixed = text.changed(*splices)
+            if fixed is not None or rule.certain:
+                return text.slip("language", rule.variant, sign, *splices, fixed=fixed)
     return None
+
+
+def _ways(text: Broken, rule: Rule, matches: list[re.Match[str]]) -> Iterator[list[Splice]]:
+    """Yield the changes to try: `//` divides before the last one, and a line can have all of
+    `&&`, `||` and `!`.
+    """
+    if rule.variant == "comment":
+        yield from ([_as_comment(text, match)] for match in reversed(matches))
+        return
+    alike = (
+        [r for r in RULES if r.variant == rule.variant] if rule.variant == "operator" else [rule]
+    )
+    yield [
+        text.within(*match.span(), match.expand(other.new or ""))
+        for other in alike
+        for match in list(other.pattern.finditer(text.line))[:MOST_TRIES]
+    ]
 
 
 def _as_comment(text: Broken, match: re.Match[str]) -> Splice:
@@ -210,16 +224,17 @@ def _braces(text: Broken) -> Slip | None:
         return None
     at = [h for h in heads if _line_at(text.code, h.start("brace")) == text.number]
     lone = list(CLOSER.finditer(text.code.text))
-    if not at and not any(_line_at(text.code, c.start()) == text.number for c in lone):
-        return None
+    ends = [_line_at(text.code, c.start()) for c in lone]
     splices = [Splice(*h.span("brace"), ":") for h in heads]
     new = None
     if len(heads) == len(lone):
-        removed = [text.source.without(_line_at(text.code, c.start())) for c in lone]
+        removed = [text.source.without(end) for end in ends]
         new = text.source.spliced([*splices, *removed])
         new = new if new is not None and _fault_of(new) is None else None
-    shown = [s for s in splices if _line_at(text.code, s.start) == text.number]
-    return text.slip("language", "braces", "{ }", *shown, fixed=new)
+    if new is None and not at and text.number not in ends:
+        return None
+    line = text.number if at else _line_at(text.code, heads[0].start("brace"))
+    return Slip("language", "braces", line, text.source.line(line).strip(), "", new)
 
 
 def _line_at(text: SourceText, position: int) -> int:

@@ -17,6 +17,7 @@ from grader.publish.pages.overview import shown
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
+from grader.report.shown_patch import shown_patch
 
 FIELD_LINES, FIELD_CHARACTERS = 30, 1_000
 LOG_LINES, LOG_CHARACTERS = 2_000, 2_000  # a report has 40,000 characters of each
@@ -135,7 +136,7 @@ def _fields(check: CheckResult, translate: Translator) -> list[Field]:
         Field(say("Why"), cut(check.rationale)),
         Field(say("Points"), open_.get(check.status, "")),
         Field(say("Fix"), cut(check.fix)),
-        Field(say("Change"), cut(check.patch), code=True),
+        Field(say("Change"), cut(shown_patch(check.patch, translate)), code=True),
         *(Field(say("Also"), cut(advice)) for advice in check.advice),
         Field(say("Mistake"), ", ".join(mistake.id for mistake in check.mistakes), code=True),
     ]

@@ -42,17 +42,11 @@ def node_file(evidence: Evidence) -> Passed:
         raise Failed(
             "source.unreadable_node_file",
             expected=say("a file {path} that can be read", path=path),
-            actual=say("it was not read: {reason}", reason=reason),
+            actual=say("the file is there, but {reason}", reason=reason),
             where=Where(file=path),
         )
     if not file.data.strip():
-        raise Failed(
-            "source.empty_node_file",
-            expected=say("your node's code in {path}", path=path),
-            actual=say("the file is empty"),
-            where=Where(file=path),
-            words={"path": path},
-        )
+        raise _empty(evidence, path)
     try:
         parsed = parse_python(file.data)
     except PythonFault as fault:
@@ -67,6 +61,19 @@ def node_file(evidence: Evidence) -> Passed:
         )
         advice.insert(0, no_init)
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _empty(evidence: Evidence, path: str) -> Failed:
+    copy = shown(evidence.submission.newer_copy)
+    but = say("the file is empty, but {copy} is not", copy=copy)
+    return Failed(
+        "source.empty_node_file",
+        expected=say("your node's code in {path}", path=path),
+        actual=but if copy else say("the file is empty"),
+        where=Where(file=path),
+        variant="built" if copy else "",
+        words={"path": path, "copy": copy},
+    )
 
 
 def _not_there(evidence: Evidence, path: str) -> Failed:
@@ -114,12 +121,16 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     actual = say("{inner}/ contains {files}", inner=inner, files=files)
     if not submission.file(inner):
         actual = say("there is no folder {inner} in the package", inner=inner)
+    copy = shown(submission.newer_copy)
+    if copy:
+        actual = joined(actual, say("but the build has a copy: {copy}", copy=copy), by=", ")
     return Failed(
         "source.no_node_file",
         expected=expected,
         actual=actual,
         where=Where(file=path),
-        words={"path": path},
+        variant="built" if copy else "",
+        words={"path": path, "copy": copy},
     )
 
 
