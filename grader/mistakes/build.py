@@ -102,6 +102,7 @@ KINDS = (
         fixed_by=(
             syntax.setup_py,
             setup_py.setuptools,
+            setup_py.names,
         ),
         examples=(
             example(
@@ -205,6 +206,17 @@ KINDS = (
             example(
                 "setup_name_error",
                 Replace(SETUP, "\nsetup(\n", "\nprint(pakage_name)\nsetup(\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_import_misspelt",
+                Replace(SETUP, "import find_packages", "import find_package"),
+                Replace(SETUP, "packages=find_packages(", "packages=find_package("),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_true_in_small_letters",
+                Replace(SETUP, "zip_safe=True", "zip_safe=true"),
                 fails="build.colcon",
             ),
             example(

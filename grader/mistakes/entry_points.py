@@ -353,10 +353,12 @@ KINDS = (
         msg("there is no entry for the executable"),
         msg("Add this line to console_scripts, then build again: '{wanted}',"),
         {
+            "renamed": msg("Write entry_points instead of {argument}."),
             "comment": msg("Remove the # before '{wanted}', then build again."),
             "nothing": msg("Add to setup(): entry_points={{'console_scripts': ['{wanted}']}},"),
         },
         fixed_by=(
+            entries.keyword,
             entries.uncommented,
             entries.added,
         ),
@@ -366,6 +368,12 @@ KINDS = (
                 Replace(
                     SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
                 ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_misspelt",
+                Replace(SETUP, "    entry_points={", "    entry_point={"),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
             ),

@@ -85,6 +85,19 @@ def group(case: Case) -> Files | None:
     return case.with_data(case.finding.file, text.spliced([Splice(at, at + len(wrong), GROUP)]))
 
 
+def keyword(case: Case) -> Files | None:
+    """Correct the misspelt argument entry_points of setup()."""
+    setup = read_setup_call(case)
+    wrong = str(case.finding.params.get("argument", ""))
+    value = setup.argument(wrong) if setup is not None and wrong else None
+    if setup is None or value is None or setup.argument("entry_points") is not None:
+        return None
+    given = next(k for k in setup.call.keywords if k.arg == wrong)
+    start = setup.source.span(given)[0]
+    splice = Splice(start, start + len(wrong), "entry_points")
+    return case.with_data(FILE, setup.source.spliced([splice]))
+
+
 def uncommented(case: Case) -> Files | None:
     """Remove the # before the entry."""
     text = _source(case, FILE)

@@ -11,6 +11,7 @@ from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, misplaced
 from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.values import Text
 from grader.report.model import Where
 from grader.verdict.checks.parsed import file_of, names_in
 from grader.verdict.outcome import Failed
@@ -149,12 +150,16 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
     comment = next((row for row in setup.comments if marks.match(row[1])), None)
     names = ", ".join(shown(entry.name) for entry in points.group("console_scripts")[:4])
     line = points.lines.get("console_scripts", setup.line)
-    variant, actual = "", say("console_scripts has no entry")
+    variant, close, actual = "", "", say("console_scripts has no entry")
     if names:
         actual = say("there are only: {names}", names=names)
     if comment is not None:
         line, variant = comment[0], "comment"
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
+    elif not points.groups and (close := _near_argument(setup)):
+        missing_argument = say("setup() has no entry_points argument") + meant(close)
+        variant, actual = "renamed", with_difference(missing_argument, close, "entry_points")
+        line = _line_of_argument(setup, close)
     elif (entry := _elsewhere(evidence)) is not None:
         return _misplaced(evidence, entry)
     elif not points.groups:
@@ -165,8 +170,20 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         actual=actual,
         where=Where(file="setup.py", line=line),
         variant=variant,
+        params={"argument": shown(close)} if close else {},
         words={"wanted": wanted_entry(evidence)},
     )
+
+
+def _near_argument(setup: SetupPy) -> str:
+    """Return the argument of setup() whose name is nearly entry_points; "" if there is none."""
+    names = [key.value for key, _ in setup.arguments.pairs if isinstance(key, Text)]
+    return nearest("entry_points", names, cutoff=0.75)
+
+
+def _line_of_argument(setup: SetupPy, name: str) -> int | None:
+    lines = [k.line for k, _ in setup.arguments.pairs if isinstance(k, Text) and k.value == name]
+    return lines[0] if lines else setup.line
 
 
 def _elsewhere(evidence: Evidence) -> Misplaced | None:
