@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from grader.package.submission import take_in
 from grader.verdict.checks import package
+from grader.verdict.fix import fix_files
+from tests.marking import ASSIGNMENT
 
 from .static_bench import ENTRY, FILES, NAME, NODE, Bench, line, mistake
 
@@ -113,6 +116,61 @@ def test_a_missing_comma_is_reported_at_its_line(bench: Bench) -> None:
     failed = bench.misses()
     assert (mistake(failed), line(failed)) == ("setup.missing_comma", 19)
     assert entries[1] in failed.fix
+
+
+POINTS = """\
+    entry_points={
+        'console_scripts': [
+            'test_node = my_robot_controller.my_first_node:main',
+        ],
+    },
+)
+"""
+
+
+@pytest.mark.parametrize(
+    ("new", "at", "words"),
+    [
+        (f"    tests_require=['pytest', {ENTRY}],\n)\n", 14, "it is in tests_require"),
+        (f"    install_requires=[{ENTRY}],\n)\n", 14, "it is in install_requires"),
+        (f"    keywords=[\n        {ENTRY}\n    ],\n)\n", 15, "it is in keywords"),
+        (f"    console_scripts=[{ENTRY}],\n)\n", 14, "outside of entry_points"),
+        (f")\nentry_points = {{'console_scripts': [{ENTRY}]}}\n", 15, "outside of setup()"),
+        (
+            f"    keywords=[{ENTRY}],\n    entry_points={{'console_scripts': []}},\n)\n",
+            14,
+            "keywords",
+        ),
+    ],
+)
+def test_an_entry_in_the_wrong_place_is_named_and_moved(
+    bench: Bench, new: str, at: int, words: str
+) -> None:
+    bench.change("setup.py", "    install_requires=['setuptools'],\n", "")
+    bench.change("setup.py", POINTS, new)
+    failed = bench.misses()
+    assert (mistake(failed), line(failed)) == ("setup.misplaced_entry", at)
+    assert words in failed.actual
+    plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
+    assert plan.left == ()
+    fixed = (plan.new.data("setup.py") or b"").decode()
+    assert fixed.count("'console_scripts': [") == 1 + ("outside of setup" in words)
+
+
+def test_an_entry_of_gui_scripts_is_there_but_in_another_group(bench: Bench) -> None:
+    bench.change("setup.py", "'console_scripts'", "'gui_scripts'")
+    failed = bench.misses()
+    assert (mistake(failed), line(failed)) == ("setup.group_misspelt", 16)
+    assert "'gui_scripts'" in failed.actual
+    assert "to the group console_scripts" in failed.fix
+
+
+def test_a_misspelt_argument_is_compared_with_entry_points(bench: Bench) -> None:
+    bench.change("setup.py", "    entry_points=", "    entry_point=")
+    failed = bench.misses()
+    assert (mistake(failed), line(failed)) == ("setup.no_entry", 15)
+    assert "did you mean 'entry_point'?" in failed.actual
+    assert failed.fix == "Write entry_points instead of entry_point."
 
 
 @pytest.mark.parametrize("group", ["console_script", "consol_scripts", "consolescripts", "scripts"])

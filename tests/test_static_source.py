@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from grader.verdict.checks import source
+from grader.verdict.fix import fix_files
 from grader.verdict.outcome import Blocked
 from tests.marking import ASSIGNMENT
 
@@ -139,6 +140,34 @@ def test_a_node_that_is_too_large_is_reported(bench: Bench) -> None:
 def test_a_missing_init_file_is_advice(bench: Bench) -> None:
     (bench.root / NAME / "__init__.py").unlink()
     assert "__init__.py" in bench.passes(source.node_file).advice[0]
+
+
+@pytest.mark.parametrize(
+    ("above", "what"),
+    [
+        ("Python\n", "label"),
+        ("```python\n", "label"),
+        ("Bash\n\n", "label"),
+        ("$ code .\n", "command"),
+    ],
+)
+def test_what_a_page_has_above_the_shebang_is_removed(bench: Bench, above: str, what: str) -> None:
+    right = (bench.root / NODE).read_bytes()
+    bench.write(NODE, above.encode() + right)
+    failed = bench.fails(source.shebang)
+    assert mistake(failed) == "source.pasted"
+    assert failed.mistakes[0].params["what"] == what
+    assert line(failed) == 1
+    fixed = fix_files(bench.evidence().submission, ASSIGNMENT).new.data(NODE) or b""
+    assert fixed.split() == right.split()
+    assert fixed.startswith(b"#!")
+
+
+def test_a_label_without_a_shebang_below_it_is_replaced(bench: Bench) -> None:
+    right = (bench.root / NODE).read_bytes()
+    bench.write(NODE, b"Python\n" + right.partition(b"\n")[2])
+    fixed = fix_files(bench.evidence().submission, ASSIGNMENT).new.data(NODE)
+    assert fixed == right
 
 
 # source.exec_bit

@@ -45,7 +45,7 @@ def unpack_class(path: Path, root: Path) -> Unpacked:
     """
     opened = open_file(path)
     if isinstance(opened, Unread):
-        raise UsageError(f"{shown(str(path))} cannot be read: {opened.reason}")
+        raise UsageError(f"{shown(str(path))}: {opened.reason}")
     with opened as file:
         digest = _digest(file)
         target = root / digest

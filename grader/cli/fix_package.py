@@ -27,6 +27,7 @@ from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.given import package_above
 from grader.package.submission import Submission, take_in
 from grader.report.model import CheckResult
+from grader.report.shown_patch import shown_patch
 from grader.verdict.checks.all import STATIC
 from grader.verdict.fix import FixPlan, fix_all, fix_files
 from grader.verdict.mark import grade
@@ -71,7 +72,7 @@ def fix_package(request: FixRequest, notify: Notify) -> int:
         notify_translated(submission.problem_fix)
         return 1
     plan = make_plan(request, submission, notify_translated)
-    _print_diff(plan.patch, sys.stdout)
+    _print_diff(plan.patch, sys.stdout, translate)
     for finding in plan.fixed:
         line = _line(finding)
         done, would = say("fixed  {finding}", finding=line), say("fixes  {finding}", finding=line)
@@ -231,7 +232,7 @@ def _finish(request: FixRequest, submission: Submission, plan: FixPlan, notify: 
         notify(say("Nothing was changed: this is what --apply would write."))
 
 
-def _print_diff(patch: bytes, file: TextIO) -> None:
+def _print_diff(patch: bytes, file: TextIO, translate: Translator) -> None:
     """Print a diff; on a terminal in colours and without the student's control characters."""
     if not file.isatty():
         file.flush()
@@ -240,7 +241,8 @@ def _print_diff(patch: bytes, file: TextIO) -> None:
         raw.flush()
         return
     console = GatedConsole(file, soft_wrap=True)
-    for line in patch.decode("utf-8", "backslashreplace").split("\n")[:-1]:
+    text = shown_patch(patch.decode("utf-8", "backslashreplace"), translate)
+    for line in text.split("\n")[:-1]:
         named = line.startswith(("--- ", "+++ "))
         style = "bold" if named else STYLES.get(line[:1], "")
         console.print(Text(_plain(line), style=style), soft_wrap=True)

@@ -9,6 +9,7 @@ from grader.mistakes import links
 from grader.mistakes.example import CFG, SETUP, example
 from grader.mistakes.fixes import setup_py, syntax
 from grader.mistakes.kind import Kind, Parts
+from grader.mistakes.slips import LANGUAGE, OTHER_LANGUAGE, PASTED, PASTED_WHYS, SIGNS, WEB
 from grader.package.edit.tree import Replace
 
 if TYPE_CHECKING:
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
 WHY = msg(
     "colcon runs setup.py to install the package into the workspace's install folder, the only "
     "place where ros2 run looks."
+)
+UNREADABLE = msg(
+    "colcon runs setup.py to install the package into the workspace's install folder, the only "
+    "place where ros2 run looks. Python cannot run a file that it cannot read."
 )
 LOOKS = msg(
     "ros2 run looks only in install/<package>/lib/<package>/, for an executable file with exactly "
@@ -78,27 +83,117 @@ KINDS = (
         why=WHY,
         fix=msg("Fix what the error names, then build again."),
         whys={
-            "unreadable": msg(
-                "colcon runs setup.py to install the package into the workspace's "
-                "install folder, the only place where ros2 run looks. Python "
-                "cannot run a file that it cannot read."
-            )
+            "unreadable": UNREADABLE,
+            **dict.fromkeys(PASTED, WEB),
+            **PASTED_WHYS,
+            **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
+            **dict.fromkeys(SIGNS, UNREADABLE),
         },
         fixes={
             "unreadable": msg(
                 "Fix that line of setup.py, then build again. Often a comma, a "
                 "quote or a bracket is missing in the line above."
-            )
+            ),
+            **PASTED,
+            **LANGUAGE,
+            **SIGNS,
         },
         link=links.COLCON,
         fixed_by=(
             syntax.setup_py,
             setup_py.setuptools,
+            setup_py.names,
         ),
         examples=(
             example(
                 "setup_syntax_error",
                 Replace(SETUP, "    version='0.0.0',", "    version='0.0.0'"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_two_commas",
+                Replace(SETUP, "    version='0.0.0',", "    version='0.0.0',,"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_equals_in_dict",
+                Replace(SETUP, "'console_scripts': [", "'console_scripts' = ["),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_colon_in_call",
+                Replace(SETUP, "    license='Apache-2.0',", "    'license': 'Apache-2.0',"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_quote_missing",
+                Replace(
+                    SETUP,
+                    "my_robot_controller.my_first_node:main'",
+                    "my_robot_controller.my_first_node:main",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_first_quote_missing",
+                Replace(SETUP, "    license='Apache-2.0',", "    license=Apache-2.0',"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_entry_unquoted",
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main'",
+                    "test_node = my_robot_controller.my_first_node:main",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_typographic_quotes",
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main'",
+                    "\u2018test_node = my_robot_controller.my_first_node:main\u2019",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_no_break_space",
+                Replace(SETUP, "    version='0.0.0',", "\u00a0\u00a0\u00a0\u00a0version='0.0.0',"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_code_fence",
+                Replace(
+                    SETUP,
+                    "from setuptools import find_packages\n",
+                    "```\nfrom setuptools import find_packages\n",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_page_label",
+                Replace(
+                    SETUP,
+                    "from setuptools import find_packages\n",
+                    "Python\nfrom setuptools import find_packages\n",
+                ),
+                fails="build.colcon",
+                note="NameError: name 'Python' is not defined",
+            ),
+            example(
+                "setup_slashes_comment",
+                Replace(SETUP, "    zip_safe=True,", "    zip_safe=True,  // as created"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),
@@ -111,6 +206,17 @@ KINDS = (
             example(
                 "setup_name_error",
                 Replace(SETUP, "\nsetup(\n", "\nprint(pakage_name)\nsetup(\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_import_misspelt",
+                Replace(SETUP, "import find_packages", "import find_package"),
+                Replace(SETUP, "packages=find_packages(", "packages=find_package("),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_true_in_small_letters",
+                Replace(SETUP, "zip_safe=True", "zip_safe=true"),
                 fails="build.colcon",
             ),
             example(

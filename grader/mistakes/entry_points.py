@@ -270,8 +270,16 @@ KINDS = (
             "other group without a message, and ros2 run answers: No executable found."
         ),
         fix=msg("Write 'console_scripts', with an s at the end."),
+        whys={
+            "other": msg(
+                "The exercise asks for an entry in the group console_scripts. From this group, "
+                "setuptools makes the executables that ros2 run starts. Other groups have other "
+                "uses."
+            )
+        },
+        fixes={"other": msg("Move '{wanted}' to the group console_scripts.")},
         link=links.ENTRY_POINTS,
-        fixed_by=(entries.group,),
+        fixed_by=(entries.group, entries.regrouped),
         examples=(
             example(
                 "console_script",
@@ -281,10 +289,72 @@ KINDS = (
                 note="a group that nobody reads",
             ),
             example(
-                "gui_scripts",
+                "consol_scripts",
                 Replace(SETUP, "'console_scripts'", "'consol_scripts'"),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
+            ),
+            example(
+                "gui_scripts",
+                Replace(SETUP, "'console_scripts'", "'gui_scripts'"),
+                fails="entry_point.mapping",
+                note="runs anyway: on Linux setuptools makes the same script for it",
+            ),
+        ),
+    ),
+    Kind(
+        id="setup.misplaced_entry",
+        stage="entry point",
+        title=msg("the entry is in the wrong place of setup.py"),
+        why=NOT_FOUND,
+        whys={
+            "requirement": msg(
+                "setuptools reads the texts of {argument} as names of Python packages: the build "
+                "stops at any other text."
+            )
+        },
+        fix=msg("Move '{wanted}' to the list console_scripts in entry_points."),
+        fixes={
+            "group": msg(
+                "Put it into entry_points: entry_points={{'console_scripts': ['{wanted}']}},"
+            )
+        },
+        link=links.DEVELOPING,
+        fixed_by=(entries.grouped, entries.moved, entries.added),
+        examples=(
+            example(
+                "entry_in_tests_require",
+                Replace(
+                    SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
+                ),
+                Replace(
+                    SETUP,
+                    "    zip_safe=True,",
+                    "    tests_require=[\n        'pytest',\n"
+                    "        'test_node = my_robot_controller.my_first_node:main',\n    ],\n"
+                    "    zip_safe=True,",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+            example(
+                "group_outside_entry_points",
+                Replace(
+                    SETUP,
+                    "    entry_points={\n        'console_scripts': [",
+                    "    console_scripts=[",
+                ),
+                Replace(SETUP, "        ],\n    },\n)", "    ],\n)"),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_after_setup",
+                Replace(SETUP, "    entry_points={\n", ")\n\nentry_points = {\n"),
+                Replace(SETUP, "        ],\n    },\n)", "    ],\n}"),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+                note="the bracket of setup() is closed too early",
             ),
         ),
     ),
@@ -293,10 +363,12 @@ KINDS = (
         msg("there is no entry for the executable"),
         msg("Add this line to console_scripts, then build again: '{wanted}',"),
         {
+            "renamed": msg("Write entry_points instead of {argument}."),
             "comment": msg("Remove the # before '{wanted}', then build again."),
             "nothing": msg("Add to setup(): entry_points={{'console_scripts': ['{wanted}']}},"),
         },
         fixed_by=(
+            entries.keyword,
             entries.uncommented,
             entries.added,
         ),
@@ -306,6 +378,12 @@ KINDS = (
                 Replace(
                     SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
                 ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_misspelt",
+                Replace(SETUP, "    entry_points={", "    entry_point={"),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
             ),

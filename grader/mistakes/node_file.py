@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import msg
@@ -18,7 +19,10 @@ from grader.mistakes.example import (
 )
 from grader.mistakes.fixes import first_line, layout, syntax
 from grader.mistakes.kind import Kind, Parts
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
+from grader.mistakes.slips import LANGUAGE, OTHER_LANGUAGE, PASTED, PASTED_WHYS, SIGNS, WEB
 from grader.package.edit.tree import Chmod, Crlf, Delete, Move, Replace, Write
+from grader.package.source.pasted import labels_in
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -27,6 +31,11 @@ PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
     "folder, which has the package's name and contains __init__.py."
 )
+OWN_COPIES = msg(
+    "A build copies your files into build and install. Only the files in src are yours: each build "
+    "overwrites the copies."
+)
+BUILT = msg("Copy your code from {copy} into {path}, and edit only that file from now on.")
 EXEC = msg(
     "The exec bit (chmod +x) lets you start the file itself: ./{file}. ros2 run does not need it: "
     "it starts a small script that colcon creates in install/. The exercise asks for the exec "
@@ -37,6 +46,24 @@ SHEBANG = msg(
     "Without it, the shell tries to run the Python code itself. (ros2 run does not need it.)"
 )
 FIRST = msg("Write as line 1: #!/usr/bin/env python3")
+
+
+LOG = "self.get_logger().info('Hello time: ' + str(self.counter_))"
+
+
+def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Recognise a label of a web page that Python takes for a name."""
+    data = raised.module.text.spliced([]) or b""
+    label = next((p for p in labels_in(data) if p.line == raised.line), None)
+    if label is None or label.found != match["name"]:
+        return None
+    return RecognisedMistake(
+        kind="source.pasted",
+        params={"what": "label"},
+        words={"found": label.found},
+        variant="label",
+        where=raised.where,
+    )
 
 
 def _first_line(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
@@ -58,6 +85,7 @@ KINDS = (
         title=msg("The node's file is missing"),
         why=PLACE,
         fix=msg("Create the file {path} and write the node in it."),
+        fixes={"built": BUILT},
         link=links.FIRST_NODE,
         fixed_by=(
             layout.node_file,
@@ -178,6 +206,8 @@ KINDS = (
         title=msg("The node's file is empty"),
         why=msg("What you type in the editor is in the file only after you save it."),
         fix=msg("Save the file in your editor (Ctrl+S), then look at it with: cat {path}"),
+        whys={"built": OWN_COPIES},
+        fixes={"built": BUILT},
         link=links.FIRST_NODE,
         examples=(
             example(
@@ -214,6 +244,134 @@ KINDS = (
         ),
     ),
     Kind(
+        id="source.pasted",
+        stage="file",
+        title=msg("The node's file contains characters or lines that are not Python code"),
+        why=WEB,
+        whys=PASTED_WHYS,
+        fix=msg("Remove what does not belong to the code, or type that line again."),
+        fixes=PASTED,
+        link=links.PYTHON_SYNTAX,
+        raised={NAME_ERROR: _label},
+        fixed_by=(syntax.node, first_line.shebang),
+        examples=(
+            example(
+                "typographic_quotes",
+                Replace(NODE, "'Hello time: '", "\u2018Hello time: \u2019"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+                note="copied from a word processor",
+            ),
+            example(
+                "no_break_spaces",
+                Replace(NODE, "        self.counter_ += 1", "\u00a0" * 8 + "self.counter_ += 1"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "full_width_bracket",
+                Replace(NODE, "super().__init__(", "super().__init__\uff08"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+                note="a Korean or Chinese input method",
+            ),
+            example(
+                "html_line_break",
+                Replace(NODE, "import rclpy\n", "import rclpy<br>\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "page_label",
+                Replace(NODE, "#!/usr/bin/env python3\n", "Python\n#!/usr/bin/env python3\n"),
+                fails="source.shebang",
+                also={"run.starts": "source.pasted"},
+                note="NameError: name 'Python' is not defined",
+            ),
+            example(
+                "code_fence",
+                Replace(NODE, "#!/usr/bin/env", "```python\n#!/usr/bin/env"),
+                Replace(NODE, "    main()\n", "    main()\n```\n"),
+                fails="source.node_file",
+                also={"source.shebang": "source.pasted"},
+                blocks=UNSTARTED,
+            ),
+            example(
+                "python_prompt",
+                Replace(NODE, "import rclpy\n", ">>> import rclpy\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "shell_command",
+                Replace(NODE, "import rclpy\n", "$ chmod +x my_first_node.py\nimport rclpy\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    Kind(
+        id="source.other_language",
+        stage="file",
+        title=msg("A line of the node's file is written as in another language"),
+        why=OTHER_LANGUAGE,
+        fix=msg("Write that line in Python."),
+        fixes=LANGUAGE,
+        link=links.PYTHON_SYNTAX,
+        fixed_by=(syntax.node,),
+        examples=(
+            example(
+                "plus_plus",
+                Replace(NODE, "self.counter_ += 1", "self.counter_++"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "slashes_comment",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0  // it doesn't count yet"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "ampersands",
+                Replace(
+                    NODE,
+                    f"        {LOG}",
+                    f"        if self.counter_ >= 0 && True:\n            {LOG}",
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "exclamation_mark",
+                Replace(
+                    NODE, f"        {LOG}", f"        if !self.counter_ < 0:\n            {LOG}"
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "braces",
+                Replace(NODE, "def main(args=None):", "def main(args=None) {"),
+                Replace(
+                    NODE, "        rclpy.try_shutdown()\n", "        rclpy.try_shutdown()\n}\n"
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "typed_variable",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0",
+                    "        int start = 0\n        self.counter_ = start",
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    Kind(
         id="source.syntax_error",
         stage="file",
         title=msg("Python cannot read the node's file"),
@@ -232,6 +390,7 @@ KINDS = (
             ),
             "null": msg("Save the file as UTF-8 text, or write it again: this copy is damaged."),
             "size": msg("Keep the node's file small: it contains the code of one node."),
+            **SIGNS,
         },
         link=links.PYTHON_SYNTAX,
         seen=r"^(?P<error>(?:Syntax|Indentation|Tab)Error: .{1,300})",
@@ -258,6 +417,20 @@ KINDS = (
             example(
                 "tabs_and_spaces",
                 Replace(NODE, "        self.counter_ += 1", "\tself.counter_ += 1"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "two_commas",
+                Replace(NODE, "self.create_timer(1.0, self", "self.create_timer(1.0,, self"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "quote_missing",
+                Replace(
+                    NODE, "super().__init__('my_first_node')", "super().__init__('my_first_node)"
+                ),
                 fails="source.node_file",
                 blocks=UNSTARTED,
             ),

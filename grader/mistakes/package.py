@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import msg
@@ -55,8 +56,7 @@ def _manifest(
     title: str,
     fix: str,
     why: str = DEGRADES,
-    *,
-    empty: str = "",
+    fixes: Mapping[str, str] | None = None,
     **parts: Unpack[Parts],
 ) -> Kind:
     return Kind(
@@ -65,7 +65,7 @@ def _manifest(
         title=title,
         why=why,
         fix=fix,
-        fixes={"empty": empty} if empty else {},
+        fixes=fixes or {},
         link=links.MANIFEST,
         **parts,
     )
@@ -117,12 +117,60 @@ KINDS = (
             "Look at that line and the line above it: each <tag> needs its </tag>, and & is "
             "written &amp;."
         ),
-        empty=msg(
-            "Write the file again: save it in the editor, or copy the one that ros2 "
-            "pkg create makes."
-        ),
+        fixes={
+            "empty": msg(
+                "Write the file again: save it in the editor, or copy the one that ros2 "
+                "pkg create makes."
+            ),
+            "unclosed": msg("Write </{tag}> at the end of what <{tag}> contains."),
+            "again": msg("Write </{tag}> instead of the second <{tag}>."),
+            "unopened": msg("Write <{name}> before the text that <{tag}> closes."),
+            "misspelt": msg("Write <{wanted}> there."),
+            "unfinished": msg("Write > at the end of <{tag}"),
+            "quotes": msg('Type the quotes of that tag again: " on the keyboard.'),
+            "ampersand": msg("Write &amp; instead of &."),
+            "before": msg("Delete what is before the first < of the file."),
+            "after": msg("Delete what is after the last > of the file."),
+        },
         fixed_by=(manifest.well_formed,),
         examples=(
+            example(
+                "license_not_closed",
+                Replace(MANIFEST, "</license>", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+                note="expat names the line of </package>",
+            ),
+            example(
+                "license_opened_twice",
+                Replace(MANIFEST, "</license>", "<license>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "package_not_closed",
+                Replace(MANIFEST, "</package>", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tag_without_bracket",
+                Replace(MANIFEST, "</license>", "</license"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "manifest_typographic_quotes",
+                Replace(MANIFEST, 'format="3"', "format=\u201c3\u201d"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "manifest_page_label",
+                Replace(MANIFEST, '<?xml version="1.0"?>', 'XML\n<?xml version="1.0"?>'),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
             example(
                 "manifest_not_xml",
                 Replace(MANIFEST, "</description>", "</decription>"),
@@ -153,8 +201,20 @@ KINDS = (
         "manifest_tag",
         msg("A required tag of package.xml is missing or empty"),
         msg("Add <{tag}>…</{tag}> inside <package>."),
-        empty=msg("Write something between <{tag}> and </{tag}>."),
-        fixed_by=(manifest.version, manifest.name),
+        fixes={
+            "empty": msg("Write something between <{tag}> and </{tag}>."),
+            "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
+        },
+        fixed_by=(manifest.tag_name, manifest.version, manifest.name),
+        examples=(
+            example(
+                "license_misspelt",
+                Replace(MANIFEST, "<license>", "<licence>"),
+                Replace(MANIFEST, "</license>", "</licence>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+        ),
     ),
     _manifest(
         "manifest_rules",
@@ -296,16 +356,24 @@ KINDS = (
         ),
         fix=msg("Write in package.xml: <export><build_type>ament_python</build_type></export>"),
         fixes={
+            "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
             "cmake": msg(
                 "If only this line is wrong, write ament_python. Otherwise create a "
                 "new package with ros2 pkg create --build-type ament_python and copy "
                 "your code into it."
-            )
+            ),
         },
         link=links.PACKAGE,
         seen=r"does not appear to contain CMakeLists\.txt",
-        fixed_by=(manifest.build_type,),
+        fixed_by=(manifest.tag_name, manifest.build_type),
         examples=(
+            example(
+                "build_type_tag_misspelt",
+                Replace(MANIFEST, "<build_type>", "<build_typ>"),
+                Replace(MANIFEST, "</build_type>", "</build_typ>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
             example(
                 "cmake_package",
                 Delete(SETUP),

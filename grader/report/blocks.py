@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from grader.base.i18n.message import joined, say
 from grader.base.plain_text import first_lines, last_lines, one_line, points
 from grader.report.page import CheckRow
+from grader.report.shown_patch import shown_patch
 from grader.report.tracebacks import folded
 
 if TYPE_CHECKING:
@@ -97,9 +98,8 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
         page.field(say("points"), ours)
     _field(page, say("fix"), check.fix, lines, style="bold")
     if check.patch.strip():
-        page.code(
-            say("change"), first_lines(check.patch, lines=2 * lines, translate=page.translate)
-        )
+        patch = shown_patch(check.patch, page.translate)
+        page.code(say("change"), first_lines(patch, lines=2 * lines, translate=page.translate))
     for advice in check.advice:
         _field(page, say("also"), advice, lines)
     if check.consequence_of:

@@ -21,7 +21,12 @@ MOST_STEPS = 30
 """The most fixes of one package: each mistake needs one, and a package has 17 checks."""
 MOST_PATCH = 50_000
 """Bytes of a diff in a report: twice the size of a diff that changes all lines of an exercise."""
-ADVISED: tuple[Fix, ...] = (manifest.depend, layout.init_file, setup_cfg.dashes)
+ADVISED: tuple[Fix, ...] = (
+    manifest.dependencies,
+    manifest.depend,
+    layout.init_file,
+    setup_cfg.dashes,
+)
 """Fixes of what costs no points by itself, or only when the node runs."""
 Judge = Callable[[Files], list[Finding]]
 

@@ -130,6 +130,33 @@ FORMS: dict[str, tuple[Edit, tuple[str, str]]] = {
         Replace(MANIFEST, "</maintainer>", "</maintaner>"),
         (MANIFEST, "</maintainer>"),
     ),
+    "a tag that is not closed": (
+        Replace(MANIFEST, "</license>", ""), (MANIFEST, "Apache-2.0</license>\n"),
+    ),
+    "a tag that is opened twice": (
+        Replace(MANIFEST, "</license>", "<license>"), (MANIFEST, "Apache-2.0</license>\n"),
+    ),
+    "a tag that is not opened": (
+        Replace(MANIFEST, "<license>", ""), (MANIFEST, "  <license>Apache-2.0</license>\n"),
+    ),
+    "an end tag without its bracket": (
+        Replace(MANIFEST, "</license>", "</license"), (MANIFEST, "Apache-2.0</license>\n"),
+    ),
+    "a package that is not closed": (
+        Replace(MANIFEST, "</package>", ""), (MANIFEST, "</export>\n</package>"),
+    ),
+    "a tag with another name": (
+        Replace(MANIFEST, "<build_type>ament_python</build_type>",
+                "<build_typ>ament_python</build_typ>"),
+        (MANIFEST, EXPORT),
+    ),
+    "a dependency that is misspelt": (
+        Replace(MANIFEST, "<depend>rclpy</depend>", "<depend>rclpyy</depend>"),
+        (MANIFEST, "\n  <depend>rclpy</depend>\n"),
+    ),
+    "a misspelt argument of setup": (
+        Replace(SETUP, "    entry_points={", "    entry_point={"), (SETUP, "    entry_points={"),
+    ),
     "a manifest with a capital": (Move(MANIFEST, "Package.xml"), (MANIFEST, "<package")),
     "a setup.cfg with a capital": (Move(CFG, "Setup.cfg"), (CFG, "[develop]")),
     "a misspelt section": (Replace(CFG, "[install]", "[instal]"), (CFG, "\n[install]\n")),

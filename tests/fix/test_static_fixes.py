@@ -79,7 +79,7 @@ def test_a_fixed_package_is_not_changed_again(package: Package, tmp_path: Path) 
 @pytest.mark.parametrize("package", FIXED, ids=named)
 def test_a_report_carries_the_diff_of_each_failed_check(package: Package, tmp_path: Path) -> None:
     submission = taken_in(write(package, tmp_path))
-    for check_id in package.expect_failed:
+    for check_id in filter(lambda check: check.startswith(STATIC), package.expect_failed):
         result = static_results(submission, ASSIGNMENT)[check_id]
         patch = patch_for(result, submission, ASSIGNMENT)
         assert patch.startswith("diff --git a/"), check_id

@@ -18,12 +18,15 @@ from grader.mistakes.recognised import Raised, Suspect
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
 from grader.package.intake.model import SourceFile, Submission
+from grader.package.source.broken_xml import xml_fault
 from grader.package.source.entry_points import from_setup_cfg, from_setup_py
 from grader.package.source.manifest import ManifestError, name_in, read_manifest
 from grader.package.source.node import read_node
+from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import literal_name, read_setup_py
+from grader.package.source.slips import slip_of
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
 from grader.verdict.checks.build import python_error
@@ -37,12 +40,17 @@ RIGHT = {path: (SOLUTION / path).read_bytes() for path in (MANIFEST, SETUP, CFG,
 
 
 def python(found: bytes) -> None:
+    labels_in(found)
+    slip = slip_of(found)
     with suppress(PythonFault):
         parse_python(found)
+        assert slip is None
 
 
 def manifest(found: bytes) -> None:
     name_in(found)
+    fault = xml_fault(found)
+    assert fault is None or fault.line > 0
     with suppress(ManifestError):
         read = read_manifest(found)
         assert read.fault or read.name

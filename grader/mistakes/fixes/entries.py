@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.nearest import nearest
 from grader.base.shown import shown
@@ -84,6 +85,19 @@ def group(case: Case) -> Files | None:
     return case.with_data(case.finding.file, text.spliced([Splice(at, at + len(wrong), GROUP)]))
 
 
+def keyword(case: Case) -> Files | None:
+    """Correct the misspelt argument entry_points of setup()."""
+    setup = read_setup_call(case)
+    wrong = str(case.finding.params.get("argument", ""))
+    value = setup.argument(wrong) if setup is not None and wrong else None
+    if setup is None or value is None or setup.argument("entry_points") is not None:
+        return None
+    given = next(k for k in setup.call.keywords if k.arg == wrong)
+    start = setup.source.span(given)[0]
+    splice = Splice(start, start + len(wrong), "entry_points")
+    return case.with_data(FILE, setup.source.spliced([splice]))
+
+
 def uncommented(case: Case) -> Files | None:
     """Remove the # before the entry."""
     text = _source(case, FILE)
@@ -119,6 +133,70 @@ def added(case: Case) -> Files | None:
         if len(values) == 1 and isinstance(values[0], ast.List):
             splices = setup.into_list(values[0], entry)
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
+
+
+def moved(case: Case) -> Files | None:
+    """Move the entry from another argument of setup() to console_scripts."""
+    setup = read_setup_call(case)
+    holder = setup.argument(str(case.finding.params.get("argument", ""))) if setup else None
+    if setup is None or not isinstance(holder, ast.List):
+        return None
+    items = [
+        item
+        for item in holder.elts
+        if isinstance(item, ast.Constant) and shown(str(item.value).strip()) == _text(case)
+    ]
+    splice = _removed(setup.source, holder, items[0]) if len(items) == 1 else None
+    without = setup.source.spliced([splice]) if splice is not None else None
+    if without is None or not can_parse(without):
+        return None
+    return added(replace(case, files=case.files.with_data(FILE, without)))
+
+
+def _text(case: Case) -> str:
+    return str(case.finding.params.get("entry", ""))
+
+
+def _removed(source: SourceText, holder: ast.List, item: ast.expr) -> Splice | None:
+    """Return the splice that removes an item from a list, with its line if it is alone there."""
+    start, end = source.span(item)
+    if source.line(item.lineno).strip().rstrip(",") == source.text[start:end]:
+        return source.without(item.lineno)
+    at = holder.elts.index(item)
+    if at:
+        return Splice(source.span(holder.elts[at - 1])[1], end, "")
+    if len(holder.elts) > 1:
+        return Splice(start, source.span(holder.elts[1])[0], "")
+    first, last = source.span(holder)
+    return Splice(first + 1, last - 1, "")
+
+
+def grouped(case: Case) -> Files | None:
+    """Put the argument console_scripts of setup() into entry_points."""
+    setup = read_setup_call(case)
+    value = setup.argument(GROUP) if setup is not None else None
+    if setup is None or value is None or setup.argument("entry_points") is not None:
+        return None
+    keyword = next(k for k in setup.call.keywords if k.arg == GROUP)
+    start, end = setup.source.span(value)
+    q = setup.source.quote
+    head = f"entry_points={{{q}{GROUP}{q}: "
+    splices = [Splice(setup.source.span(keyword)[0], start, head), Splice(end, end, "}")]
+    new = setup.source.spliced(splices)
+    return case.with_data(FILE, new) if new is not None and can_parse(new) else None
+
+
+def regrouped(case: Case) -> Files | None:
+    """Rename the group gui_scripts, if there is no console_scripts."""
+    points, text = _points(case), _source(case, case.finding.file)
+    wrong = str(case.finding.params.get("group", ""))
+    if points is None or text is None or wrong != "gui_scripts" or points.group(GROUP):
+        return None
+    line = text.line(case.finding.line or 0)
+    if GROUP in points.groups or line.count(wrong) != 1:
+        return None
+    at = text.start_of(case.finding.line or 0) + line.find(wrong)
+    return case.with_data(case.finding.file, text.spliced([Splice(at, at + len(wrong), GROUP)]))
 
 
 def _is_group(key: ast.expr | None) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.syntax import without_labels
 from grader.package.edit.files import Files
 from grader.package.edit.text import BOM, MOST_BYTES, read_source
 from grader.package.source.python import SHEBANG, can_parse
@@ -40,6 +41,7 @@ def _same_code(old: bytes, new: bytes) -> bool:
 def shebang(case: Case) -> Files | None:
     """Put the shebang on line 1: moved up, fixed, or added."""
     found = case.files.data(case.node_path)
+    found = without_labels(found) if found is not None else None
     text = read_source(found)
     if found is None or text is None or text.mark or not found.strip():
         return None
@@ -56,5 +58,5 @@ def shebang(case: Case) -> Files | None:
         splices = [text.before(1, SHEBANG)]
         late = [n for n in range(2, LATE) if text.line(n).startswith("#!")]
         splices += [text.without(late[0])] if late else []
-    new = text.spliced(splices)
+    new = found if first == SHEBANG else text.spliced(splices)
     return case.with_data(case.node_path, new) if new and can_parse(new) else None

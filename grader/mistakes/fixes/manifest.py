@@ -9,7 +9,8 @@ from xml.parsers import expat
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.source.manifest import DEPENDS, MOST_BYTES
+from grader.package.source.broken_xml import xml_fault
+from grader.package.source.manifest import DEPENDS, MOST_BYTES, meant_package
 
 FILE = "package.xml"
 TYPE = b"<build_type>ament_python</build_type>"
@@ -189,40 +190,36 @@ def version(case: Case) -> Files | None:
 
 
 def well_formed(case: Case) -> Files | None:
-    """Fix an end tag that does not match its start tag, or a bare `&`."""
+    """Close a tag, correct its name or its quotes, or remove what is around the XML."""
     found = case.files.data(FILE)
-    if found is None or len(found) > MOST_BYTES or case.finding.mistake != "package.broken_xml":
+    if found is None or case.finding.mistake != "package.broken_xml":
         return None
-    places = _Places(found)
-    try:
-        places.parser.Parse(found, True)
-    except expat.ExpatError as error:
-        at = places.parser.ErrorByteIndex
-        code = expat.errors.messages.get(error.code, "")
-    except (ValueError, LookupError):
+    fault = xml_fault(found)
+    return case.with_data(FILE, fault.fixed) if fault is not None else None
+
+
+def tag_name(case: Case) -> Files | None:
+    """Correct a tag whose name is nearly the one that is missing."""
+    places = _places(case.files.data(FILE))
+    tag, close = (str(case.finding.params.get(name, "")) for name in ("tag", "close"))
+    found = [t for t in places.closed if t.name == close] if places and close else []
+    if places is None or len(found) != 1 or found[0].inside[0] < 0:
         return None
-    else:
+    wrong, (head, foot) = found[0], found[0].inside
+    start = places.found[wrong.start : head].replace(close.encode(), tag.encode(), 1)
+    end = places.found[foot : wrong.end].replace(close.encode(), tag.encode(), 1)
+    return _put(case, wrong.start, wrong.end, start + places.found[head:foot] + end)
+
+
+def dependencies(case: Case) -> Files | None:
+    """Correct the names of dependencies that are nearly those of a known package."""
+    places = _places(case.files.data(FILE))
+    if places is None:
         return None
-    new: bytes | None = None
-    if code == expat.errors.XML_ERROR_TAG_MISMATCH and places.open:
-        new = _right_end(found, at, places.open[-1].name)
-    elif code in (expat.errors.XML_ERROR_INVALID_TOKEN, expat.errors.XML_ERROR_UNDEFINED_ENTITY):
-        amp = found.rfind(b"&", max(0, at - 40), at + 1)
-        if amp >= 0 and not re.match(rb"&(#?\w{1,30});", found[amp : amp + 40]):
-            new = found[:amp] + b"&amp;" + found[amp + 1 :]
+    new = places.found
+    for tag in sorted(places.closed, key=lambda t: t.start, reverse=True):
+        name = places.found[slice(*tag.inside)]
+        close = meant_package(name.decode("utf-8", "replace").strip())
+        if DEPENDS.fullmatch(tag.name) and tag.within == "package" and close:
+            new = new[: tag.inside[0]] + close.encode() + new[tag.inside[1] :]
     return case.with_data(FILE, new)
-
-
-def _right_end(found: bytes, at: int, name: str) -> bytes | None:
-    """Return the bytes with the right name in the end tag at (or just before) a position."""
-    start = found.rfind(b"</", max(0, at - 200), at + 3)
-    match = (
-        re.match(rb"</\s*([^<>\s]{1,100})\s*>", found[start : start + 120]) if start >= 0 else None
-    )
-    if match is None:
-        return None
-    wrong = match.group(1).decode("utf-8", "replace")
-    if nearest(name, [wrong], cutoff=0.6) != wrong:
-        return None
-    begin = start + match.start(1)
-    return found[:begin] + name.encode() + found[begin + len(match.group(1)) :]

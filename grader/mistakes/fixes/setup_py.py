@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import ast
+import re
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
+from grader.package.source.python import can_parse
 from grader.package.source.setup_py import INDEX
+
+IMPORTS = ast.Import | ast.ImportFrom
+UNKNOWN = re.compile(
+    r"NameError: name '(?P<name>\w{1,80})' is not defined"
+    r"|ImportError: cannot import name '(?P<imported>\w{1,80})' from 'setuptools'"
+)
+IMPORTED = ("setup", "find_packages", "find_namespace_packages")
+CONSTANTS = {"true": "True", "false": "False", "null": "None", "none": "None"}
+"""What other languages call Python's constants."""
 
 
 def name(case: Case) -> Files | None:
@@ -117,3 +128,32 @@ def setuptools(case: Case) -> Files | None:
             at = setup.source.start_of(statement.lineno) + line.find(written)
             splices.append(Splice(at, at + len(written), "setuptools"))
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
+
+
+def names(case: Case) -> Files | None:
+    """Correct the name at which setup.py stops, if a nearly equal one is known."""
+    setup = read_setup_call(case)
+    error = str(case.finding.params.get("error", ""))
+    match = UNKNOWN.match(error)
+    if setup is None or match is None:
+        return None
+    wrong = match["name"] or match["imported"]
+    known = IMPORTED if match["imported"] else _bound(setup.tree)
+    close = CONSTANTS.get(wrong) or nearest(wrong, known, cutoff=0.75)
+    if not close:
+        return None
+    splices = [
+        setup.source.swap(node, close)
+        for node in ast.walk(setup.tree)
+        if (isinstance(node, ast.Name) and node.id == wrong)
+        or (isinstance(node, ast.alias) and node.name == wrong and node.asname is None)
+    ]
+    new = setup.source.spliced(splices)
+    return case.with_data(FILE, new) if new is not None and can_parse(new) else None
+
+
+def _bound(tree: ast.Module) -> set[str]:
+    """Return the names that imports and assignments of the file bind."""
+    names = {a.asname or a.name for n in ast.walk(tree) if isinstance(n, IMPORTS) for a in n.names}
+    stored = (n for n in ast.walk(tree) if isinstance(n, ast.Name))
+    return names | {n.id for n in stored if isinstance(n.ctx, ast.Store)}

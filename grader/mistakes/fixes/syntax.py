@@ -7,10 +7,12 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.source.pasted import cleaned, labels_in
 from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.slips import slip_of
 
 TAB_WIDTHS = (2, 4, 8)
-TRIES = 3
+TRIES = 10
 
 
 def node(case: Case) -> Files | None:
@@ -39,10 +41,25 @@ def _fixed(case: Case, path: str) -> Files | None:
         text = read_source(found)
         if found is None or fault is None or text is None:
             break
-        found = _without_tabs(text) if fault.kind == "tabs" else _smaller(text, fault)
+        found = _fixed_once(text, found, fault)
     if found is None or fault_of(found) is not None:
         return None
-    return case.with_data(path, found)
+    return case.with_data(path, without_labels(found))
+
+
+def _fixed_once(text: SourceText, found: bytes, fault: PythonFault) -> bytes | None:
+    """Return the file without the error at which Python stops; None if no fix is certain."""
+    if fault.kind == "tabs":
+        return _without_tabs(text)
+    slip = slip_of(found)
+    return slip.fixed if slip is not None else _smaller(text, fault)
+
+
+def without_labels(found: bytes) -> bytes:
+    """Return a file without the labels of a web page that Python takes for names."""
+    text, labels = read_source(found), labels_in(found)
+    new = cleaned(text, labels) if text is not None and labels else None
+    return found if new is None else new
 
 
 def _without_tabs(text: SourceText) -> bytes | None:

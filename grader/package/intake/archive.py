@@ -8,6 +8,7 @@ import io
 import unicodedata
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from datetime import timezone
 from typing import IO, Literal
 
 from grader.base.errors import GraderError
@@ -97,7 +98,8 @@ class Archive:
             self._hard_link(path, member)
         elif member.kind == "file":
             size = self._keep(path, member, what, spent)
-            self._put(path, Entry(path, "file", member.mode or 0o644, size=size), member.mode)
+            entry = Entry(path, "file", member.mode or 0o644, size=size, modified=_seconds(member))
+            self._put(path, entry, member.mode)
         elif member.kind == "link":
             self._put(path, Entry(path, "link", 0o777, target=member.target), member.mode)
         elif member.kind == "folder":
@@ -167,6 +169,17 @@ class Archive:
         for path in self._entries:
             same.setdefault(unicodedata.normalize("NFC", path).casefold(), []).append(path)
         return (paths for paths in same.values() if len(paths) > 1)
+
+
+def _seconds(member: Member) -> float:
+    """Return a member's time in seconds since 1970; 0 if it is unknown.
+
+    A zip's time has no zone: it is compared only with other times of the same archive.
+    """
+    if member.modified is None:
+        return 0
+    zone = member.modified.tzinfo or timezone.utc
+    return member.modified.replace(tzinfo=zone).timestamp()
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import islice
 from typing import IO, Literal
 
@@ -44,7 +45,7 @@ class Opened:
         if inner == ".":
             return Entry(path, "folder", 0o755)
         found = place.entry(inner)
-        return found and Entry(path, found.kind, found.mode, found.size, found.target)
+        return found and replace(found, path=path)
 
     def read(self, path: str, limit: int) -> bytes | Unread:
         place, inner = self._find(path)

@@ -8,7 +8,7 @@ import stat
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.nearest import meant, nearest_path
 from grader.base.shown import shown
 from grader.package.intake.archive import read_archive
@@ -54,7 +54,7 @@ def open_place(path: Path, spent: Spent, *, modes_kept: bool) -> Place:
         return Folder(path, modes_kept=modes_kept)
     opened = open_file(path)
     if isinstance(opened, Unread):
-        raise cannot_be_read(path, opened.reason)
+        raise UsageError(joined(shown(str(path)), ": ", opened.reason, by=""))
     with opened as file:
         kind = kind_of(file.read(HEAD))
         if kind is None and is_named_archive(path.name):

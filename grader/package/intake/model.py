@@ -47,7 +47,8 @@ class Submission:
     `hints` what the student should change although it costs no points; `node_files` all files
     with the node's name, relative to `path`; `links_out` the package's links, relative to it,
     that lead out of it and were left out; `copies` the folders of other packages with its name,
-    relative to `path`, which colcon would find too.
+    relative to `path`, which colcon would find too; `newer_copy` a copy of the node's file in build
+    or install, relative to `path`, that is newer or holds the content of an empty file.
     """
 
     path: Path
@@ -66,6 +67,7 @@ class Submission:
     node_files: tuple[str, ...] = ()
     links_out: tuple[str, ...] = ()
     copies: tuple[str, ...] = ()
+    newer_copy: str = ""
 
     @cached_property
     def _by_path(self) -> dict[str, SourceFile]:

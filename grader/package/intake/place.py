@@ -18,13 +18,17 @@ from grader.package.intake.reading import Unread, open_file, read_bytes
 
 @dataclass(frozen=True)
 class Entry:
-    """A name in the tree: `path` relative to its root; `size` in bytes, `target` of a link."""
+    """A name in the tree: `path` relative to its root; `size` in bytes, `target` of a link.
+
+    `modified` is in seconds since 1970; 0 if it is unknown.
+    """
 
     path: str
     kind: Literal["file", "folder", "link"]
     mode: int
     size: int = 0
     target: str = ""
+    modified: float = 0
 
 
 class Place(Protocol):
@@ -85,7 +89,7 @@ class Folder:
         if stat.S_ISDIR(status.st_mode):
             return Entry(path, "folder", mode)
         if stat.S_ISREG(status.st_mode):
-            return Entry(path, "file", mode, size=status.st_size)
+            return Entry(path, "file", mode, size=status.st_size, modified=status.st_mtime)
         return None
 
     def read(self, path: str, limit: int) -> bytes | Unread:

@@ -36,7 +36,8 @@ TOO_MANY = say(
 @dataclass
 class Tree:
     """All entries found; `truncated` are the folders of which not every name was read,
-    `links_out` the package's links (relative to it) that lead out of it.
+    `links_out` the package's links (relative to it) that lead out of it, `made` the folders build
+    and install of colcon, which are left out.
     """
 
     place: Place
@@ -45,6 +46,7 @@ class Tree:
     git: set[str] = field(default_factory=set)
     truncated: set[str] = field(default_factory=set)
     links_out: list[str] = field(default_factory=list)
+    made: list[str] = field(default_factory=list)
 
     def below(self, folder: str) -> dict[str, Entry]:
         """Return the entries below a folder, by their path relative to it, sorted by path."""
@@ -144,6 +146,7 @@ def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
             tree.git.add(folder)
         if entry.kind == "folder" and (name in artefacts or is_tool_folder(tree.place, entry.path)):
             tree.left_out.add(MADE_BY_TOOLS, f"{entry.path}/")
+            tree.made += [entry.path] if name in ("build", "install") else []
         elif entry.kind != "folder" and is_tool_file(name):
             tree.left_out.add(MADE_BY_TOOLS, entry.path)
         else:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import dataclass, field
 
 from grader.package.source.setup_cfg import SetupCfg
-from grader.package.source.setup_py import SetupPy
+from grader.package.source.setup_py import SetupPy, is_setup_call
 from grader.package.source.values import Listing, Table, Text, Value
 
 # The form in which importlib.metadata.EntryPoint (Python 3.10 to 3.13) accepts an entry's value.
@@ -82,6 +83,37 @@ def from_setup_cfg(cfg: SetupCfg) -> EntryPoints:
                 line = cfg.line_of(row.strip(), setting.line)
                 entries.append(Entry(row.strip(), "setup.cfg", line))
     return found
+
+
+@dataclass(frozen=True)
+class Misplaced:
+    """An entry that is in setup.py, but not in entry_points; `argument` is "" outside of setup()."""
+
+    text: str
+    line: int
+    argument: str
+
+
+def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
+    """Return the first text of a setup.py that is an entry with this name, outside of entry_points."""
+    begins = re.compile(rf"\s{{0,20}}{re.escape(name)}\s{{0,20}}=")
+    holders = _holders(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+            continue
+        argument = holders.get(id(node), "")
+        if begins.match(node.value) and argument != "entry_points":
+            return Misplaced(node.value.strip(), node.lineno, argument)
+    return None
+
+
+def _holders(tree: ast.Module) -> dict[int, str]:
+    """Return the argument of setup() that holds each part of the file, by its identity."""
+    holders: dict[int, str] = {}
+    for call in (node for node in ast.walk(tree) if is_setup_call(node)):
+        for keyword in call.keywords if isinstance(call, ast.Call) else ():
+            holders.update((id(node), keyword.arg or "") for node in ast.walk(keyword.value))
+    return holders
 
 
 def _add(found: EntryPoints, entries: list[Entry], value: Value) -> None:

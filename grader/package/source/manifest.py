@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from xml.parsers import expat
 
 from grader.base.i18n.message import say
+from grader.base.nearest import nearest
 
 MOST_BYTES = 50_000
 MOST_LEVELS = 20
@@ -19,6 +20,15 @@ MOST_ELEMENTS = 500
 """catkin_pkg compares each dependency with every other."""
 REQUIRED = ("name", "version", "description", "maintainer", "license")
 DEPENDS = re.compile(r"(?:\w+_)?depend")
+KNOWN_PACKAGES = (
+    *("rclpy", "rclcpp", "std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "nav_msgs"),
+    *("visualization_msgs", "trajectory_msgs", "action_msgs", "builtin_interfaces"),
+    *("example_interfaces", "rcl_interfaces", "rosgraph_msgs", "turtlesim", "tf2_ros", "tf2_py"),
+    *("launch", "launch_ros", "ament_index_python", "ros2launch", "cv_bridge", "image_transport"),
+    *("ament_copyright", "ament_flake8", "ament_pep257", "ament_xmllint", "ament_mypy"),
+    *("ament_lint_auto", "ament_lint_common", "ament_cmake", "ament_python", "rviz2", "xacro"),
+    *("robot_state_publisher", "joint_state_publisher", "python3-pytest", "python3-setuptools"),
+)
 
 
 class ManifestError(Exception):
@@ -68,6 +78,11 @@ class Manifest:
     def depends(self) -> list[Element]:
         """Every dependency, of any kind."""
         return [e for e in self.elements if DEPENDS.fullmatch(e.tag) and e.within == "package"]
+
+
+def meant_package(name: str) -> str:
+    """Return the known package whose name is nearly that of a dependency; "" if there is none."""
+    return "" if name in KNOWN_PACKAGES else nearest(name, KNOWN_PACKAGES, cutoff=0.8)
 
 
 def read_manifest(found: bytes) -> Manifest:

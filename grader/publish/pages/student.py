@@ -17,6 +17,7 @@ from grader.publish.pages.overview import shown
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
+from grader.report.shown_patch import shown_patch
 from grader.report.tracebacks import folded
 from grader.verdict.checks.all import QUOTES
 
@@ -137,7 +138,7 @@ def _fields(check: CheckResult, translate: Translator) -> list[Field]:
         Field(say("Why"), cut(check.rationale)),
         Field(say("Points"), open_.get(check.status, "")),
         Field(say("Fix"), cut(check.fix)),
-        Field(say("Change"), cut(check.patch), code=True),
+        Field(say("Change"), cut(shown_patch(check.patch, translate)), code=True),
         *(Field(say("Also"), cut(advice)) for advice in check.advice),
         Field(say("Mistake"), ", ".join(mistake.id for mistake in check.mistakes), code=True),
     ]

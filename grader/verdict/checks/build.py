@@ -5,8 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
+from grader.mistakes.slips import description, words_of
+from grader.package.source.pasted import labels_in
+from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.outcome import Blocked, Failed, Passed
@@ -113,13 +116,17 @@ def _broken(evidence: Evidence) -> Failed:
             where=Where(file="setup.py", line=_first_print(evidence)),
         )
     if error.startswith(("SyntaxError", "IndentationError", "TabError")):
+        return _unreadable(evidence, expected, error, where)
+    label = next((p for p in labels_in(_setup_py(evidence)) if f"'{p.found}'" in error), None)
+    if label is not None and error.startswith("NameError"):
         return Failed(
             "build.setup_error",
             expected=expected,
-            actual=say("Python cannot read setup.py: {error}", error=error),
-            where=where,
-            variant="unreadable",
+            actual=joined(error, description(label), by=", "),
+            where=Where(file="setup.py", line=label.line),
+            variant=label.variant,
             params={"error": error},
+            words=words_of(label),
         )
     if NEVER_CALLED in build.log:
         return Failed(
@@ -143,6 +150,30 @@ def _broken(evidence: Evidence) -> Failed:
         actual=_summary(build.log) or ended,
         params={"status": -1 if build.status is None else build.status},
     )
+
+
+def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
+    slip = slip_of(_setup_py(evidence))
+    actual: str = say("Python cannot read setup.py: {error}", error=error)
+    if slip is not None:
+        actual, where = (
+            joined(actual, description(slip), by=", "),
+            Where(file="setup.py", line=slip.line),
+        )
+    return Failed(
+        "build.setup_error",
+        expected=expected,
+        actual=actual,
+        where=where,
+        variant=slip.variant if slip is not None else "unreadable",
+        params={"error": error},
+        words=words_of(slip) if slip is not None else {},
+    )
+
+
+def _setup_py(evidence: Evidence) -> bytes:
+    file = evidence.submission.file("setup.py")
+    return file.data if file is not None and file.kind == "file" else b""
 
 
 def limit_name(limit: str) -> str:
@@ -182,8 +213,7 @@ def python_error(text: str, file: str) -> tuple[str, int | None]:
 
 
 def _first_print(evidence: Evidence) -> int | None:
-    file = evidence.submission.file("setup.py")
-    text = file.data.decode("utf-8", errors="replace") if file is not None else ""
+    text = _setup_py(evidence).decode("utf-8", errors="replace")
     for number, line in enumerate(text.splitlines(), start=1):
         if re.match(r"\s*print\s*\(", line):
             return number

@@ -9,9 +9,11 @@ from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.source.entry_points import Entry, EntryPoints
+from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, misplaced
+from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.values import Text
 from grader.report.model import Where
-from grader.verdict.checks.parsed import names_in
+from grader.verdict.checks.parsed import file_of, names_in
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
@@ -130,12 +132,15 @@ def _other_group(evidence: Evidence, points: EntryPoints, group: str) -> Failed:
     others = points.group(group)
     line = points.lines.get(group)
     said = say("the group is called '{group}'", group=shown(group))
+    near = nearest("console_scripts", [group], cutoff=0.75)
     return Failed(
         "setup.group_misspelt",
         expected=say("'{entry}' in the group 'console_scripts'", entry=wanted_entry(evidence)),
         actual=with_difference(said, group, "console_scripts"),
         where=Where(file=others[0].file if others else "setup.py", line=line),
+        variant="" if near else "other",
         params={"group": shown(group)},
+        words={"wanted": wanted_entry(evidence)},
     )
 
 
@@ -145,12 +150,18 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
     comment = next((row for row in setup.comments if marks.match(row[1])), None)
     names = ", ".join(shown(entry.name) for entry in points.group("console_scripts")[:4])
     line = points.lines.get("console_scripts", setup.line)
-    variant, actual = "", say("console_scripts has no entry")
+    variant, close, actual = "", "", say("console_scripts has no entry")
     if names:
         actual = say("there are only: {names}", names=names)
     if comment is not None:
         line, variant = comment[0], "comment"
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
+    elif not points.groups and (close := _near_argument(setup)):
+        missing_argument = say("setup() has no entry_points argument") + meant(close)
+        variant, actual = "renamed", with_difference(missing_argument, close, "entry_points")
+        line = _line_of_argument(setup, close)
+    elif (entry := _elsewhere(evidence)) is not None:
+        return _misplaced(evidence, entry)
     elif not points.groups:
         variant, actual = "nothing", say("setup() has no entry_points argument")
     return Failed(
@@ -159,6 +170,48 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         actual=actual,
         where=Where(file="setup.py", line=line),
         variant=variant,
+        params={"argument": shown(close)} if close else {},
+        words={"wanted": wanted_entry(evidence)},
+    )
+
+
+def _near_argument(setup: SetupPy) -> str:
+    """Return the argument of setup() whose name is nearly entry_points; "" if there is none."""
+    names = [key.value for key, _ in setup.arguments.pairs if isinstance(key, Text)]
+    return nearest("entry_points", names, cutoff=0.75)
+
+
+def _line_of_argument(setup: SetupPy, name: str) -> int | None:
+    lines = [k.line for k, _ in setup.arguments.pairs if isinstance(k, Text) and k.value == name]
+    return lines[0] if lines else setup.line
+
+
+def _elsewhere(evidence: Evidence) -> Misplaced | None:
+    file = file_of(evidence, "setup.py")
+    try:
+        tree = parse_python(file.data).tree if file is not None else None
+    except PythonFault:
+        return None
+    return misplaced(tree, evidence.assignment.executable) if tree is not None else None
+
+
+def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
+    """Return the fault of an entry that is in another argument of setup(), or outside of it."""
+    argument = shown(entry.argument)
+    actual, variant = say("it is in {argument} instead", argument=argument), ""
+    if argument.endswith(("require", "requires")):
+        variant = "requirement"
+    if not argument:
+        actual = say("it is outside of setup()")
+    elif argument == "console_scripts":
+        actual, variant = say("console_scripts is outside of entry_points"), "group"
+    return Failed(
+        "setup.misplaced_entry",
+        expected=say("'{entry}' among the console_scripts", entry=wanted_entry(evidence)),
+        actual=actual,
+        where=Where(file="setup.py", line=entry.line),
+        variant=variant,
+        params={"entry": shown(entry.text), "argument": argument},
         words={"wanted": wanted_entry(evidence)},
     )
 

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message, Value, say
 from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
-from grader.package.source.manifest import REQUIRED, Element, Manifest, ManifestError, read_manifest
+from grader.package.source.broken_xml import TAGS, XmlFault, xml_fault
+from grader.package.source.manifest import (
+    REQUIRED,
+    Element,
+    Manifest,
+    ManifestError,
+    meant_package,
+    read_manifest,
+)
 from grader.report.model import Where
 from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
@@ -31,15 +40,6 @@ XML_FAULTS = {  # expat's most frequent messages, so that they can be translated
         say("XML or text declaration not at start of entity"),
     )
 }
-COMMON = (
-    *("rclpy", "rclcpp", "std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "nav_msgs"),
-    *("visualization_msgs", "trajectory_msgs", "action_msgs", "builtin_interfaces"),
-    *("example_interfaces", "rcl_interfaces", "rosgraph_msgs", "turtlesim", "tf2_ros", "tf2_py"),
-    *("launch", "launch_ros", "ament_index_python", "ros2launch", "cv_bridge", "image_transport"),
-    *("ament_copyright", "ament_flake8", "ament_pep257", "ament_xmllint", "ament_mypy"),
-    *("ament_lint_auto", "ament_lint_common", "ament_cmake", "ament_python", "rviz2", "xacro"),
-    *("robot_state_publisher", "joint_state_publisher", "python3-pytest", "python3-setuptools"),
-)
 
 
 def check_manifest(evidence: Evidence) -> Passed:
@@ -60,8 +60,8 @@ def _failed(
     *,
     expected: str = "",
     variant: str = "",
-    params: dict[str, str | int | float] | None = None,
-    words: dict[str, Value] | None = None,
+    params: Mapping[str, str | int | float] | None = None,
+    words: Mapping[str, Value] | None = None,
 ) -> Failed:
     return Failed(
         mistake,
@@ -89,37 +89,64 @@ def _read(evidence: Evidence) -> Manifest:
         reason = printable_reason(file.reason)
         raise _failed(
             "package.manifest_unreadable",
-            say("package.xml was not read: {reason}", reason=reason),
+            say("package.xml is there, but {reason}", reason=reason),
             None,
         )
     try:
         return read_manifest(file.data)
     except ManifestError as error:
-        raise _unusable(error, empty=not file.data.strip()) from None
+        raise _unusable(error, file.data) from None
 
 
-def _unusable(error: ManifestError, *, empty: bool) -> Failed:
+def _unusable(error: ManifestError, found: bytes) -> Failed:
     text = XML_FAULTS.get(error.text) or printable_reason(error.text)
     if error.kind == "doctype":
         actual: str = say("{text}: the rest of the file is not read", text=text)
         return _failed("package.manifest_doctype", actual, error.line)
     if error.kind != "xml":
         return _failed("package.manifest_rules", text, error.line)
-    actual = say("package.xml is empty")
-    if not empty:
-        actual = say("it is not well-formed XML: {text}", text=text)
+    fault, params = xml_fault(found), {"error": str(text)}
+    if not found.strip():
+        said, variant = say("package.xml is empty"), "empty"
+        return _failed("package.broken_xml", said, error.line, variant=variant, params=params)
+    if fault is None:
+        return _failed("package.broken_xml", text, error.line, params=params)
     return _failed(
         "package.broken_xml",
-        actual,
-        error.line,
-        variant="empty" if empty else "",
-        params={"error": str(text)},
+        _described(fault),
+        fault.line,
+        variant=fault.variant,
+        params=params,
+        words=_words(fault),
     )
+
+
+def _words(fault: XmlFault) -> dict[str, str]:
+    tag = shown(fault.tag)
+    return {"tag": tag, "name": tag.removeprefix("/"), "wanted": shown(fault.wanted)}
+
+
+def _described(fault: XmlFault) -> Message:
+    words = _words(fault)
+    texts = {
+        "unclosed": say("<{tag}> is not closed: its </{tag}> is missing", **words),
+        "again": say("<{tag}> is opened twice: the second should be </{tag}>", **words),
+        "unopened": say("<{tag}> closes nothing: its <{name}> is missing", **words),
+        "misspelt": say("<{tag}> should be <{wanted}>", **words),
+        "unfinished": say("<{tag} has no > at its end", **words),
+        "quotes": say("<{tag} …> has typographic quotes", **words),
+        "ampersand": say("there is a bare &"),
+        "before": say("there is something before the first tag"),
+        "after": say("there is something after the last tag"),
+    }
+    return texts[fault.variant]
 
 
 def _check_rules(manifest: Manifest) -> None:
     for tag in REQUIRED:
         element = manifest.first(tag)
+        if element is None:
+            _check_tag_name(manifest, tag, within="package")
         if element is None or (not element.text and tag != "description"):
             raise _failed(
                 "package.manifest_tag",
@@ -136,6 +163,23 @@ def _check_rules(manifest: Manifest) -> None:
             _line_of_fault(manifest),
             params={"error": shown_long(manifest.fault)},
         )
+
+
+def _check_tag_name(manifest: Manifest, tag: str, *, within: str) -> None:
+    """Raise Failed if an unknown tag's name is nearly that of a missing tag."""
+    unknown = {e.tag: e for e in manifest.elements if e.within == within and e.tag not in TAGS}
+    close = nearest(tag, unknown, cutoff=0.75)
+    if not close:
+        return
+    missing = say("<{tag}> is missing", tag=tag) + meant(close)
+    raise _failed(
+        "package.build_type" if tag == "build_type" else "package.manifest_tag",
+        with_difference(missing, close, tag),
+        unknown[close].line,
+        expected=BUILD_TYPE if tag == "build_type" else say("<{tag}> that is not empty", tag=tag),
+        variant="renamed",
+        params={"tag": tag, "close": shown(close)},
+    )
 
 
 def shown_long(text: str) -> str:
@@ -198,6 +242,7 @@ def _check_build_type_place(manifest: Manifest) -> None:
 def _check_build_type(manifest: Manifest) -> None:
     elements = manifest.all("build_type", within="export")
     if not elements:
+        _check_tag_name(manifest, "build_type", within="export")
         raise _build_type(manifest.first("export"), say("there is no <build_type>"))
     if len(elements) > 1:
         many = say("there are {count} <build_type> tags", count=len(elements))
@@ -230,7 +275,7 @@ def _advice(manifest: Manifest) -> list[str]:
             )
         )
     for name, line in sorted(names.items()):
-        close = "" if name in COMMON else nearest(name, COMMON, cutoff=0.8)
+        close = meant_package(name)
         if close:
             unknown = say(
                 "package.xml, line {line}: the dependency '{name}' is not known",

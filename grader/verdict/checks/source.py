@@ -9,7 +9,11 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
+from grader.mistakes.slips import KINDS, description, words_of
+from grader.package.edit.text import read_source
+from grader.package.source.pasted import Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
+from grader.package.source.slips import Slip, slip_of
 from grader.report.model import Where
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
@@ -38,21 +42,15 @@ def node_file(evidence: Evidence) -> Passed:
         raise Failed(
             "source.unreadable_node_file",
             expected=say("a file {path} that can be read", path=path),
-            actual=say("it was not read: {reason}", reason=reason),
+            actual=say("the file is there, but {reason}", reason=reason),
             where=Where(file=path),
         )
     if not file.data.strip():
-        raise Failed(
-            "source.empty_node_file",
-            expected=say("your node's code in {path}", path=path),
-            actual=say("the file is empty"),
-            where=Where(file=path),
-            words={"path": path},
-        )
+        raise _empty(evidence, path)
     try:
         parsed = parse_python(file.data)
     except PythonFault as fault:
-        raise _not_python(path, fault) from None
+        raise _not_python(path, fault, file.data) from None
     advice = hints(parsed.tree)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
@@ -63,6 +61,19 @@ def node_file(evidence: Evidence) -> Passed:
         )
         advice.insert(0, no_init)
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _empty(evidence: Evidence, path: str) -> Failed:
+    copy = shown(evidence.submission.newer_copy)
+    but = say("the file is empty, but {copy} is not", copy=copy)
+    return Failed(
+        "source.empty_node_file",
+        expected=say("your node's code in {path}", path=path),
+        actual=but if copy else say("the file is empty"),
+        where=Where(file=path),
+        variant="built" if copy else "",
+        words={"path": path, "copy": copy},
+    )
 
 
 def _not_there(evidence: Evidence, path: str) -> Failed:
@@ -110,17 +121,24 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     actual = say("{inner}/ contains {files}", inner=inner, files=files)
     if not submission.file(inner):
         actual = say("there is no folder {inner} in the package", inner=inner)
+    copy = shown(submission.newer_copy)
+    if copy:
+        actual = joined(actual, say("but the build has a copy: {copy}", copy=copy), by=", ")
     return Failed(
         "source.no_node_file",
         expected=expected,
         actual=actual,
         where=Where(file=path),
-        words={"path": path},
+        variant="built" if copy else "",
+        words={"path": path, "copy": copy},
     )
 
 
-def _not_python(path: str, fault: PythonFault) -> Failed:
+def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
     text = printable_reason(fault.text)
+    slip = slip_of(found)
+    if slip is not None:
+        return _slip(path, text, fault.kind, slip)
     code = say("in: {code}", code=shown(fault.shown)) if fault.shown else ""
     return Failed(
         "source.not_utf8" if fault.kind == "encoding" else "source.syntax_error",
@@ -129,6 +147,20 @@ def _not_python(path: str, fault: PythonFault) -> Failed:
         where=Where(file=path, line=fault.line),
         variant=fault.kind,
         params={"error": str(text), "kind": fault.kind},
+    )
+
+
+def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
+    mistake = KINDS.get(slip.cause, "source.syntax_error")
+    params = {"error": str(text), "kind": kind}
+    return Failed(
+        mistake,
+        expected=say("a file that Python can read"),
+        actual=joined(text, description(slip), by=", "),
+        where=Where(file=path, line=slip.line),
+        variant=slip.variant,
+        params={"what": slip.variant} if slip.cause == "pasted" else params,
+        words=words_of(slip),
     )
 
 
@@ -193,6 +225,9 @@ def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
     actual: str
+    pasted = _above_shebang(data, later[0] if later else 2)
+    if pasted is not None:
+        return _pasted_first(evidence, pasted)
     if first[:3] == b"\xef\xbb\xbf":
         mistake = "source.byte_order_mark"
         actual = say("a byte order mark (three invisible bytes) is in front of line 1")
@@ -218,4 +253,27 @@ def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
         actual=actual,
         where=Where(file=node_path(evidence), line=line),
         words={"file": evidence.assignment.node_file, "path": node_path(evidence)},
+    )
+
+
+def _above_shebang(data: bytes, line: int) -> Pasted | None:
+    """Return what was pasted on line 1, if nothing else is above a line."""
+    source = read_source(data)
+    found = [p for p in pasted_in(source) if p.line < line] if source is not None else []
+    lines = {p.line: p for p in found if p.variant in ("label", "command")}
+    if source is None or 1 not in lines:
+        return None
+    others = [n for n in range(1, line) if n not in lines and source.line(n).strip()]
+    return None if others else lines[1]
+
+
+def _pasted_first(evidence: Evidence, pasted: Pasted) -> Failed:
+    return Failed(
+        "source.pasted",
+        expected=say("line 1: {shebang}", shebang=SHEBANG),
+        actual=joined(say("line 1 is not code"), description(pasted), by=", "),
+        where=Where(file=node_path(evidence), line=1),
+        variant=pasted.variant,
+        params={"what": pasted.variant},
+        words=words_of(pasted),
     )

@@ -1,0 +1,89 @@
+"""The catalogue: texts about what stops Python from reading a file, for the node's and setup.py."""
+
+from __future__ import annotations
+
+from grader.base.i18n.message import Message, msg, say
+from grader.base.shown import shown
+from grader.package.source.pasted import Pasted
+from grader.package.source.slips import Slip
+
+WEB = msg(
+    "A web page or a document shows code with its own quotes, spaces and labels. If they are copied "
+    "with the code, Python stops at them."
+)
+KEYBOARD = msg(
+    "Python knows only the signs of an English keyboard. Signs of another input method or of a "
+    "document look alike, but are different characters."
+)
+OTHER_LANGUAGE = msg(
+    "Other languages have signs and words that Python does not know. Python stops at the first of "
+    "them."
+)
+PASTED_WHYS = {"sign": KEYBOARD}
+PASTED = {
+    "quotes": msg("Type the quotes of that line again: ' or \" on the keyboard."),
+    "blank": msg("Delete the spaces of that line and type them again."),
+    "sign": msg("Type that sign again, with the keyboard set to English."),
+    "tag": msg("Remove {found}: it belongs to the web page, not to the code."),
+    "label": msg("Delete the line '{found}': it belongs to the web page, not to the code."),
+    "prompt": msg(
+        "Remove {found} from the start of the lines: it is the prompt of Python, not code."
+    ),
+    "command": msg("Delete that line: it is a command for the terminal, not code."),
+}
+LANGUAGE = {
+    "increment": msg("Python has no ++ and no --. Write: {wanted}"),
+    "increment_inside": msg(
+        "Python has no ++ and no --. Add 1 on a line of its own, with += 1 after the name."
+    ),
+    "comment": msg("A comment begins with # in Python. Write: {wanted}"),
+    "compare": msg("Python compares with == and !=. Write: {wanted}"),
+    "operator": msg("Python has the words and, or, not instead of &&, ||, !. Write: {wanted}"),
+    "elif": msg("Python has the word elif. Write: {wanted}"),
+    "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
+    "function": msg("A function begins with def in Python. Write: {wanted}"),
+    "new": msg("Python has no new: to make an object, call its class. Write: {wanted}"),
+    "member": msg("Python has a dot between an object and its part. Write: {wanted}"),
+    "except": msg("Python has try: and except …: for errors, and raise instead of throw."),
+    "choice": msg("Python has no ? : for a choice. Write: a if condition else b"),
+    "backtick": msg("A text is in quotes, ' or \", not in backticks."),
+    "braces": msg(
+        "Python has no braces around a block. Write a colon at the end of the line above the "
+        "block, and indent each line of the block by 4 spaces."
+    ),
+}
+SIGNS = {
+    "commas": msg("Remove that comma: there is nothing before it to separate."),
+    "colon": msg("Write ':' instead of '=' between a key and its value: that is a dict, in {{ }}."),
+    "equals": msg(
+        "In a call, write name=value: '=' between the two, and no quotes around the name."
+    ),
+    "quote": msg("Add the missing quote: a text begins and ends with the same quote, on one line."),
+}
+KINDS = {"pasted": "source.pasted", "language": "source.other_language"}
+"""The mistakes of the node's file by the cause of a slip; the others are syntax errors."""
+
+
+def words_of(slip: Slip | Pasted) -> dict[str, str]:
+    """Return the values of the placeholders in the texts above."""
+    wanted = slip.wanted if isinstance(slip, Slip) else ""
+    return {"found": shown(slip.found), "wanted": shown(wanted)}
+
+
+def description(slip: Slip | Pasted) -> Message:
+    """Return what was found at the place of a slip."""
+    found = shown(slip.found)
+    if isinstance(slip, Slip) and slip.cause == "signs":
+        return say("in: {code}", code=found)
+    if isinstance(slip, Slip) and slip.cause == "language":
+        return say("this is not Python: {found}", found=found)
+    texts = {
+        "quotes": say("typographic quotes: {found}", found=found),
+        "blank": say("a space that is not an ordinary one: {found}", found=found),
+        "sign": say("a sign that Python does not know: {found}", found=found),
+        "tag": say("a part of a web page: {found}", found=found),
+        "label": say("a line of a web page: {found}", found=found),
+        "prompt": say("the prompt of Python: {found}", found=found),
+        "command": say("a command for the terminal: {found}", found=found),
+    }
+    return texts[slip.variant]

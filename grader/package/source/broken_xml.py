@@ -1,0 +1,226 @@
+"""Why a package.xml is not well-formed XML: the tag that is wrong, and the one change, if certain.
+
+expat names the place at which it stops. If a tag is not closed, that is the end of the tag around
+it, often many lines below.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+from xml.parsers import expat
+
+from grader.base.nearest import nearest
+
+MOST_BYTES = 50_000
+TAGS = (
+    *("package", "name", "version", "description", "maintainer", "license", "url", "author"),
+    *("depend", "build_depend", "build_export_depend", "buildtool_depend", "exec_depend"),
+    *("buildtool_export_depend", "test_depend", "doc_depend", "conflict", "replace"),
+    *("group_depend", "member_of_group", "export", "build_type"),
+)
+"""The tags of REP 149."""
+Variant = Literal[
+    "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
+    "after",
+]  # fmt: skip
+END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
+TYPOGRAPHIC = re.compile(rb"\xe2\x80[\x98-\x9f]")  # U+2018 to U+201F in UTF-8
+ENTITY = re.compile(rb"&(#?\w{1,30});")
+
+
+@dataclass(frozen=True)
+class XmlFault:
+    """What is wrong: the tag, its line (from 1), and how it should be written, if it is misspelt.
+
+    `fixed` is the file after the change; None if no change is certain.
+    """
+
+    variant: Variant
+    tag: str
+    line: int
+    wanted: str = ""
+    fixed: bytes | None = None
+
+
+@dataclass(frozen=True)
+class _Open:
+    name: str
+    start: int
+
+
+class _Reader:
+    """Parses until the error; `open` are the tags that are open there, the innermost last."""
+
+    def __init__(self, found: bytes) -> None:
+        self.found = found
+        self.open: list[_Open] = []
+        self.parser = expat.ParserCreate()
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.StartDoctypeDeclHandler = self._doctype
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        del attributes
+        self.open.append(_Open(name, self.parser.CurrentByteIndex))
+
+    def _end(self, name: str) -> None:
+        del name
+        self.open.pop()
+
+    def _doctype(self, *_: object) -> None:
+        raise ValueError
+
+    def stop(self) -> tuple[str, int] | None:
+        """Return the name and the position of the error; None if it is XML or not examined."""
+        try:
+            self.parser.Parse(self.found, True)
+        except expat.ExpatError as error:
+            return expat.errors.messages.get(error.code, ""), self.parser.ErrorByteIndex
+        except (ValueError, LookupError):
+            return None
+        return None
+
+    def line(self, at: int) -> int:
+        """Return the line of a position."""
+        return self.found.count(b"\n", 0, max(at, 0)) + 1
+
+    def line_end(self, at: int) -> int:
+        """Return where the text of a line ends, without blanks at its end."""
+        end = self.found.find(b"\n", at)
+        end = len(self.found) if end < 0 else end
+        return at + len(self.found[at:end].rstrip())
+
+    def fault(
+        self,
+        variant: Variant,
+        tag: str,
+        at: int,
+        *change: tuple[int, int, bytes],
+        wanted: str = "",
+    ) -> XmlFault:
+        """Return a fault; the change is kept only if the file is XML afterwards."""
+        new: bytes | None = self.found
+        for start, end, text in sorted(change, reverse=True):
+            new = (new or b"")[:start] + text + (new or b"")[end:]
+        if not change or new is None or not _is_xml(new):
+            new = None
+        return XmlFault(variant, tag, self.line(at), wanted, new)
+
+
+def _is_xml(found: bytes) -> bool:
+    reader = _Reader(found)
+    return reader.stop() is None and not reader.open
+
+
+def xml_fault(found: bytes) -> XmlFault | None:
+    """Return why a file is not well-formed; None if it is, or if the cause is unknown."""
+    if len(found) > MOST_BYTES or found[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return None
+    reader = _Reader(found)
+    error = reader.stop()
+    look = LOOKS.get(error[0]) if error is not None else None
+    return look(reader, error[1]) if error is not None and look is not None else None
+
+
+def _mismatch(reader: _Reader, at: int) -> XmlFault | None:
+    found, top = reader.found, reader.open[-1]
+    start = found.rfind(b"</", max(0, at - 200), at + 3)
+    end = END_TAG.match(found, start) if start >= 0 else None
+    if end is None:
+        return None
+    name = end["name"].decode("utf-8", "replace")
+    if name in [tag.name for tag in reader.open]:
+        return _unclosed(reader)
+    if nearest(top.name, [name]) == name:
+        if name in TAGS and top.name not in TAGS:
+            place = (top.start + 1, top.start + 1 + len(top.name.encode()), name.encode())
+            return reader.fault("misspelt", top.name, top.start, place, wanted=name)
+        return reader.fault("misspelt", f"/{name}", start, (*end.span("name"), top.name.encode()),
+                            wanted=f"/{top.name}")  # fmt: skip
+    begin = found.rfind(b"\n", 0, start) + 1
+    text = found[begin:start]
+    change = []
+    if text.strip() and b"<" not in text:
+        first = begin + len(text) - len(text.lstrip())
+        change = [(first, first, f"<{name}>".encode())]
+    return reader.fault("unopened", f"/{name}", start, *change)
+
+
+def _unclosed(reader: _Reader) -> XmlFault:
+    """Return the innermost open tag: it is closed nowhere, or its end tag lacks the slash."""
+    top = reader.open[-1]
+    if len(reader.open) > 1 and reader.open[-2].name == top.name:
+        at = top.start + 1
+        return reader.fault("again", top.name, top.start, (at, at, b"/"))
+    head = reader.found.find(b">", top.start) + 1
+    end = reader.line_end(head)
+    text = reader.found[head:end]
+    closing = f"</{top.name}>".encode()
+    change = [(end, end, closing)] if text.strip() and b"<" not in text else []
+    if len(reader.open) == 1:
+        end = len(reader.found.rstrip())
+        change = [(end, end, b"\n" + closing)]
+    return reader.fault("unclosed", top.name, top.start, *change)
+
+
+def _end_of_file(reader: _Reader, at: int) -> XmlFault | None:
+    del at
+    return _unclosed(reader) if reader.open else None
+
+
+def _invalid(reader: _Reader, at: int) -> XmlFault | None:
+    found = reader.found
+    start = found.rfind(b"<", 0, max(at, 1))
+    if start >= 0 and at - start > 1 and b">" not in found[start:at]:
+        return _in_tag(reader, start, at)
+    amp = found.rfind(b"&", max(0, at - 40), at + 1)
+    if amp >= 0 and not ENTITY.match(found, amp):
+        return reader.fault("ampersand", "&", amp, (amp, amp + 1, b"&amp;"))
+    return None if reader.open else _before(reader, at) or _after(reader, at)
+
+
+def _in_tag(reader: _Reader, start: int, at: int) -> XmlFault:
+    """Return what is wrong inside a tag: its quotes, or it has no end."""
+    found = reader.found
+    name = re.compile(rb"</?[\w:.-]{0,60}").match(found, start)
+    tag = (name[0] if name else b"<").decode("utf-8", "replace")
+    end = reader.line_end(start)
+    if TYPOGRAPHIC.match(found, at):
+        quotes = [(m.start(), m.end(), b'"') for m in TYPOGRAPHIC.finditer(found, at, end)]
+        return reader.fault("quotes", tag.lstrip("<"), at, *quotes)
+    change = [(end, end, b">")] if name and end == name.end() else []
+    return reader.fault("unfinished", tag.lstrip("<"), start, *change)
+
+
+def _before(reader: _Reader, at: int) -> XmlFault | None:
+    """Return what is above the first line of XML."""
+    del at
+    found = reader.found
+    end = found.find(b"<")
+    if found.startswith(b"\xef\xbb\xbf") or end <= 0 or reader.open:
+        return None
+    return reader.fault("before", "", 0, (0, end, b""))
+
+
+def _after(reader: _Reader, at: int) -> XmlFault | None:
+    """Return what is below the last end tag."""
+    found = reader.found
+    start = found.rfind(b">") + 1
+    if found[start:].strip() == b"" or start > at:
+        return None
+    return reader.fault("after", "", at, (start, len(found), b"\n"))
+
+
+LOOKS: dict[str, Callable[[_Reader, int], XmlFault | None]] = {
+    expat.errors.XML_ERROR_TAG_MISMATCH: _mismatch,
+    expat.errors.XML_ERROR_NO_ELEMENTS: _end_of_file,
+    expat.errors.XML_ERROR_UNCLOSED_TOKEN: _invalid,
+    expat.errors.XML_ERROR_INVALID_TOKEN: _invalid,
+    expat.errors.XML_ERROR_UNDEFINED_ENTITY: _invalid,
+    expat.errors.XML_ERROR_SYNTAX: _before,
+    expat.errors.XML_ERROR_MISPLACED_XML_PI: _before,
+    expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT: _after,
+}

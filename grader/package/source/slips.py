@@ -1,0 +1,327 @@
+"""What a beginner would call the error at which Python stops reading a file.
+
+Python's own message names what it expected; a slip names what is there: a sign that was pasted
+from a web page, a word of another language, a second comma.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from grader.package.edit.text import SourceText, Splice, read_source
+from grader.package.source.code_only import code_only
+from grader.package.source.pasted import cleaned, pasted_in
+from grader.package.source.python import PythonFault, parse_python
+
+Cause = Literal["pasted", "language", "signs"]
+TYPES = (
+    "int|float|double|bool|boolean|string|String|var|let|const|auto|char|long|size_t|std::string"
+)
+BLOCK = "def|class|if|elif|else|for|while|try|except|finally|with"
+HEAD = re.compile(
+    rf"^[ \t]*(?:{BLOCK})\b[^\r\n{{}}]*?(?P<brace>[ \t]{{0,9}}:?[ \t]{{0,9}}\{{)[ \t]{{0,9}}$", re.M
+)
+CLOSER = re.compile(r"^[ \t]{0,80}\}[ \t]{0,9};?[ \t]{0,9}$", re.M)
+MOST_TRIES = 8
+"""How many places of a file are tried for one kind of slip."""
+MOST_BLOCKS = 50
+LONGEST = 500
+"""Characters of a line that is examined: some patterns take quadratic time."""
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A slip: its cause and variant, its line, what is written, and the line as it should be.
+
+    `fixed` is the file after the change; None if more than one change is possible. Python may stop
+    at another line of it.
+    """
+
+    cause: Cause
+    variant: str
+    line: int
+    found: str
+    wanted: str = ""
+    fixed: bytes | None = None
+
+
+def slip_of(found: bytes) -> Slip | None:
+    """Return the slip at which Python stops reading a file; None if none is recognised."""
+    source, fault = read_source(found), _fault_of(found)
+    if source is None or fault is None or fault.line is None:
+        return None
+    code = SourceText(code_only(source.text), source.encoding)
+    text = Broken(source, code, fault, fault.line)
+    return _pasted(text) or next(filter(None, (look(text) for look in LOOKS)), None)
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A file that Python cannot read: its text, its code without strings, and the line."""
+
+    source: SourceText
+    code: SourceText
+    fault: PythonFault
+    number: int
+
+    @property
+    def line(self) -> str:
+        """The code of the line at which Python stops."""
+        line = self.code.line(self.number)
+        return line if len(line) <= LONGEST else ""
+
+    def changed(self, *splices: Splice) -> bytes | None:
+        """Return the file after a change if Python then reads further; None if it does not."""
+        new = self.source.spliced(splices)
+        after = _fault_of(new) if new is not None else self.fault
+        if new is None or after is None:
+            return new
+        return new if after.line is not None and after.line > self.number else None
+
+    def within(self, start: int, end: int, new: str) -> Splice:
+        """Return the splice that replaces columns of the line at which Python stops."""
+        begin = self.code.start_of(self.number)
+        return Splice(begin + start, begin + end, new)
+
+    def slip(
+        self, cause: Cause, variant: str, found: str, *splices: Splice, fixed: bytes | None = None
+    ) -> Slip:
+        """Return a slip of the line at which Python stops; `splices` show how it should be."""
+        start, end = self.code.start_of(self.number), self.code.end_of(self.number)
+        wanted = self.source.text[start:end]
+        for splice in sorted(splices, key=lambda s: s.start, reverse=True):
+            wanted = wanted[: splice.start - start] + splice.new + wanted[splice.end - start :]
+        return Slip(cause, variant, self.number, found.strip(), wanted.strip(), fixed)
+
+
+def _fault_of(found: bytes) -> PythonFault | None:
+    try:
+        parse_python(found)
+    except PythonFault as fault:
+        return fault
+    return None
+
+
+def _pasted(text: Broken) -> Slip | None:
+    """Return the first thing that was pasted, if Python reads further without all of them."""
+    found = pasted_in(text.source)
+    new = cleaned(text.source, found) if found else None
+    if new is None:
+        return None
+    after = _fault_of(new)
+    gone = sum(p.variant in ("label", "command") and p.line <= text.number for p in found)
+    if after is not None and (after.line is None or after.line <= text.number - gone):
+        return None
+    at = next((p for p in found if p.line == text.number), found[0])
+    return Slip("pasted", at.variant, at.line, at.found, fixed=new)
+
+
+# other languages
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A sign of another language: its pattern in a line of code, and what Python has for it.
+
+    `certain` patterns are never Python; of the others, Python must read further after the change.
+    `new` is a template of `re.Match.expand`.
+    """
+
+    variant: str
+    pattern: re.Pattern[str]
+    new: str | None
+    certain: bool = True
+
+
+def _rule(variant: str, pattern: str, new: str | None, *, certain: bool = True) -> Rule:
+    return Rule(variant, re.compile(pattern), new, certain)
+
+
+COMMENTS = (
+    _rule("comment", r"//", "#", certain=False),
+    _rule("comment", r"/\*(?P<text>.*)\*/[ \t]*$", r"#\g<text>", certain=False),
+    _rule("comment", r"^[ \t]*/\*", None),
+)
+RULES = (
+    _rule("increment", r"^(?P<start>[ \t]*[\w.]+)[ \t]*(?P<sign>[+-])(?P=sign)[ \t]*;?[ \t]*$",
+          r"\g<start> \g<sign>= 1"),
+    _rule("increment_inside", r"[\w)\]](?:\+\+|--)(?=[ \t]*[),;:\]]|[ \t]*$)", None),
+    _rule("compare", r"(?P<sign>[=!])==", r"\g<sign>="),
+    _rule("compare", r"<>", "!="),
+    _rule("operator", r"[ \t]{0,9}&&[ \t]{0,9}", " and "),
+    _rule("operator", r"[ \t]{0,9}\|\|[ \t]{0,9}", " or "),
+    _rule("operator", r"(?<![\w)\]'\"])!(?!=)[ \t]*", "not "),
+    _rule("elif", r"^(?P<start>[ \t]*)(?:else[ \t]+if|elseif|elsif)\b", r"\g<start>elif"),
+    _rule("declaration", rf"^(?P<start>[ \t]*)(?:{TYPES})[ \t]+(?=[A-Za-z_][\w.]*[ \t]*=(?!=))",
+          r"\g<start>"),
+    _rule("function", r"^(?P<start>[ \t]*)(?:(?:public|private|static|async)[ \t]+)?"
+          r"(?:function|func|fn|fun|void|sub)[ \t]+(?=\w+[ \t]*\()", r"\g<start>def "),
+    _rule("new", r"\bnew[ \t]+(?=[A-Za-z_][\w.]*[ \t]*\()", ""),
+    _rule("member", r"(?<=\w)[ \t]*->[ \t]*(?=[A-Za-z_])", "."),
+    _rule("member", r"(?<=\w)::(?=[A-Za-z_])", ".", certain=False),
+    _rule("except", r"^[ \t]*(?:\}[ \t]*)?catch\b", None),
+    _rule("except", r"^(?P<start>[ \t]*)throw\b", r"\g<start>raise"),
+    _rule("choice", r"\?", None),
+    _rule("backtick", r"`", None),
+)  # fmt: skip
+
+
+def _comment(text: Broken) -> Slip | None:
+    return _by_rules(text, COMMENTS)
+
+
+def _other_sign(text: Broken) -> Slip | None:
+    return _by_rules(text, RULES)
+
+
+def _by_rules(text: Broken, rules: tuple[Rule, ...]) -> Slip | None:
+    for rule in rules:
+        matches = list(rule.pattern.finditer(text.line))[:MOST_TRIES]
+        if not matches:
+            continue
+        sign = matches[0][0]
+        if rule.new is None:
+            return text.slip("language", rule.variant, sign)
+        for splices in _ways(text, rule, matches):
+            fixed = text.changed(*splices)
+            if fixed is not None or rule.certain:
+                return text.slip("language", rule.variant, sign, *splices, fixed=fixed)
+    return None
+
+
+def _ways(text: Broken, rule: Rule, matches: list[re.Match[str]]) -> Iterator[list[Splice]]:
+    """Yield the changes to try: `//` divides before the last one, and a line can have all of
+    `&&`, `||` and `!`.
+    """
+    if rule.variant == "comment":
+        yield from ([_as_comment(text, match)] for match in reversed(matches))
+        return
+    alike = (
+        [r for r in RULES if r.variant == rule.variant] if rule.variant == "operator" else [rule]
+    )
+    yield [
+        text.within(*match.span(), match.expand(other.new or ""))
+        for other in alike
+        for match in list(other.pattern.finditer(text.line))[:MOST_TRIES]
+    ]
+
+
+def _as_comment(text: Broken, match: re.Match[str]) -> Splice:
+    """Return the splice that makes a Python comment, with the words as they are written."""
+    start, end = match.span()
+    written = text.source.line(text.number)[start:end]
+    words = written[2:].rstrip().removesuffix("*/").rstrip() if written[1:2] == "*" else ""
+    return text.within(start, end, f"#{words}")
+
+
+def _braces(text: Broken) -> Slip | None:
+    """Return braces around a block, of which Python stops at the first or at the last."""
+    heads = list(HEAD.finditer(text.code.text))
+    if not 0 < len(heads) <= MOST_BLOCKS:
+        return None
+    at = [h for h in heads if _line_at(text.code, h.start("brace")) == text.number]
+    lone = list(CLOSER.finditer(text.code.text))
+    ends = [_line_at(text.code, c.start()) for c in lone]
+    splices = [Splice(*h.span("brace"), ":") for h in heads]
+    new = None
+    if len(heads) == len(lone):
+        removed = [text.source.without(end) for end in ends]
+        new = text.source.spliced([*splices, *removed])
+        new = new if new is not None and _fault_of(new) is None else None
+    if new is None and not at and text.number not in ends:
+        return None
+    line = text.number if at else _line_at(text.code, heads[0].start("brace"))
+    return Slip("language", "braces", line, text.source.line(line).strip(), "", new)
+
+
+def _line_at(text: SourceText, position: int) -> int:
+    part = text.text[:position]
+    return part.count("\n") + part.count("\r") - part.count("\r\n") + 1
+
+
+# commas, colons and quotes
+
+COMMAS = re.compile(r"(?P<before>[(\[{,])(?:[ \t\r\n]*)(?P<comma>,)")
+KEY = re.compile(r"(?P<key>(?P<quote>['\"])_{1,80}(?P=quote))[ \t]*(?P<sign>=(?!=)|:)")
+NAME = re.compile(r"^[ \t]*(?P<key>[A-Za-z_]\w{0,80})[ \t]*(?P<sign>:)(?=[ \t]*[\w'\"\[{(])")
+PLAIN = re.compile(r"[\w ./:=@-]*")
+UNQUOTED = re.compile(r"^[ \t]*(?P<text>[\w-]+[ \t]*=[ \t]*[\w.]+:\w+),?[ \t]*$")
+
+
+def _commas(text: Broken) -> Slip | None:
+    """Return a comma with nothing before it."""
+    for match in list(COMMAS.finditer(text.code.text))[:MOST_TRIES]:
+        at = match.start("comma")
+        new = text.changed(Splice(at, at + 1, ""))
+        if new is not None:
+            line = _line_at(text.code, at)
+            return Slip("signs", "commas", line, text.source.line(line).strip(), "", new)
+    return None
+
+
+def _keys(text: Broken) -> Slip | None:
+    """Return a key with `=` in a dict, or a name with `:` or in quotes in a call."""
+    for number, match in _key_matches(text):
+        start = text.code.start_of(number)
+        key = text.source.text[start + match.start("key") : start + match.end("key")]
+        sign = Splice(start + match.start("sign"), start + match.end("sign"), "")
+        bare = key.strip("'\"")
+        name = Splice(start + match.start("key"), start + match.end("sign"), f"{bare}=")
+        ways = [("equals", name)]
+        if match["sign"] == "=":
+            ways = [("colon", Splice(sign.start, sign.end, ":")), ("equals", name)]
+        for variant, splice in ways:
+            new = text.changed(splice)
+            if new is not None:
+                return Slip("signs", variant, number, text.source.line(number).strip(), "", new)
+    return None
+
+
+def _key_matches(text: Broken) -> Iterator[tuple[int, re.Match[str]]]:
+    """Yield the keys of the line at which Python stops first, then those of the lines near it."""
+    near = [text.number, *range(max(1, text.number - 3), text.number), text.number + 1]
+    for number in near:
+        line = text.code.line(number)
+        for pattern in (KEY, NAME):
+            match = pattern.search(line)
+            if match is not None:
+                yield number, match
+
+
+def _quotes(text: Broken) -> Slip | None:
+    """Return a text whose first or last quote is missing."""
+    written = text.source.line(text.number)
+    if "unterminated string" not in text.fault.text and "EOL while" not in text.fault.text:
+        match = UNQUOTED.match(text.line)
+        if match is None:
+            return None
+        start, end = match.span("text")
+        q = text.source.quote
+        splices = (text.within(start, start, q), text.within(end, end, q))
+        new = text.changed(*splices)
+        return text.slip("signs", "quote", match["text"], *splices, fixed=new) if new else None
+    opened = max(text.line.rfind("'"), text.line.rfind('"'))
+    if opened < 0:
+        return None
+    quote, rest = written[opened], written[opened + 1 :]
+    ends = len(rest.rstrip(" \t,])}"))
+    fits = [text.within(opened + 1 + ends, opened + 1 + ends, quote)] if rest[:ends] else []
+    if not fits:  # the text ends here, and its first quote is missing
+        begins = {m.end() for m in re.finditer(r"^[ \t]*|=[ \t]*", written[:opened])}
+        fits = [text.within(at, at, quote) for at in sorted(begins)[:MOST_TRIES]]
+        rest, ends = written[:opened], opened
+    if PLAIN.fullmatch(rest[:ends].strip(" \t,([{")) is None:
+        fits = []
+    read = [(splice, new) for splice in fits if (new := text.changed(splice)) is not None]
+    read = [(splice, new) for splice, new in read if _fault_of(new) is None] or read
+    if len(read) == 1:
+        return text.slip("signs", "quote", written, read[0][0], fixed=read[0][1])
+    return text.slip("signs", "quote", written)
+
+
+LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
+    _braces, _comment, _commas, _quotes, _keys, _other_sign,
+)  # fmt: skip

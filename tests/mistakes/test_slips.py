@@ -1,0 +1,132 @@
+"""What a beginner would call the error at which Python stops: its name, its line, and the fix."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from grader.package.source.code_only import code_only
+from grader.package.source.pasted import labels_in
+from grader.package.source.python import can_parse
+from grader.package.source.slips import slip_of
+
+# what is written, the variant, its line, and the file after the fix ("" if there is none)
+PASTED = [
+    ("a = \u201cx\u201d\n", "quotes", 1, 'a = "x"\n'),
+    ("a = 'x\u2019\n", "quotes", 1, "a = 'x'\n"),
+    ("a = \u201eit's\u201c\n", "quotes", 1, 'a = "it\'s"\n'),
+    ("def f():\n    \u201c\u201c\u201cText\n    of f.\u201d\u201d\u201d\n", "quotes", 2,
+     'def f():\n    """Text\n    of f."""\n'),
+    ("if 1:\n\u00a0\u00a0\u00a0\u00a0a = 1\n", "blank", 2, "if 1:\n    a = 1\n"),
+    ("a\u200b = 1\n", "blank", 1, "a = 1\n"),
+    ("a = 2 \u2212 1\n", "sign", 1, "a = 2 - 1\n"),
+    ("print\uff081\uff0c 2\uff09\n", "sign", 1, "print(1, 2)\n"),
+    ("a = 1<br/>\nb = 2<br>\n", "tag", 1, "a = 1\nb = 2\n"),
+    ('<span class="k">a</span> = 1\n', "tag", 1, "a = 1\n"),
+    ("if 2 &gt; 1:\n    a = 1\n", "tag", 1, "if 2 > 1:\n    a = 1\n"),
+    ("```python\r\na = 1\r\n```\r\n", "label", 1, "a = 1\r\n"),
+    ("Copy code\na = 1\n", "label", 1, "a = 1\n"),
+    (">>> if 1:\n...     a = 1\n", "prompt", 1, "if 1:\n    a = 1\n"),
+    ("a = 1\ncd ~/ros2_ws && colcon build\nb = 2\n", "command", 2, "a = 1\nb = 2\n"),
+    ("jane@pc:~/ros2_ws$ ros2 run a b\na = 1\n", "command", 1, "a = 1\n"),
+]  # fmt: skip
+LANGUAGE = [
+    ("a = 0\na++\n", "increment", 2, "a = 0\na += 1\n"),
+    ("a = 0\na.b--;\n", "increment", 2, "a = 0\na.b -= 1\n"),
+    ("print(str(a++))\n", "increment_inside", 1, ""),
+    ("// it's mine\na = 1\n", "comment", 1, "# it's mine\na = 1\n"),
+    ("a = 4 // 2  // the half\n", "comment", 1, "a = 4 // 2  # the half\n"),
+    ("a = 4  // see http://a.b of me\n", "comment", 1, "a = 4  # see http://a.b of me\n"),
+    ("/* mine */\na = 1\n", "comment", 1, "# mine\na = 1\n"),
+    ("/*\n * mine\n */\n", "comment", 1, ""),
+    ("b = a && !c || d != e\n", "operator", 1, "b = a and not c or d != e\n"),
+    ("b = a === c\n", "compare", 1, "b = a == c\n"),
+    ("if a:\n    pass\nelse if b:\n    pass\n", "elif", 3, "if a:\n    pass\nelif b:\n    pass\n"),
+    ("int a = 1\n", "declaration", 1, "a = 1\n"),
+    ("let a = 1;\n", "declaration", 1, "a = 1;\n"),
+    ("void main():\n    pass\n", "function", 1, "def main():\n    pass\n"),
+    ("a = new Node('x')\n", "new", 1, "a = Node('x')\n"),
+    ("self->a = 1\n", "member", 1, "self.a = 1\n"),
+    ("rclpy::init()\n", "member", 1, "rclpy.init()\n"),
+    ("try:\n    pass\ncatch (a):\n    pass\n", "except", 3, ""),
+    ("a = b ? 1 : 2\n", "choice", 1, ""),
+    ("a = `x`\n", "backtick", 1, ""),
+    ("if a {\n    b = 1\n}\n", "braces", 1, "if a:\n    b = 1\n"),
+    ("def f() {\n    if a: {\n        b = 1\n    }\n}\n", "braces", 1,
+     "def f():\n    if a:\n        b = 1\n"),
+]  # fmt: skip
+SIGNS = [
+    ("f(1,, 2)\n", "commas", 1, "f(1, 2)\n"),
+    ("f(\n    1,\n    ,\n)\n", "commas", 3, "f(\n    1,\n    \n)\n"),
+    ("f(, 1)\n", "commas", 1, "f( 1)\n"),
+    ("a = {\n    'b' = [1],\n}\n", "colon", 2, "a = {\n    'b' : [1],\n}\n"),
+    ("f(\n    a=1,\n    b: 2,\n)\n", "equals", 3, "f(\n    a=1,\n    b= 2,\n)\n"),
+    ("f(\n    a=1,\n    'b': 2,\n)\n", "equals", 3, "f(\n    a=1,\n    b= 2,\n)\n"),
+    ("f('a)\n", "quote", 1, "f('a')\n"),
+    ("f(\n    c=1,\n    a=b-2.0',\n)\n", "quote", 3, "f(\n    c=1,\n    a='b-2.0',\n)\n"),
+    ("f('a: + b)\n", "quote", 1, ""),
+]
+CODE = ["a = 1\n", "b = 4 // 2\n", "c = a < b > a\n", "'''\nPython\n// a++\n'''\n", "# \u201cx\u201d\n",
+        "d = '\u201cx\u201d'\n", "...\n", "Python = 1\nPython\n"]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "variant", "line", "fixed", "cause"),
+    [
+        *((*case, "pasted") for case in PASTED),
+        *((*case, "language") for case in LANGUAGE),
+        *((*case, "signs") for case in SIGNS),
+    ],
+)
+def test_a_slip_is_named_and_fixed(
+    text: str, variant: str, line: int, fixed: str, cause: str
+) -> None:
+    slip = slip_of(text.encode())
+    assert slip is not None
+    assert (slip.cause, slip.variant, slip.line) == (cause, variant, line)
+    assert (slip.fixed or b"").decode() == fixed
+    assert not fixed or can_parse(fixed.encode())
+
+
+@pytest.mark.parametrize("text", CODE)
+def test_code_that_python_reads_has_no_slip(text: str) -> None:
+    assert can_parse(text.encode())
+    assert slip_of(text.encode()) is None
+    assert labels_in(text.encode()) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "def f()\n    pass\n",
+        "f(1\n",
+        "f('a'\n  'b' 1)\n",
+        "a = {'b': [1, 2}\n",
+        "if a:\nb = 1\n",
+        "Python\ndef f()\n    pass\n",
+        "a = '\u201cx\u201d'\nf(\n",
+    ],
+)
+def test_other_errors_are_not_taken_for_slips(text: str) -> None:
+    assert slip_of(text.encode()) is None
+
+
+def test_a_label_that_python_takes_for_a_name_is_found() -> None:
+    (label,) = labels_in(b"Python\n#!/usr/bin/env python3\nimport sys\n")
+    assert (label.variant, label.line, label.found) == ("label", 1, "Python")
+    assert labels_in(b"from sys import *\nPython\n") == []
+
+
+@pytest.mark.parametrize(
+    "piece",
+    ["\u201c", "'", '"""', "\\", "```\n", ">>> ", "a++ ", "// ", "if {\n", "}\n", ",,", "(", "<br ", "&&",
+     "[ \t", "'a' = ", "b: 1,\n", "\u00a0", "/*", "if " + " " * 200 + "{"],
+)  # fmt: skip
+def test_a_hostile_file_is_searched_in_linear_time(piece: str) -> None:
+    text = (piece * 20_000).encode()[:19_000].decode("utf-8", "ignore").encode()
+    begin = time.process_time()
+    slip_of(b"(\n" + text)
+    slip_of(text + b"\nf(,, 1\n")
+    code_only(text.decode())
+    assert time.process_time() - begin < 2
