@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import ast
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_count, node_log
+from grader.mistakes.fixes import node_count, node_log, node_words
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, place_of
+from grader.mistakes.placeholders import placeholder_values
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, starts_of, targets_of
+from grader.package.source.counter import logged_counter, outer_word, starts_of, targets_of
+from grader.package.source.module import Function
 from grader.package.source.names import dotted
+from grader.package.source.place import function_at
 from grader.report.model import Where
 
 COUNTER = msg(
@@ -48,6 +51,48 @@ def _counter(suspect: Suspect) -> Counter | None:
     )
 
 
+UNBOUND = r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'"
+
+
+def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A function adds to a name that it does not set: an attribute is meant."""
+    name, function = match["name"], _function(raised)
+    if function is None or not _adds(function, name) or _word(raised, function, name):
+        return None
+    return raised.finding("counter_local", name=name)
+
+
+def _global(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A function adds to a name that it does not set: a variable of outside is meant."""
+    name, function = match["name"], _function(raised)
+    word = _word(raised, function, name) if function is not None else ""
+    if function is None or not word or not _adds(function, name):
+        return None
+    return raised.finding("counter_global", name=name, word=word)
+
+
+def _function(raised: Raised) -> Function | None:
+    return function_at(raised.module, raised.line) or raised.source.callback
+
+
+def _word(raised: Raised, function: Function, name: str) -> str:
+    source = raised.source
+    return outer_word(source, function, name) if name not in source.attributes else ""
+
+
+def _adds(function: Function, name: str) -> bool:
+    """Whether a function changes a variable that it never sets to something new."""
+    changed = [n for n in ast.walk(function) if name in targets_of(n)]
+    return bool(changed) and all(
+        isinstance(n, ast.AugAssign) or (isinstance(n, ast.Assign) and _reads(n.value, name))
+        for n in changed
+    )
+
+
+def _reads(value: ast.expr, name: str) -> bool:
+    return any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(value))
+
+
 def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     name = str(raised.words["counter"])
@@ -75,9 +120,21 @@ def _place_of_text(suspect: Suspect) -> Where:
 
 
 def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
-    if not re.search(r"\{[\w.]{1,80}\}", suspect.text):
+    if not re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text):
         return None
     return suspect.finding("f_prefix", _place_of_text(suspect))
+
+
+def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
+    match = re.search(r"%[dis]|\{0?\}", suspect.text)
+    if match is None:
+        return None
+    by = "% {counter}" if match[0].startswith("%") else ".format({counter})"
+    counter = placeholder_values(suspect.assignment, suspect.source)["counter"]
+    written = by.format(counter=counter)
+    return suspect.finding(
+        "value_forgotten", _place_of_text(suspect), name=match[0], written=written
+    )
 
 
 def _without_number(suspect: Suspect) -> RecognisedMistake | None:
@@ -109,7 +166,8 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
     for node in counter.set:
         if isinstance(node.value, ast.Constant):
             value = str(node.value.value)[:40]
-            return suspect.finding("counter_reset", node, name=counter.name, value=value)
+            found = suspect.finding("counter_reset", node, name=counter.name, value=value)
+            return replace(found, variant="" if "." in counter.name else "local")
     return None
 
 
@@ -157,7 +215,14 @@ def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
     if at is None:
         return None
     start = suspect.output.start
-    return suspect.finding("starts_elsewhere", at, name=counter.name, start=start)
+    value = at.value if isinstance(at, ast.Assign) else at
+    if isinstance(value, ast.Constant) and value.value == start:
+        return None
+    name = counter.name
+    around = suspect.source.module_of(at).parents.get(at)
+    if isinstance(around, ast.Assign):
+        name = next(targets_of(around), name)
+    return suspect.finding("starts_elsewhere", at, name=name, start=start)
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -169,12 +234,9 @@ KINDS = (
         COUNTER,
         msg("Write self.{name} in the callback and in __init__."),
         links.PYTHON_CLASSES,
-        seen=r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'",
-        raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": always("counter_local")},
-        fixed_by=(
-            node_count.self_dot,
-            node_count.outer,
-        ),
+        seen=r"UnboundLocalError: .{0,60}'(?P<name>(?!\w{0,60}node)\w{1,120})'",
+        raised={UNBOUND: _local},
+        fixed_by=(node_count.self_dot,),
         examples=(
             example(
                 "counter_local",
@@ -184,6 +246,30 @@ KINDS = (
                     "self.get_logger().info('Hello time: ' + str(counter_))",
                 ),
                 Replace(NODE, "self.counter_ += 1", "counter_ += 1"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "counter_global",
+        "counter",
+        msg("The function changes an outer variable without declaring it"),
+        msg(
+            "A name that a function assigns to is a variable of that function, unless the "
+            "function declares it."
+        ),
+        msg("Write {word} {name} as the first line of the function."),
+        links.PYTHON_CLASSES,
+        raised={UNBOUND: _global},
+        fixed_by=(node_count.outer,),
+        examples=(
+            example(
+                "counter_global",
+                Replace(NODE, "class MyFirstNode", "counter = 0\n\n\nclass MyFirstNode"),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(counter)"),
+                Replace(NODE, "self.counter_ += 1", "counter += 1"),
                 fails="run.output",
                 blocks=DEAD,
             ),
@@ -246,6 +332,28 @@ KINDS = (
                 Replace(
                     NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"
                 ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "value_forgotten",
+        "text",
+        msg("The text has a place for a value, but gets no value"),
+        msg("Python replaces {name} in a string only if a value follows the string."),
+        msg("Write {written} after the string, or use an f-string: {f_string}"),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _value_forgotten},
+        fixed_by=(node_words.value,),
+        examples=(
+            example(
+                "percent_without_value",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: %d'"),
+                fails="run.output",
+            ),
+            example(
+                "format_forgotten",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {}'"),
                 fails="run.output",
             ),
         ),
@@ -322,6 +430,18 @@ KINDS = (
             "in __init__."
         ),
         msg("Move {name} = {value} to __init__."),
+        whys={
+            "local": msg(
+                "{name} is a variable of the callback: each call creates it again, with the value "
+                "{value}. Only an attribute (self.…) keeps its value from one call to the next."
+            )
+        },
+        fixes={
+            "local": msg(
+                "Write self.{name} = {value} in __init__ instead of this line, and self.{name} "
+                "in the callback."
+            )
+        },
         behind={"run.constant_counter": _reset},
         fixed_by=(node_count.kept,),
         examples=(
@@ -385,8 +505,8 @@ KINDS = (
         "starts_elsewhere",
         "counter",
         msg("The counter starts at a different number"),
-        msg("The first line shows the value that __init__ gives to the counter."),
-        msg("Write in __init__: {name} = {start}"),
+        msg("The first line shows the first value of the counter."),
+        msg("Write on that line: {name} = {start}"),
         behind={"run.wrong_start": _starts_elsewhere},
         fixed_by=(node_count.start,),
         examples=(

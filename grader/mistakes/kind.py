@@ -92,6 +92,13 @@ class Parts(TypedDict, total=False):
     examples: tuple[Example, ...]
 
 
+class Variants(Parts, total=False):
+    """The same, and texts for variants of the mistake, by the variant's name."""
+
+    whys: Mapping[str, str]
+    fixes: Mapping[str, str]
+
+
 @dataclass(frozen=True)
 class Family:
     """Makes kinds whose ids have the same prefix; `link` is their page of the documentation."""
@@ -109,16 +116,17 @@ class Family:
         link: str = "",
         *,
         close: str = "",
-        **parts: Unpack[Parts],
+        **parts: Unpack[Variants],
     ) -> Kind:
         """Return the kind `prefix.slug`; `close` is its fix if a similar name is known."""
+        known = {"close": close} if close else {}
+        parts["fixes"] = {**known, **parts.get("fixes", {})}
         return Kind(
             id=f"{self.prefix}.{slug}",
             stage=stage,
             title=title,
             why=why,
             fix=fix,
-            fixes={"close": close} if close else {},
             link=link or self.link,
             **parts,
         )

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, SILENT, example
-from grader.mistakes.fixes import node_count, node_log
+from grader.mistakes.fixes import node_count, node_log, node_words
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
+from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted
 
@@ -51,6 +52,20 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
     prints = suspect.source.prints(callback) if callback is not None else []
     prints = prints or [call for call, name in suspect.source.calls if name == "print"]
     return suspect.finding("print_used", prints[0]) if prints else None
+
+
+def _left_out(*options: str) -> FromSource:
+    """Return a function that finds one of these options in the calls of the logger."""
+
+    def found(suspect: Suspect) -> RecognisedMistake | None:
+        for call in suspect.source.own_logs:
+            option = node_words.option_of(call)
+            if option is not None and option.arg in options:
+                mistake = suspect.finding("log_option", call, name=option.arg)
+                return replace(mistake, variant=option.arg)
+        return None
+
+    return found
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -99,6 +114,17 @@ KINDS = (
                 blocks=DEAD,
                 note="as print would take it",
             ),
+            example(
+                "logger_with_value",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %d', self.counter_",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+                note="as printf and Python's logging would take it",
+            ),
         ),
     ),
     _node(
@@ -119,6 +145,48 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "log_option",
+        "logger",
+        msg("An option of the logger leaves out lines"),
+        msg("With {name}, the logger does not write a line in every call."),
+        msg("Remove {name}=… from the call of the logger."),
+        links.LOGGING,
+        whys={
+            "once": msg("With once=True, only the first call of that line writes it."),
+            "throttle_duration_sec": msg(
+                "After a line, the logger writes no other for throttle_duration_sec seconds."
+            ),
+            "skip_first": msg("With skip_first=True, the first call of that line writes nothing."),
+        },
+        behind={
+            "run.stops": _left_out("once", "throttle_duration_sec"),
+            "run.wrong_step": _left_out("throttle_duration_sec"),
+            "run.wrong_period": _left_out(*node_words.OPTIONS),
+            "run.wrong_start": _left_out("skip_first"),
+        },
+        fixed_by=(node_words.options,),
+        examples=(
+            example(
+                "logged_once",
+                Replace(NODE, "str(self.counter_))", "str(self.counter_), once=True)"),
+                fails="run.output",
+            ),
+            example(
+                "log_throttled",
+                Replace(
+                    NODE, "str(self.counter_))", "str(self.counter_), throttle_duration_sec=60.0)"
+                ),
+                fails="run.output",
+            ),
+            example(
+                "log_skips_first",
+                Replace(NODE, "str(self.counter_))", "str(self.counter_), skip_first=True)"),
+                fails="run.output",
+                also={"run.period": "node.log_option"},
             ),
         ),
     ),

@@ -5,16 +5,19 @@ These come last: their patterns also match errors that have a more precise cause
 
 from __future__ import annotations
 
+import ast
 import builtins
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_count, node_names, node_timer
+from grader.mistakes.fixes import node_names, node_timer, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.node_start import IMPORTS, RCLPY
+from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import (
     NAME_ERROR,
     OWN_ATTRIBUTE,
@@ -23,17 +26,14 @@ from grader.mistakes.recognised import (
     always,
     of_self,
 )
+from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
 from grader.package.source.node import LOG_METHODS
 
 ATTRIBUTE = (
     r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
     r"attribute '(?P<name>\w{1,120})'"
-)
-NODE_METHODS = (
-    *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
-    *("create_subscription", "create_service", "create_client", "declare_parameter"),
-    *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
 )
 
 
@@ -60,18 +60,55 @@ def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match):
         return None
-    name = match["name"]
-    return raised.finding("attribute_not_set", name=name, close=_close_attribute(raised, name))
+    name, close = match["name"], _close_attribute(raised, match["name"])
+    found = raised.finding("attribute_not_set", name=name, close=close)
+    start = node_names.start_of_other_name(raised.source, close)
+    if start is None:
+        return found
+    found = raised.finding("attribute_not_set", at=start, name=name, close=close)
+    return replace(found, variant="start")
 
 
 def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    name, module = match["name"], raised.module
-    close = nearest(name, {*module.names, *dir(builtins), *IMPORTS}, cutoff=0.7)
-    return raised.finding("name_unknown", name=name, close=close)
+    name = match["name"]
+    variables = raised.source.node_variables
+    if name in spun_names(raised.source) and len(variables) == 1:
+        return raised.finding("name_unknown", name=name, close=min(variables))
+    return raised.finding("name_unknown", name=name, close=nearest(name, _known(raised, name), 0.7))
+
+
+def _known(raised: Raised, name: str) -> set[str]:
+    """Return the names that can stand where the unknown one stands.
+
+    What is called, or is a base class or an exception, is a class or a function; anything else
+    can be a variable or a module.
+    """
+    module = raised.module
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    made = {n.name for n in module.nodes if isinstance(n, Function | ast.ClassDef)}
+    imported = {*module.imports, *IMPORTS}
+    if not uses:
+        return {*module.names, *imported, *dir(builtins)}
+    if any(_is_called(module.parents.get(use), use) for use in uses):
+        return {*made, *imported, *dir(builtins)}
+    return {*(module.names - made), *imported} - {"Node"}
+
+
+def _is_called(around: ast.AST | None, use: ast.Name) -> bool:
+    called = isinstance(around, ast.Call) and around.func is use
+    return called or isinstance(around, ast.ClassDef | ast.ExceptHandler)
 
 
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    return raised.finding("attribute_unknown", name=match["name"], close="")
+    suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
+    close = suggested[1] if suggested else ""
+    return raised.finding("attribute_unknown", name=match["name"], close=close)
+
+
+def _constant_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not re.search(r"\b(?:None|True|False)\s{0,9}\(", raised.module.line(raised.line)):
+        return None
+    return raised.finding("not_callable", type=match["type"])
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -84,7 +121,7 @@ KINDS = (
         msg("Write {close} instead of {name}."),
         links.RCLPY,
         raised={ATTRIBUTE: _method_misspelt},
-        fixed_by=(node_timer.misspelt,),
+        fixed_by=(node_timer.misspelt, rename.attribute),
         examples=(
             example(
                 "create_timer_misspelt",
@@ -111,8 +148,14 @@ KINDS = (
         msg("self.{name} does not exist until a line assigns to it."),
         msg("Give it a value in __init__: self.{name} = {start}"),
         links.PYTHON_CLASSES,
+        close=msg("Write self.{close} instead of self.{name}."),
+        fixes={
+            "start": msg(
+                "Write self.{name} on that line: the other lines use this name, not self.{close}."
+            )
+        },
         raised={OWN_ATTRIBUTE: _not_set},
-        fixed_by=(node_names.counter,),
+        fixed_by=(node_names.close_attribute, node_names.counter),
         examples=(
             example(
                 "counter_not_set",
@@ -132,6 +175,12 @@ KINDS = (
                 fails="run.output",
                 blocks=DEAD,
             ),
+            example(
+                "counter_misspelt_in_step",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter + 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
         ),
     ),
     _node(
@@ -144,7 +193,7 @@ KINDS = (
         close=msg("Write {close} instead of {name}, or define {name} first."),
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},
-        fixed_by=(node_count.self_dot,),
+        fixed_by=(rename.variable,),
         examples=(
             example(
                 "name_error_in_callback",
@@ -161,23 +210,38 @@ KINDS = (
                 Replace(NODE, "except KeyboardInterrupt:", "except KeyboardInterupt:"),
                 fails="run.interrupt",
             ),
+            example(
+                "node_of_other_name",
+                Replace(NODE, "node = MyFirstNode()", "my_node = MyFirstNode()"),
+                fails="run.starts",
+            ),
         ),
     ),
     _node(
         "not_callable",
         "callback",
-        msg("A number or a string is called like a function"),
+        msg("A value is called like a function"),
         msg("() after a name calls it, and only functions can be called."),
         msg("Remove the () on that line."),
         links.PYTHON_ERRORS,
         seen=r"TypeError: '(?P<type>int|float|str)' object is not callable",
-        raised={r"'(?P<type>int|float|str)' object is not callable": always("not_callable")},
+        raised={
+            r"'(?P<type>int|float|str)' object is not callable": always("not_callable"),
+            r"'(?P<type>NoneType|bool)' object is not callable": _constant_called,
+        },
         examples=(
             example(
                 "counter_called",
                 Replace(NODE, "str(self.counter_)", "str(self.counter_())"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "none_called",
+                Replace(
+                    NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.last_ = None()"
+                ),
+                fails="run.starts",
             ),
         ),
     ),
@@ -217,6 +281,7 @@ KINDS = (
         msg("Python finds a method or an attribute only by its exact name."),
         msg("Compare the name on that line with the documentation or with your own class."),
         links.RCLPY,
+        close=msg("Write {close} instead of {name}."),
         seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
         r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
         raised={ATTRIBUTE: _unknown},

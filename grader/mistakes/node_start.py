@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import node_life, node_names
+from grader.mistakes.fixes import node_life, node_names, node_scope, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
@@ -20,9 +20,22 @@ from grader.report.model import Where
 
 SLEEPS = ("time.sleep", "sleep")
 WAITS = ("input", *SLEEPS)
-MODULES = ("rclpy", "rclpy.node", "std_msgs", "geometry_msgs", "sensor_msgs", "numpy")
+MODULES = (
+    *("rclpy", "rclpy.node", "rclpy.executors", "rclpy.qos", "std_msgs", "std_msgs.msg"),
+    *("geometry_msgs", "geometry_msgs.msg", "sensor_msgs", "sensor_msgs.msg", "numpy"),
+)
+OTHER_CLIENTS = ("rclcpp", "rospy", "roscpp", "ros2", "ros", "ros2py", "rclpy2")
+"""Names under which beginners look for the Python client library: those of C++ and of ROS 1."""
 RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_node", "logging")
-IMPORTS = {"Node": "from rclpy.node import Node", "rclpy": "import rclpy"}
+IMPORTS = {
+    "Node": "from rclpy.node import Node",
+    "rclpy": "import rclpy",
+    **{
+        name: f"from rclpy.executors import {name}"
+        for name in ("ExternalShutdownException", "MultiThreadedExecutor", "SingleThreadedExecutor")
+    },
+    **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
+}
 PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
 NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
 NO_NODE_NAME = r"Node\.__init__\(\) missing 1 required positional argument: 'node_name'"
@@ -64,7 +77,10 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
 
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
+    head, dot, tail = name.partition(".")
     close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
+    if head in OTHER_CLIENTS:
+        close = f"rclpy{dot}{tail}"
     return raised.finding("import_misspelt", name=name, close=close)
 
 
@@ -171,6 +187,21 @@ def _init_no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if match["function"] != "__init__":
         return None
     return raised.finding("init_no_self", at=raised.source.methods.get("__init__"))
+
+
+def _super_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    call = raised.source.super_init
+    if call is None or dotted(call.func) != "super().__init__" or not call.args:
+        return None
+    if dotted(call.args[0]) != "self" or raised.line not in (None, *lines_of(call)):
+        return None
+    return raised.finding("super_with_self", at=call)
+
+
+def lines_of(node: ast.expr) -> range:
+    """Return the lines of an expression."""
+    return range(node.lineno, (node.end_lineno or node.lineno) + 1)
 
 
 def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -287,8 +318,18 @@ KINDS = (
         close=CLOSE,
         seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
-        fixed_by=(node_names.rclpy,),
+        fixed_by=(node_names.rclpy, rename.imported),
         examples=(
+            example(
+                "import_of_cpp_client",
+                Replace(NODE, "import rclpy\nfrom rclpy.node", "import rclcpp\nfrom rclcpp.node"),
+                fails="run.starts",
+            ),
+            example(
+                "module_of_rclpy_misspelt",
+                Replace(NODE, "from rclpy.node import", "from rclpy.nod import"),
+                fails="run.starts",
+            ),
             example(
                 "import_misspelt",
                 Replace(NODE, "import rclpy\nfrom", "import rclpi\nfrom"),
@@ -313,7 +354,20 @@ KINDS = (
         raised={
             r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'": _no_name_in_module
         },
-        fixed_by=(node_life.node_import,),
+        fixed_by=(node_life.node_import, rename.imported),
+        examples=(
+            example(
+                "import_in_lower_case",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import node"),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_misspelt_name",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import Nod"),
+                Replace(NODE, "MyFirstNode(Node)", "MyFirstNode(Nod)"),
+                fails="run.starts",
+            ),
+        ),
     ),
     _node(
         "import_missing",
@@ -322,8 +376,14 @@ KINDS = (
         msg("Python knows only names that the file imports or defines."),
         msg("Add the import at the top of the file: {statement}"),
         raised={NAME_ERROR: _not_imported},
-        fixed_by=(node_life.node_import,),
+        fixed_by=(node_life.node_import, node_names.missing_import),
         examples=(
+            example(
+                "import_of_module_missing",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "import_node_missing",
                 Replace(NODE, "from rclpy.node import Node\n", ""),
@@ -654,6 +714,28 @@ KINDS = (
             example(
                 "super_without_brackets",
                 Replace(NODE, "super().__init__", "super.__init__"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_with_self",
+        "class",
+        msg("super().__init__() gets self"),
+        msg("super() passes self on its own. The first argument in the () is the node's name."),
+        msg("Write super().__init__('{node_name}'), without self."),
+        links.PYTHON_CLASSES,
+        raised={r"TypeError": _super_self},
+        fixed_by=(node_scope.without_self,),
+        examples=(
+            example(
+                "super_with_self",
+                Replace(NODE, "__init__('my_first_node')", "__init__(self, 'my_first_node')"),
+                fails="run.starts",
+            ),
+            example(
+                "super_with_self_alone",
+                Replace(NODE, "__init__('my_first_node')", "__init__(self)"),
                 fails="run.starts",
             ),
         ),

@@ -107,6 +107,10 @@ class Suspect:
             return Where(file=self.source.entry.path)
         return place_of(self.source, self.function)
 
+    def place_at(self, handler: ast.ExceptHandler) -> Where:
+        """Return the place of an except."""
+        return Where(file=self.source.module_of(handler).path, line=handler.lineno)
+
     def finding(
         self, slug: str, at: ast.stmt | ast.expr | Where | None = None, **params: str | int | float
     ) -> RecognisedMistake:

@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import node_count, node_timer
+from grader.mistakes.fixes import node_count, node_scope, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import (
     NAME_ERROR,
@@ -21,10 +21,14 @@ from grader.mistakes.recognised import (
     always,
     of_self,
 )
+from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, dotted
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.place import function_at
 
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
+WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "tick", "time")
+"""Words that names of callbacks have; of two names, one with fewer of them is misspelt."""
 
 CALLED = msg(
     "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
@@ -69,18 +73,31 @@ def _callback_in_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake
 def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not _is_callback(raised, match):
         return None
-    name = match["name"]
-    close = nearest(name, [m for m in raised.source.methods if m != "__init__"])
+    name, methods = match["name"], raised.source.methods
+    close = nearest(name, [m for m in methods if m != "__init__"])
+    if close and _known_words(name) > _known_words(close):
+        found = raised.finding("callback_misspelt", at=methods[close], name=name, close=close)
+        return replace(found, variant="definition")
     found = raised.finding("callback_misspelt", name=name, close=close)
-    return replace(found, words={**found.words, "callback": close or name})
+    return replace(found, variant="", words={**found.words, "callback": close or name})
+
+
+def _known_words(name: str) -> int:
+    return sum(part in WORDS for part in name.lower().split("_"))
 
 
 def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    return raised.finding("timer_at_class_level") if match["name"] == "self" else None
+    if match["name"] != "self" or not creates_timer(raised):
+        return None
+    return (
+        None if function_at(raised.module, raised.line) else raised.finding("timer_at_class_level")
+    )
 
 
 def _no_self_dot(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
+    if all(timer.method != name for timer in raised.source.timers):
+        return None
     if name not in raised.source.methods:
         return None
     return raised.finding("callback_without_self_dot", name=name)
@@ -150,8 +167,67 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _rates(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a rate that sleeps on the thread that must spin."""
+    rates = {
+        target
+        for node in suspect.source.all_nodes
+        if isinstance(node, ast.Assign) and dotted(node.value).endswith("create_rate()")
+        for target in map(dotted, node.targets)
+    }
+    threads = any(last_part(name) == "Thread" for _, name in suspect.source.calls)
+    for call, name in suspect.source.calls if not threads else []:
+        before, _, method = name.rpartition(".")
+        if method == "sleep" and (before in rates or before.endswith("create_rate()")):
+            return suspect.finding("rate_sleep", call, name=name)
+    return None
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "rate_sleep",
+        "timer",
+        msg("A rate waits forever"),
+        msg(
+            "rclpy.spin wakes a rate. While {name}() waits, nothing spins, so nothing ever wakes "
+            "it."
+        ),
+        msg(
+            "Remove the rate and its loop. A timer calls the callback again and again: "
+            "self.create_timer({period}, self.{callback})"
+        ),
+        links.EXECUTORS,
+        behind={"run.no_lines": _rates, "run.stops": _rates, "run.no_node": _rates},
+        examples=(
+            example(
+                "rate_in_callback",
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.counter_ += 1\n        self.create_rate(1.0).sleep()",
+                ),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+            example(
+                "rate_in_main",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    (
+                        "        rate = node.create_rate(1.0)\n"
+                        "        while rclpy.ok():\n"
+                        "            node.timer_callback()\n"
+                        "            rate.sleep()\n"
+                    ),
+                ),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+        ),
+    ),
     _node(
         "timer_at_class_level",
         "timer",
@@ -162,8 +238,8 @@ KINDS = (
         ),
         msg("Indent the line so that it is part of __init__."),
         links.PYTHON_CLASSES,
-        seen=r"NameError: name 'self' is not defined",
         raised={NAME_ERROR: _outside_init},
+        fixed_by=(node_scope.indented,),
         examples=(
             example(
                 "timer_at_class_level",
@@ -232,8 +308,9 @@ KINDS = (
         msg("The callback's name is misspelt"),
         msg("create_timer needs the method's exact name."),
         TIMER,
+        fixes={"definition": msg("Write def {name}(self): instead of def {close}(self):")},
         raised={OWN_ATTRIBUTE: _callback_misspelt},
-        fixed_by=(node_timer.callback,),
+        fixed_by=(node_scope.definition, node_timer.callback),
         examples=(
             example(
                 "callback_misspelt",
@@ -242,6 +319,11 @@ KINDS = (
                     "self.create_timer(1.0, self.timer_callback)",
                     "self.create_timer(1.0, self.timer_calback)",
                 ),
+                fails="run.starts",
+            ),
+            example(
+                "definition_misspelt",
+                Replace(NODE, "def timer_callback(self)", "def timer_callbak(self)"),
                 fails="run.starts",
             ),
         ),

@@ -14,7 +14,7 @@ from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
 from grader.report.model import Mistake, Where
-from grader.verdict.checks.faults import traceback_of
+from grader.verdict.checks.faults import raised_in
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
 
@@ -77,7 +77,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
 
 def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedMistake | None:
     if symptom in RAISES:
-        error, where = traceback_of(evidence, evidence.run)
+        error, where = raised_in(evidence, evidence.run)
         if error:
             return _not_installed(error, evidence) or _raised(error, where, evidence)
     source = source_of_node(evidence)

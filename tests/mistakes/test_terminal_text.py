@@ -119,7 +119,13 @@ SHOWN = {
         "UnboundLocalError: cannot access local variable 'counter' where it is not associated "
         "with a value"
     ],
-    "node.timer_at_class_level": ["NameError: name 'self' is not defined"],
+    "node.self_outside": ["NameError: name 'self' is not defined"],
+    "node.other_language": ["NameError: name 'null' is not defined"],
+    "node.used_before_set": [
+        "UnboundLocalError: cannot access local variable 'node' where it is not associated with a "
+        "value",
+        "UnboundLocalError: local variable 'node' referenced before assignment",
+    ],
     "node.name_unknown": ["NameError: name 'string' is not defined"],
     "node.import_missing": [],
     "node.callback_no_self": [

@@ -75,6 +75,11 @@ class Case:
         source = read_node(self.files.data, self.node_path, self.assignment.function)
         return source if source is not None and source.is_one_class else None
 
+    @property
+    def module(self) -> Module | None:
+        """The file of the node that the finding is about; that of the class if it has no place."""
+        return self.node.module_at(self.finding.file) if self.node is not None else None
+
     def changed(self, module: Module, *splices: Splice) -> Files | None:
         """Return the files after changes to a module; None if Python cannot parse the result."""
         return self.with_data(module.path, module.edited(splices)) if splices else None

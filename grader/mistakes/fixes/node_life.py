@@ -7,7 +7,7 @@ import ast
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
 
@@ -208,8 +208,7 @@ def spin(case: Case) -> Files | None:
         return None
     spun = [s for s in ast.walk(main) if isinstance(s, ast.Expr) and _spins(s)]
     if not spun and not any(_spins(each.tree) for each in node.modules):
-        row = f"{indent_of(text.line(made[0].lineno))}rclpy.spin({target.id})"
-        return case.changed(module, text.before((made[0].end_lineno or made[0].lineno) + 1, row))
+        return case.changed(module, _spin_added(module, main, made[0], f"rclpy.spin({target.id})"))
     wrong = [
         f"rclpy.spin_once({target.id})",
         "rclpy.spin",
@@ -219,6 +218,16 @@ def spin(case: Case) -> Files | None:
     if len(spun) != 1 or ast.unparse(spun[0]) not in wrong:
         return None
     return case.changed(module, text.swap(spun[0], f"rclpy.spin({target.id})"))
+
+
+def _spin_added(module: Module, main: Function, made: ast.stmt, spin: str) -> Splice:
+    """Return the splice that adds a line that spins: in the try after the new node, if there is one."""
+    after = [s for s in main.body if isinstance(s, ast.Try) and s.lineno > made.lineno]
+    last = after[0].body[-1] if after else made
+    if after and isinstance(last, ast.Pass):
+        return module.text.swap(last, spin)
+    indent = indent_of(module.text.line(last.lineno))
+    return module.text.before((last.end_lineno or last.lineno) + 1, f"{indent}{spin}")
 
 
 def _spins(node: ast.AST) -> bool:

@@ -135,12 +135,14 @@ def comma(case: Case) -> Files | None:
     first, second = calls[0].args
     text = node.module_of(first).text
     to_text = isinstance(second, ast.Call) and called_name(second) == "str"
-    if text.plain_string(first) is None or not to_text:
+    literal = text.plain_string(first)
+    formats = literal is not None and re.findall(r"%.?", literal) in (["%d"], ["%s"], ["%i"])
+    if literal is None or not (to_text or formats):
         return None
     start, end = text.span(first)[1], text.span(second)[0]
     if text.text[start:end].strip() != ",":
         return None
-    return case.changed(node.module_of(first), Splice(start, end, " + "))
+    return case.changed(node.module_of(first), Splice(start, end, " % " if formats else " + "))
 
 
 def number(case: Case) -> Files | None:

@@ -6,12 +6,15 @@ import ast
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import splices_of
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import names_given, targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
+
+IMPORT = ast.Import | ast.ImportFrom
 
 
 def rclpy(case: Case) -> Files | None:
@@ -22,6 +25,17 @@ def rclpy(case: Case) -> Files | None:
         if splices:
             return case.changed(module, *splices) if used else None
     return None
+
+
+def missing_import(case: Case) -> Files | None:
+    """Add the missing import below the imports at the top of the file."""
+    module = case.module
+    name, statement = (str(case.finding.params.get(key, "")) for key in ("name", "statement"))
+    imports = [s for s in module.tree.body if isinstance(s, IMPORT)] if module is not None else []
+    if module is None or not statement or not imports or name in module.names:
+        return None
+    last = imports[-1]
+    return case.changed(module, module.text.before((last.end_lineno or last.lineno) + 1, statement))
 
 
 def _right_imports(module: Module) -> list[Splice]:
@@ -87,6 +101,31 @@ def counter(case: Case) -> Files | None:
     row = f"{indent}self.{name} = {case.assignment.output.start}"
     below = (lines[0].end_lineno or lines[0].lineno) + 1
     return case.changed(node.module, text.before(below, row))
+
+
+def start_of_other_name(node: NodeSource, close: str) -> ast.Attribute | None:
+    """Return where __init__ sets `close`, if the code uses that name nowhere else."""
+    parts = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and own_name(n) == close]
+    init = node.method("__init__")
+    if not close or init is None or len(parts) != 1 or not isinstance(parts[0].ctx, ast.Store):
+        return None
+    return parts[0] if any(part is parts[0] for part in ast.walk(init)) else None
+
+
+def close_attribute(case: Case) -> Files | None:
+    """Write the attribute that __init__ sets instead of one of nearly the same name."""
+    node = case.node
+    name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
+    if node is None or not close or _is_set(node, name):
+        return None
+    start = start_of_other_name(node, close)
+    parts = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and own_name(n) == name]
+    wrong, right = ([start], name) if start is not None else (parts, close)
+    module = node.module
+    if not all(module.has(part) for part in wrong):
+        return None
+    splices = splices_of(module, wrong, right)
+    return case.changed(module, *splices) if splices else None
 
 
 def _is_number(statement: ast.stmt) -> bool:

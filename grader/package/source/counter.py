@@ -84,6 +84,18 @@ def outer_start(source: NodeSource, name: str, kind: type = int) -> ast.Constant
     return None
 
 
+def outer_word(source: NodeSource, function: Function, name: str) -> str:
+    """Return the word with which a function declares a variable of outside: global or nonlocal.
+
+    "" if no outer function and not the module sets a variable of that name.
+    """
+    for scope in source.module_of(function).around(function):
+        body = scope.body if isinstance(scope, Function | ast.Module) else []
+        if any(name in targets_of(statement) for statement in body):
+            return "global" if isinstance(scope, ast.Module) else "nonlocal"
+    return ""
+
+
 def _is_local(function: Function | None, name: str) -> bool:
     """Return whether a name is a variable or a parameter of the function itself."""
     if function is None or declares(function, name):
@@ -111,9 +123,16 @@ def local_start(function: Function, name: str) -> ast.Assign | None:
     """Return the line of a function that sets its own variable to a number, if it counts it up."""
     numbers = [s for s in function.body if isinstance(s, ast.Assign) and dict(_numbers([s]))]
     found = [s for s in numbers if name in targets_of(s)]
+    set_again = [n for n in ast.walk(function) if name in targets_of(n) and n not in found]
+    counted = bool(set_again) or f"self.{name}" in _added(function)
+    known = counted and not declares(function, name)
+    return found[0] if len(found) == 1 and known and "." not in name else None
+
+
+def _added(function: Function) -> set[str]:
+    """Return the names that a function adds to."""
     added = [n for n in ast.walk(function) if isinstance(n, ast.AugAssign)]
-    counted = any(name in targets_of(node) for node in added) and not declares(function, name)
-    return found[0] if len(found) == 1 and counted and "." not in name else None
+    return {name for node in added for name in targets_of(node)}
 
 
 def changes_of(source: NodeSource, name: str) -> list[ast.stmt]:

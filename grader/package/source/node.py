@@ -264,6 +264,17 @@ class NodeSource:
         """Return whether the node's class is called anywhere in the files."""
         return any(self.is_node_class(call.func) for call, _ in self.calls)
 
+    @cached_property
+    def node_variables(self) -> set[str]:
+        """The variables that get a new node of the class."""
+        found: set[str] = set()
+        for node in self.all_nodes:
+            value = node.value if isinstance(node, ast.Assign) else None
+            if isinstance(node, ast.Assign) and isinstance(value, ast.Call):
+                new = self.is_node_class(value.func)
+                found |= {dotted(target) for target in node.targets} if new else set()
+        return found - {""}
+
 
 def _without(module: Module, left_out: set[ast.ClassDef]) -> Iterator[ast.AST]:
     """Yield the parts of a file in the order of ast.walk, without these classes."""

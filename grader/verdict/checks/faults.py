@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
 
+HANDLING = "During handling of the above exception, another exception occurred:"
+MOST_CAUSES = 5
+SUGGESTION = re.compile(r"\. Did you (?:mean|forget)\b.*")
 FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
 
 
@@ -39,13 +42,53 @@ def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
 
 
 def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
-    """Return the last error that the run printed, and the line of the student's code, if any."""
-    error, _ = python_error(run.transcript, evidence.assignment.node_file)
+    """Return the last error that the run printed, and the line of the student's code, if any.
+
+    Python's own suggestion ("Did you mean") is left out: the diagnosis suggests what fits.
+    """
+    error, where = raised_in(evidence, run)
+    return SUGGESTION.sub("", error), where
+
+
+def raised_in(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
+    """Return the last error as Python printed it, and the line of the student's code, if any."""
+    text = _with_cause(_without_ignored(run.transcript))
+    error, _ = python_error(text, evidence.assignment.node_file)
     folder = evidence.assignment.folder
-    mine = [m for m in FRAME.findall(run.transcript) if m[0].startswith(f"{folder}/")]
+    mine = [m for m in FRAME.findall(text) if m[0].startswith(f"{folder}/")]
     if not mine:
         return error, None
     return error, Where(file=mine[-1][0], line=int(mine[-1][1]))
+
+
+def _without_ignored(text: str) -> str:
+    """Return a transcript without exceptions that Python only reports, as those of `__del__`."""
+    kept, ignored = [], False
+    for line in text.splitlines():
+        if line.startswith("Exception ignored "):
+            ignored = True
+        elif not ignored:
+            kept.append(line)
+        elif not line.startswith((" ", "\t", "Traceback ")):
+            ignored = False  # (this line is the exception, the last of the report)
+    return "\n".join(kept)
+
+
+def _with_cause(text: str) -> str:
+    """Return a transcript up to the exception that made a later one.
+
+    If creating the node fails, a `finally` that uses the variable of the node raises
+    UnboundLocalError as well.
+    """
+    for _ in range(MOST_CAUSES):
+        before, handling, after = text.rpartition(HANDLING)
+        cause, _ = python_error(before, "")
+        stopped = cause.rpartition(".")[2].startswith(("KeyboardInterrupt", "ExternalShutdown"))
+        second, _ = python_error(after, "")
+        if not handling or not cause or stopped or not second.startswith("UnboundLocalError"):
+            break
+        text = before
+    return text
 
 
 def words(evidence: Evidence) -> dict[str, Value]:

@@ -1,0 +1,155 @@
+"""Fixes of the order of lines in a function."""
+
+from __future__ import annotations
+
+import ast
+from itertools import pairwise
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice, indent_of
+from grader.package.source.counter import targets_of
+from grader.package.source.module import Function, Module
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of, function_at
+
+CLEANUP = ("shutdown", "try_shutdown", "destroy_node")
+SPINS = ("spin", "spin_once", "spin_until_future_complete")
+
+
+def first_use(function: Function, name: str) -> ast.Name | None:
+    """Return the first place of a function that reads a variable."""
+    uses = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == name]
+    reads = [n for n in uses if isinstance(n.ctx, ast.Load)]
+    return min(reads, key=lambda n: (n.lineno, n.col_offset), default=None)
+
+
+def set_after_use(function: Function, name: str) -> ast.Assign | None:
+    """Return the line that gives a variable its value, if that is after the first use.
+
+    A line that needs the old value (`n = n + 1`) gives no first value.
+    """
+    use = first_use(function, name)
+    found = [n for n in ast.walk(function) if isinstance(n, ast.Assign) and name in targets_of(n)]
+    first = min(found, key=lambda n: n.lineno, default=None)
+    if use is None or first is None or first.lineno <= use.lineno:
+        return None
+    own = [n for n in ast.walk(first.value) if isinstance(n, ast.Name) and n.id == name]
+    return None if own else first
+
+
+def moved_up(case: Case) -> Files | None:
+    """Move the line that gives a variable its value to before the statement that uses it."""
+    module = case.module
+    name = str(case.finding.params.get("name", ""))
+    function = function_at(module, case.finding.line) if module is not None else None
+    first = set_after_use(function, name) if function is not None else None
+    use = first_use(function, name) if function is not None else None
+    if module is None or function is None or first is None or use is None:
+        return None
+    block = block_of(module, first)
+    user = next((s for s in function.body if _has(s, use)), None)
+    if block is not function.body or user is None or not _is_own_line(module, first):
+        return None
+    between = function.body[function.body.index(user) : function.body.index(first)]
+    needed = {n.id for n in ast.walk(first.value) if isinstance(n, ast.Name)}
+    if needed & {target for s in between for n in ast.walk(s) for target in targets_of(n)}:
+        return None
+    row = module.text.line(first.lineno)
+    return case.changed(
+        module, module.text.without(first.lineno), module.text.before(user.lineno, row)
+    )
+
+
+def _has(statement: ast.stmt, part: ast.AST) -> bool:
+    return any(node is part for node in ast.walk(statement))
+
+
+def _is_own_line(module: Module, statement: ast.stmt) -> bool:
+    """Whether a statement is one whole line, without a comment."""
+    return module.text.line(statement.lineno).strip() == module.text.code(statement)
+
+
+def early_cleanup(source: NodeSource) -> tuple[ast.Expr, ast.stmt] | None:
+    """Return the statement of the entry function that cleans up before a later one spins, and that.
+
+    Only statements that always run count; a program that calls rclpy.init() again is right.
+    """
+    body = source.main.body if source.main is not None else []
+    spins = [s for s in body if _calls(s, SPINS)]
+    for statement in body if spins else []:
+        if statement is spins[0]:
+            return None
+        if isinstance(statement, ast.Expr) and _calls(statement, CLEANUP):
+            between = body[body.index(statement) : body.index(spins[0])]
+            return None if any(_calls(s, ("init",)) for s in between) else (statement, spins[0])
+    return None
+
+
+def _calls(statement: ast.stmt, names: tuple[str, ...]) -> bool:
+    return any(last_part(name) in names for _, name in calls_in(statement))
+
+
+def cleanup_last(case: Case) -> Files | None:
+    """Move the early clean-up behind the statement that spins; remove it if it is there already."""
+    node = case.node
+    found = early_cleanup(node) if node is not None else None
+    if node is None or node.main is None or found is None:
+        return None
+    early, spin = found
+    module, body = node.module_of(early), node.main.body
+    if not _is_own_line(module, early) or not isinstance(early.value, ast.Call):
+        return None
+    name = dotted(early.value.func)
+    later = body[body.index(spin) :]
+    kind = ("destroy_node",) if name.endswith("destroy_node") else ("shutdown", "try_shutdown")
+    text = module.text
+    if any(_calls(s, kind) for s in later):
+        return case.changed(module, text.without(early.lineno))
+    last = spin if name.endswith("destroy_node") else body[-1]
+    row = text.line(early.lineno)
+    below = (last.end_lineno or last.lineno) + 1
+    return case.changed(module, text.without(early.lineno), text.before(below, row))
+
+
+def kept(case: Case) -> Files | None:
+    """Assign the new node to the variable that the code after it uses."""
+    node = case.node
+    name = str(case.finding.params.get("name", ""))
+    if node is None or node.main is None or node.node_class is None or not name:
+        return None
+    module = node.module_of(node.main)
+    made = [call for call, _ in calls_in(node.main) if node.is_node_class(call.func)]
+    alone = [s for s in node.main.body if isinstance(s, ast.Expr) and s.value in made]
+    if len(made) == len(alone) == 1:
+        at = module.text.span(alone[0])[0]
+        return case.changed(module, Splice(at, at, f"{name} = "))
+    use = first_use(node.main, name)
+    user = next((s for s in node.main.body if use is not None and _has(s, use)), None)
+    init = node.method("__init__")
+    plain = init is None or len(init.args.args) == 1
+    if made or user is None or not plain or not module.has(node.node_class):
+        return None
+    indent = indent_of(module.text.line(user.lineno))
+    row = f"{indent}{name} = {node.node_class.name}()"
+    return case.changed(module, module.text.before(user.lineno, row))
+
+
+def returned(case: Case) -> Files | None:
+    """Remove a return that always runs and has lines of its block after it."""
+    node = case.node
+    found = [r for f in node.own_functions for r in early_returns(f)] if node is not None else []
+    if node is not None and node.main is not None:
+        found += early_returns(node.main)
+    if node is None or len(found) != 1 or found[0].value is not None:
+        return None
+    module = node.module_of(found[0])
+    if not _is_own_line(module, found[0]):
+        return None
+    return case.changed(module, module.text.without(found[0].lineno))
+
+
+def early_returns(function: Function) -> list[ast.Return]:
+    """Return the returns of a function's own block that have lines after them."""
+    return [one for one, _ in pairwise(function.body) if isinstance(one, ast.Return)]

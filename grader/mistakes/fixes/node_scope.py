@@ -1,0 +1,211 @@
+"""Fixes of lines in the wrong block, and of names without what belongs before or around them."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice, indent_of
+from grader.package.source.module import Function, Module
+from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of, function_at, method_above, statement_at
+
+NAMES_NODE = ("super().__init__", "rclpy.create_node")
+
+
+def indented(case: Case) -> Files | None:
+    """Indent the lines directly below a method that use self, so that they belong to it."""
+    module, line = case.module, case.finding.line or 0
+    method = method_above(module, line) if module is not None else None
+    statement = statement_at(module, line) if module is not None else None
+    if module is None or method is None or statement is None or function_at(module, line):
+        return None
+    block = block_of(module, statement)
+    lines = [s for s in block if s.lineno > method.lineno]
+    end = next((n for n, s in enumerate(lines) if isinstance(s, Function | ast.ClassDef)), None)
+    lines = lines[:end]
+    if not lines or statement not in lines or any(not _uses_self(s) for s in lines):
+        return None
+    if method.name != "__init__" and any(_starts(s) for s in lines):
+        return None
+    wanted = indent_of(module.text.line(method.body[-1].lineno))
+    splices = []
+    for number in range(lines[0].lineno, (lines[-1].end_lineno or 0) + 1):
+        row = module.text.line(number)
+        old = indent_of(module.text.line(lines[0].lineno))
+        if row.strip() and row.startswith(old):
+            at = module.text.start_of(number)
+            splices.append(Splice(at, at + len(old), wanted))
+    return case.changed(module, *splices)
+
+
+def _uses_self(statement: ast.stmt) -> bool:
+    return any(isinstance(n, ast.Name) and n.id == "self" for n in ast.walk(statement))
+
+
+def _starts(statement: ast.stmt) -> bool:
+    """Whether a line belongs in __init__: it creates a timer, or sets an attribute to a literal."""
+    if isinstance(statement, ast.Assign) and isinstance(statement.value, ast.Constant):
+        return True
+    calls = [n for n in ast.walk(statement) if isinstance(n, ast.Call)]
+    return any(called_name(call) == "create_timer" for call in calls)
+
+
+def variable(case: Case) -> Files | None:
+    """Write the variable of the node instead of self in a function that is no method."""
+    node, module = case.node, case.module
+    function = function_at(module, case.finding.line) if module is not None else None
+    variables = list(node.node_variables) if node is not None else []
+    if node is None or module is None or function is None or len(variables) != 1:
+        return None
+    own = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
+    uses = [n for n in own if n.id == "self"]
+    known = any(n.id == variables[0] and isinstance(n.ctx, ast.Store) for n in own)
+    if (
+        function in node.own_methods
+        or not known
+        or any(module.text.code(n) != "self" for n in uses)
+    ):
+        return None
+    return case.changed(module, *(module.text.swap(n, variables[0]) for n in uses))
+
+
+def inner_function(source: NodeSource, name: str) -> Function | None:
+    """Return the only function of the entry point's file of a name, if it is not at the margin."""
+    module = source.entry
+    found = [n for n in module.nodes if isinstance(n, Function) and n.name == name]
+    if len(found) != 1 or name in module.functions:
+        return None
+    around = module.parents.get(found[0])
+    return found[0] if isinstance(around, Function | ast.ClassDef) else None
+
+
+def at_margin(case: Case) -> Files | None:
+    """Move the entry function out of the class, if it is the last thing in it."""
+    node = case.node
+    found = inner_function(node, case.assignment.function) if node is not None else None
+    if node is None or found is None or "self" in {a.arg for a in found.args.args}:
+        return None
+    module = node.entry
+    if block_of(module, found)[-1] is not found:
+        return None
+    first = min([found.lineno, *(d.lineno for d in found.decorator_list)])
+    return _shifted(case, module, (first, found.end_lineno or first), "")
+
+
+def _shifted(case: Case, module: Module, lines: tuple[int, int], indent: str) -> Files | None:
+    """Give a block of lines another indentation; None if a line is indented less than the first."""
+    old = indent_of(module.text.line(lines[0]))
+    splices = []
+    for number in range(lines[0], lines[1] + 1):
+        row, at = module.text.line(number), module.text.start_of(number)
+        if row.strip() and not row.startswith(old):
+            return None
+        if row.strip():
+            splices.append(Splice(at, at + len(old), indent))
+    return case.changed(module, *splices)
+
+
+def into_class(case: Case) -> Files | None:
+    """Indent a method that stands at the margin directly below its class."""
+    node = case.node
+    name = str(case.finding.params.get("name", ""))
+    if node is None or node.node_class is None or name not in node.module.functions:
+        return None
+    module, function = node.module, node.module.functions[name]
+    body = module.tree.body
+    above = body[body.index(function) - 1]
+    if above is not node.node_class or [a.arg for a in function.args.args] != ["self"]:
+        return None
+    first = min([function.lineno, *(d.lineno for d in function.decorator_list)])
+    indent = indent_of(module.text.line(node.class_body[-1].lineno))
+    return _shifted(case, module, (first, function.end_lineno or first), indent)
+
+
+def self_dot(case: Case) -> Files | None:
+    """Put self. before a name that is a method or an attribute of the node."""
+    node = case.node
+    name = str(case.finding.params.get("name", ""))
+    module = case.module
+    if node is None or module is None or not name or name in module.names - set(node.methods):
+        return None
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    splices = []
+    for use in uses:
+        function = node.function_around(use)
+        first = function.args.args[:1] if function is not None else []
+        inside = function in node.own_methods and [a.arg for a in first] == ["self"]
+        if not inside or not isinstance(use.ctx, ast.Load) or module.text.code(use) != name:
+            return None
+        at = module.text.span(use)[0]
+        splices.append(Splice(at, at, "self."))
+    return case.changed(module, *splices)
+
+
+def names_as_text(module: Module, name: str) -> list[ast.Name]:
+    """Return the places of a name at which Python needs a string: a node's name, the guard."""
+    found: list[ast.expr] = []
+    for node in module.nodes:
+        if isinstance(node, ast.Call) and dotted(node.func) in NAMES_NODE:
+            found += [*node.args[:1], *(k.value for k in node.keywords if k.arg == "node_name")]
+        elif isinstance(node, ast.Compare) and dotted(node.left) == "__name__":
+            found += node.comparators
+    return [n for n in found if isinstance(n, ast.Name) and n.id == name]
+
+
+def quotes(case: Case) -> Files | None:
+    """Put quotes around the node's name, or around __main__."""
+    node, module = case.node, case.module
+    name = str(case.finding.params.get("name", ""))
+    if node is None or module is None or name in module.names:
+        return None
+    places = names_as_text(module, name)
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    if not places or len(places) != len(uses):
+        return None
+    written = name if name == "__main__" else case.assignment.node_name
+    q = module.text.quote
+    return case.changed(module, *(module.text.swap(n, f"{q}{written}{q}") for n in places))
+
+
+def without_self(case: Case) -> Files | None:
+    """Remove self from the arguments of super().__init__()."""
+    node = case.node
+    call = node.super_init if node is not None else None
+    if node is None or call is None or not call.args or not _is_self(call.args[0]):
+        return None
+    module = node.module_of(call)
+    text = module.text
+    start, end = text.span(call.args[0])
+    if len(call.args) > 1:
+        return case.changed(module, Splice(start, text.span(call.args[1])[0], ""))
+    if call.keywords:
+        return None
+    return case.changed(
+        module, Splice(start, end, f"{text.quote}{case.assignment.node_name}{text.quote}")
+    )
+
+
+def _is_self(given: ast.expr) -> bool:
+    return isinstance(given, ast.Name) and given.id == "self"
+
+
+def definition(case: Case) -> Files | None:
+    """Give a method the name by which the timer refers to it, if the finding is at the method."""
+    node = case.node
+    name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
+    method = node.method(close) if node is not None else None
+    if node is None or method is None or not name or name in node.methods:
+        return None
+    if method.lineno != case.finding.line:
+        return None
+    module = node.module
+    same = [n for n in module.nodes if isinstance(n, ast.Attribute) and n.attr == close]
+    if any(own_name(part) for part in same):
+        return None
+    at = module.text.at(method.lineno, method.col_offset) + len("def ")
+    if module.text.text[at : at + len(close)] != close:
+        return None
+    return case.changed(module, Splice(at, at + len(close), name))

@@ -1,0 +1,103 @@
+"""Fixes of words, signs and options that mean something else in Python or in rclpy."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
+from grader.package.source.counter import logged_counter
+from grader.package.source.names import dotted
+from grader.package.source.node import NodeSource
+
+COMPUTED = (ast.BinOp, ast.UnaryOp, ast.Compare)
+OPTIONS = ("once", "throttle_duration_sec", "skip_first")
+"""The options of the logger that leave out lines (rclpy/impl/rcutils_logger.py)."""
+
+
+def word(case: Case) -> Files | None:
+    """Write a word of another language as Python does."""
+    module = case.module
+    name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
+    if module is None or not close.isidentifier() or name in module.names:
+        return None
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    if any(module.text.code(use) != name for use in uses):
+        return None
+    return case.changed(module, *(module.text.swap(use, close) for use in uses))
+
+
+def comment(case: Case) -> Files | None:
+    """Begin a comment with # instead of //."""
+    module, line = case.module, case.finding.line or 0
+    name = str(case.finding.params.get("name", ""))
+    row = module.text.line(line) if module is not None else ""
+    if module is None or not re.search(rf"//\s*{re.escape(name)}\s*\Z", row):
+        return None
+    at = module.text.start_of(line) + row.rindex("//")
+    return case.changed(module, Splice(at, at + 2, "#"))
+
+
+def lost_sum(source: NodeSource) -> tuple[ast.Expr, str] | None:
+    """Return the statement of the callback that computes with the counter and keeps nothing."""
+    logged = logged_counter(source)
+    if source.callback is None or logged is None:
+        return None
+    for node in ast.walk(source.callback):
+        value = node.value if isinstance(node, ast.Expr) else None
+        used = {dotted(part) for part in ast.walk(value)} if isinstance(value, COMPUTED) else set()
+        if isinstance(node, ast.Expr) and logged[1] in used:
+            return node, logged[1]
+    return None
+
+
+def kept_sum(case: Case) -> Files | None:
+    """Add to the counter on the line that only computes."""
+    node = case.node
+    found = lost_sum(node) if node is not None else None
+    if node is None or found is None:
+        return None
+    module = node.module_of(found[0])
+    new = f"{found[1]} += {case.assignment.output.step}"
+    return case.changed(module, module.text.swap(found[0], new))
+
+
+def option_of(call: ast.Call) -> ast.keyword | None:
+    """Return the first argument of a logger's call that leaves out lines."""
+    for given in call.keywords:
+        off = isinstance(given.value, ast.Constant) and not given.value.value
+        if given.arg in OPTIONS and not off:
+            return given
+    return None
+
+
+def options(case: Case) -> Files | None:
+    """Remove the options that leave out lines from the call of the logger."""
+    node = case.node
+    calls = [c for c in node.own_logs if option_of(c) is not None] if node is not None else []
+    if node is None or len(calls) != 1 or not calls[0].args:
+        return None
+    call, module = calls[0], node.module_of(calls[0])
+    if any(given.arg not in (*OPTIONS, "throttle_time_source_type") for given in call.keywords):
+        return None
+    start, end = module.text.span(call.args[-1])[1], module.text.span(call)[1] - 1
+    return case.changed(module, Splice(start, end, ""))
+
+
+def value(case: Case) -> Files | None:
+    """Give the place in the text its value: the counter."""
+    node = case.node
+    logged = logged_counter(node) if node is not None else None
+    call = node.log_call if node is not None else None
+    if node is None or logged is None or call is None:
+        return None
+    module = node.module_of(call)
+    text = module.text.plain_string(call.args[0]) or ""
+    percent, braces = len(re.findall(r"%[dis]", text)), len(re.findall(r"\{0?\}", text))
+    if (percent, braces) not in ((1, 0), (0, 1)) or text.count("%") != percent:
+        return None
+    at = module.text.span(call.args[0])[1]
+    new = f" % {logged[1]}" if percent else f".format({logged[1]})"
+    return case.changed(module, Splice(at, at, new))

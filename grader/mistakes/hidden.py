@@ -1,0 +1,189 @@
+"""What hides an error, or ends a function before its lines have run."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.fixes import node_order
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
+
+ENDS = ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit")
+"""Exceptions that end a node as it should end."""
+LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+STEP = "        self.counter_ += 1\n"
+LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
+
+
+def _functions(source: NodeSource) -> Iterator[Function]:
+    """Yield the functions that run in every run of the node: callback, constructor, main."""
+    for function in (source.callback, source.methods.get("__init__"), source.main):
+        if function is not None:
+            yield function
+
+
+def _hides(handler: ast.ExceptHandler) -> bool:
+    """Whether a handler neither raises nor shows the exception that it catches."""
+    caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    if handler.type is not None and all(last_part(dotted(c)) in ENDS for c in caught if c):
+        return False
+    for node in (part for statement in handler.body for part in ast.walk(statement)):
+        if isinstance(node, ast.Raise):
+            return False
+        if isinstance(node, ast.Name) and node.id in (handler.name, "traceback", "sys"):
+            return False
+    return True
+
+
+def _swallows(suspect: Suspect) -> RecognisedMistake | None:
+    for function in _functions(suspect.source):
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Try) or _all_harmless(node.body):
+                continue
+            for handler in filter(_hides, node.handlers):
+                return suspect.finding("error_hidden", suspect.place_at(handler))
+    return None
+
+
+def _all_harmless(body: list[ast.stmt]) -> bool:
+    return all(isinstance(s, ast.Pass | ast.Import | ast.ImportFrom) for s in body)
+
+
+def _returns(suspect: Suspect) -> RecognisedMistake | None:
+    for function in _functions(suspect.source):
+        for found in node_order.early_returns(function):
+            return suspect.finding("return_early", found)
+    return None
+
+
+def _returns_before_log(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a return before the log line too, which may depend on a condition."""
+    always, callback = _returns(suspect), suspect.source.callback
+    logs = suspect.source.logs(callback) if callback is not None else []
+    if always is not None or callback is None or not logs:
+        return always
+    own = [n for n in ast.walk(callback) if isinstance(n, ast.Return)]
+    before = [n for n in own if n.lineno < logs[0].lineno]
+    return suspect.finding("return_early", before[0]) if before else None
+
+
+def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
+    main = suspect.source.main
+    for found in node_order.early_returns(main) if main is not None else []:
+        for call, name in calls_in(main) if main is not None else ():
+            if last_part(name) in node_order.SPINS and call.lineno > found.lineno:
+                return suspect.finding("return_early", found)
+    return None
+
+
+_node = Family("node", links.PYTHON_ERRORS)
+KINDS = (
+    _node(
+        "return_early",
+        "callback",
+        msg("A return comes too early"),
+        msg("return ends the function: the lines below it do not run any more."),
+        msg("Remove that return, or move it below the lines that must run."),
+        behind={
+            "run.no_lines": _returns_before_log,
+            "run.constant_counter": _returns,
+            "run.exits_at_once": _returns_before_spin,
+            "run.no_node": _returns_before_spin,
+        },
+        fixed_by=(node_order.returned,),
+        examples=(
+            example(
+                "returns_before_log",
+                Replace(NODE, LOG, f"        return\n{LOG}"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "returns_before_step",
+                Replace(NODE, STEP, f"        return\n{STEP}"),
+                fails="run.output",
+            ),
+            example(
+                "returns_before_spin",
+                Replace(
+                    NODE, "    node = MyFirstNode()\n", "    node = MyFirstNode()\n    return\n"
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "returns_if_zero",
+                Replace(NODE, LOG, f"        if self.counter_ == 0:\n            return\n{LOG}"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "error_hidden",
+        "callback",
+        msg("An except hides the error"),
+        msg(
+            "This except catches the error and does not show it: the try stops at the line with "
+            "the error, and no traceback says why."
+        ),
+        msg(
+            "Remove this except (and its try), and run the node again: now the traceback shows "
+            "the line with the error."
+        ),
+        behind={
+            "run.no_lines": _swallows,
+            "run.constant_counter": _swallows,
+            "run.stops": _swallows,
+            "run.exits_at_once": _swallows,
+            "run.ended_early": _swallows,
+            "run.no_node": _swallows,
+        },
+        examples=(
+            example(
+                "error_hidden_in_callback",
+                Replace(
+                    NODE,
+                    LOG + STEP,
+                    (
+                        "        try:\n"
+                        f"{LOG_OF_NUMBER}"
+                        "            self.counter_ += 1\n"
+                        "        except:\n"
+                        "            pass\n"
+                    ),
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "error_hidden_in_main",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "except KeyboardInterrupt:", "except Exception:"),
+                fails="run.output",
+                blocks=("run.interrupt", *SILENT),
+            ),
+            example(
+                "exit_hidden_in_main",
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n    try:\n",
+                    "    try:\n        node = MyFirstNode(1)\n",
+                ),
+                Replace(
+                    NODE,
+                    "    except KeyboardInterrupt:\n        pass\n    finally:\n        node.destroy_node()\n        rclpy.try_shutdown()\n",
+                    "    except:\n        print('stopped')\n    rclpy.try_shutdown()\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+)

@@ -1,0 +1,252 @@
+"""Mistakes of scope: lines in the wrong block, and names without self. or without quotes."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import node_count, node_scope
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
+from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import called_name
+from grader.package.source.place import function_at, method_above, statement_at
+
+NODE_METHODS = (
+    *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
+    *("create_subscription", "create_service", "create_client", "declare_parameter"),
+    *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
+)
+CALLBACK = '''\
+    def timer_callback(self):
+        """Say hello once; the timer calls this for as long as the node spins."""
+        self.get_logger().info('Hello time: ' + str(self.counter_))
+        self.counter_ += 1
+'''
+OUTSIDE = CALLBACK.replace("\n    ", "\n").removeprefix("    ")
+MAIN = '''\
+def main(args=None):
+    """Run the node until Ctrl+C."""
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+'''
+IN_CLASS = "".join(f"    {line}" for line in MAIN.splitlines(keepends=True))
+
+
+def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    places = node_scope.names_as_text(raised.module, name)
+    if not places:
+        return None
+    found = raised.finding("quotes_missing", at=places[0], name=name)
+    return replace(found, variant="guard") if name == "__main__" else found
+
+
+def creates_timer(raised: Raised) -> bool:
+    """Return whether the statement that raised an exception creates a timer."""
+    statement = statement_at(raised.module, raised.line)
+    calls = [n for n in ast.walk(statement) if isinstance(n, ast.Call)] if statement else []
+    return any(called_name(call) == "create_timer" for call in calls)
+
+
+def _self_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if match["name"] != "self" or raised.line is None:
+        return None
+    if function_at(raised.module, raised.line) is not None:
+        return _self_in_function(raised)
+    method = method_above(raised.module, raised.line)
+    if creates_timer(raised):
+        return None
+    found = raised.finding("self_outside", name=method.name if method is not None else "")
+    return replace(found, variant="method") if method is not None else found
+
+
+def _self_in_function(raised: Raised) -> RecognisedMistake:
+    """Return the mistake of a function that is no method: it knows the node by a variable."""
+    variables = sorted(raised.source.node_variables)
+    found = raised.finding("self_outside", name=variables[0] if variables else "")
+    return replace(found, variant="variable") if len(variables) == 1 else found
+
+
+def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    function = raised.assignment.function
+    found = node_scope.inner_function(raised.source, function)
+    if match["function"] != function or found is None:
+        return None
+    return raised.finding("main_in_class", at=found)
+
+
+def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    at = raised.source.module.functions.get(name)
+    if at is None or not of_self(raised, match):
+        return None
+    return raised.finding("callback_outside", at=at, name=name)
+
+
+def _self_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name, source = match["name"], raised.source
+    if name not in {*NODE_METHODS, *source.methods, *source.attributes}:
+        return None
+    if any(timer.method == name for timer in source.timers):
+        return None  # (the timer's own record shows how create_timer is written)
+    function = function_at(raised.module, raised.line)
+    if function is not None and _is_method(raised, function):
+        return raised.finding("self_missing", name=name)
+    variables = sorted(source.node_variables)
+    if function is None or len(variables) != 1 or name in source.attributes:
+        return None
+    found = raised.finding("self_missing", name=name, variable=variables[0])
+    return replace(found, variant="variable")
+
+
+def _is_method(raised: Raised, function: Function) -> bool:
+    return any(function in found.body for found in raised.module.classes)
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "quotes_missing",
+        "class",
+        msg("A string is written without quotes"),
+        msg("Without quotes, {name} is the name of a variable, and there is no such variable."),
+        msg("Write super().__init__('{node_name}')."),
+        links.PYTHON_STRINGS,
+        fixes={"guard": msg("Write: if __name__ == '__main__':")},
+        raised={NAME_ERROR: _quotes},
+        fixed_by=(node_scope.quotes,),
+        examples=(
+            example(
+                "node_name_without_quotes",
+                Replace(NODE, "'my_first_node'", "my_first_node"),
+                fails="run.starts",
+            ),
+            example(
+                "guard_without_quotes",
+                Replace(NODE, "'__main__'", "__main__"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "self_outside",
+        "class",
+        msg("self is used outside of a method"),
+        msg(
+            "self is the first parameter of a method and exists only inside it. This line is "
+            "outside of every method."
+        ),
+        msg("Move the line into the method that it belongs to."),
+        fixes={
+            "method": msg(
+                "Indent the line as far as the other lines of {name}, the method above it."
+            ),
+            "variable": msg("Write {name} instead of self."),
+        },
+        seen=r"NameError: name 'self' is not defined",
+        raised={NAME_ERROR: _self_outside},
+        fixed_by=(node_scope.indented, node_scope.variable),
+        examples=(
+            example(
+                "step_outside_callback",
+                Replace(NODE, "        self.counter_ += 1\n", "    self.counter_ += 1\n"),
+                fails="run.starts",
+            ),
+            example(
+                "step_at_margin",
+                Replace(NODE, "        self.counter_ += 1\n", "self.counter_ += 1\n"),
+                fails="run.starts",
+            ),
+            example(
+                "start_outside_init",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "    def __init__(self):\n",
+                    "    self.counter_ = 0\n\n    def __init__(self):\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "self_in_main",
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(self)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_in_class",
+        "start",
+        msg("The entry point's function is inside the class"),
+        msg(
+            "The entry point ends in :{function}, so Python looks for a function {function} at the "
+            "top level of the module. An indented def belongs to what is above it."
+        ),
+        msg(
+            "Remove the indentation of def {function}(…), so that it begins at the margin, and "
+            "indent its lines by 4 spaces."
+        ),
+        links.DEVELOPING,
+        raised={
+            r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'": (
+                _main_in_class
+            )
+        },
+        fixed_by=(node_scope.at_margin,),
+        examples=(example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),),
+    ),
+    _node(
+        "callback_outside",
+        "timer",
+        msg("The callback is outside of the class"),
+        msg("A function at the margin is not a method of the class, so self does not have it."),
+        msg("Indent def {name}(self): and its lines by 4 spaces, below the class."),
+        raised={OWN_ATTRIBUTE: _callback_outside},
+        fixed_by=(node_scope.into_class,),
+        examples=(
+            example("callback_outside_class", Replace(NODE, CALLBACK, OUTSIDE), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "self_missing",
+        "class",
+        msg("self. is missing"),
+        msg("Methods and attributes of the node are reached through the node: self.name."),
+        msg("Write self.{name} instead of {name}."),
+        fixes={"variable": msg("Write {variable}.{name} instead of {name}.")},
+        raised={NAME_ERROR: _self_missing},
+        fixed_by=(node_scope.self_dot, node_count.self_dot),
+        examples=(
+            example(
+                "create_timer_without_self",
+                Replace(NODE, "self.create_timer", "create_timer"),
+                fails="run.starts",
+            ),
+            example(
+                "get_logger_without_self",
+                Replace(NODE, "self.get_logger()", "get_logger()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_logged_without_self",
+                Replace(NODE, "str(self.counter_)", "str(counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+)

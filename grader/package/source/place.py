@@ -1,0 +1,50 @@
+"""The function, the statement and the block at a line of a file."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from grader.package.source.module import Function, Module
+
+
+def function_at(module: Module, line: int | None) -> Function | None:
+    """Return the innermost function with a line of the file; None if there is none."""
+    found = [n for n in module.nodes if isinstance(n, Function) and _has(n, line)]
+    return max(found, key=lambda node: node.lineno, default=None)
+
+
+def statement_at(module: Module, line: int | None) -> ast.stmt | None:
+    """Return the innermost statement with a line of the file; None if there is none."""
+    found = [n for n in module.nodes if isinstance(n, ast.stmt) and _has(n, line)]
+    return max(found, key=lambda node: (node.lineno, node.col_offset), default=None)
+
+
+def _has(node: ast.stmt, line: int | None) -> bool:
+    return node.lineno <= (line or 0) <= (node.end_lineno or node.lineno)
+
+
+def blocks_in(node: ast.AST) -> Iterator[list[ast.stmt]]:
+    """Yield the lists of statements in a part of a file, also in its inner functions."""
+    for part in ast.walk(node):
+        for name in ("body", "orelse", "finalbody"):
+            block = getattr(part, name, None)
+            if isinstance(block, list) and block:
+                yield block
+
+
+def block_of(module: Module, statement: ast.stmt) -> list[ast.stmt]:
+    """Return the list of statements that has a statement."""
+    around = module.parents.get(statement, module.tree)
+    for name in ("body", "orelse", "finalbody"):
+        block = getattr(around, name, None)
+        if isinstance(block, list) and statement in block:
+            return block
+    return [statement]
+
+
+def method_above(module: Module, line: int) -> Function | None:
+    """Return the method of a class whose lines end last before a line."""
+    methods = [s for c in module.classes for s in c.body if isinstance(s, Function)]
+    above = [m for m in methods if (m.end_lineno or m.lineno) < line]
+    return max(above, key=lambda node: node.lineno, default=None)

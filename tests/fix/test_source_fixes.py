@@ -1,0 +1,75 @@
+"""The fix in the report of a mistake that the node's source shows: one certain change, or none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.report.model import CheckResult
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import SOLUTION, write
+from tests.corpus.model import NODE
+from tests.fix.corpus_fixes import TOOLS, with_tool
+from tests.recorded import mark
+
+BY_NAME = {package.name: package for package in BROKEN}
+# The only fix of these is exactly the solution.
+BACK_TO_SOLUTION = (
+    *("node_made_after_try", "shutdown_before_node", "destroyed_before_spin", "spin_missing"),
+    *("node_without_variable", "node_line_missing", "node_name_without_quotes"),
+    *("guard_without_quotes", "step_outside_callback", "step_at_margin", "self_in_main"),
+    *("main_in_class", "callback_outside_class", "create_timer_without_self"),
+    *("get_logger_without_self", "counter_logged_without_self", "returns_before_log"),
+    *("returns_before_step", "returns_before_spin", "this_for_self", "plus_plus"),
+    *("sum_not_kept", "compared_instead_of_set", "definition_misspelt", "logged_once"),
+    *("log_throttled", "log_skips_first", "import_of_cpp_client", "module_of_rclpy_misspelt"),
+    *("import_in_lower_case", "import_of_misspelt_name", "super_with_self"),
+    *("super_with_self_alone", "interrupt_misspelt", "counter_of_other_name"),
+)
+OTHERWISE = {
+    "spin_before_node": "    node = MyFirstNode()\n    rclpy.spin(node)\n",
+    "shutdown_before_spin": "    node = MyFirstNode()\n    rclpy.spin(node)\n    rclpy.shutdown()\n",
+    "counter_misspelt_in_step": "self.counter_ = self.counter_ + 1\n",
+    "node_of_other_name": "rclpy.spin(my_node)",
+    "null_for_none": "self.last_ = None\n",
+    "true_in_lower_case": "self.on_ = True\n",
+    "comment_with_slashes": "self.counter_ += 1  # increment\n",
+    "percent_without_value": "'Hello time: %d' % self.counter_)",
+    "format_forgotten": "'Hello time: {}'.format(self.counter_))",
+    "logger_with_value": "'Hello time: %d' % self.counter_)",
+    "counter_global": "        global counter\n        self.get_logger()",
+    "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
+}
+# Only the student knows what these should be.
+NOT_FIXED = (
+    *("error_hidden_in_callback", "error_hidden_in_main", "returns_if_zero", "rate_in_callback"),
+    *("rate_in_main", "start_outside_init", "printf_in_callback", "to_string", "none_called"),
+)
+
+
+def first_failed(root: Path) -> CheckResult:
+    return next(check for check in mark(root).checks if check.status == "failed")
+
+
+def fixed(name: str, folder: Path) -> str:
+    """Return the node's file after the patch of the first failed check."""
+    root = write(BY_NAME[name], folder)
+    patch = first_failed(root).patch
+    assert patch
+    return (with_tool(TOOLS[0], patch.encode(), root) / NODE).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", BACK_TO_SOLUTION)
+def test_the_patch_restores_the_solution(name: str, tmp_path: Path) -> None:
+    assert fixed(name, tmp_path) == (SOLUTION / NODE).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", OTHERWISE)
+def test_the_patch_changes_what_the_text_says(name: str, tmp_path: Path) -> None:
+    assert OTHERWISE[name] in fixed(name, tmp_path)
+
+
+@pytest.mark.parametrize("name", NOT_FIXED)
+def test_what_is_not_certain_has_no_patch(name: str, tmp_path: Path) -> None:
+    assert first_failed(write(BY_NAME[name], tmp_path)).patch == ""

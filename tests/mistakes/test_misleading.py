@@ -1,0 +1,200 @@
+"""Diagnoses that could mislead: the cause is named, and what only looks like one is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.mistakes.catalogue import CATALOGUE
+from grader.verdict.diagnose import diagnose
+from tests.mistakes.test_diagnose import RIGHT, TRACEBACK, evidence, failed
+from tests.mistakes.test_from_source import look, raised
+from tests.static_bench import NODE, Bench
+
+HANDLING = "\nDuring handling of the above exception, another exception occurred:\n\n"
+IGNORED = """\
+Exception ignored in: <function Executor.__del__ at 0x7f>
+Traceback (most recent call last):
+  File "/opt/ros/jazzy/lib/python3.12/site-packages/rclpy/executors.py", line 257, in __del__
+    if self._sigint_gc is not None:
+AttributeError: 'SingleThreadedExecutor' object has no attribute '_sigint_gc'
+"""
+UNBOUND = (
+    "UnboundLocalError: cannot access local variable 'node' where it is not associated with a value"
+)
+LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+
+
+def changed(old: str, new: str) -> str:
+    assert RIGHT.count(old) == 1
+    return RIGHT.replace(old, new)
+
+
+def line_of(text: str, part: str) -> int:
+    return next(n for n, line in enumerate(text.splitlines(), 1) if part in line)
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "my_robot_controller")
+
+
+def test_an_error_in_a_finally_is_not_taken_for_the_cause(bench: Bench) -> None:
+    text = changed(
+        "    node = MyFirstNode()\n    try:\n", "    try:\n        node = MyFirstNode()\n"
+    )
+    text = text.replace("        self.counter_ = 0\n", "        self.counter_ = zero\n")
+    cause = "NameError: name 'zero' is not defined"
+    shown = HANDLING.join(
+        (
+            TRACEBACK.format(line=line_of(text, "= zero"), error=cause),
+            TRACEBACK.format(line=line_of(text, "destroy_node"), error=UNBOUND),
+        )
+    )
+    found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
+    assert found.mistakes[0].id == "node.name_unknown"
+    assert found.where is not None
+    assert found.where.line == line_of(text, "= zero")
+
+
+def test_an_error_of_ones_own_while_ctrl_c_is_handled_stays_the_cause(bench: Bench) -> None:
+    text = changed("        node.destroy_node()\n", "        count += 1\n")
+    error = UNBOUND.replace("node", "count")
+    shown = HANDLING.join(
+        (
+            TRACEBACK.format(line=line_of(text, "rclpy.spin"), error="KeyboardInterrupt"),
+            TRACEBACK.format(line=line_of(text, "count += 1"), error=error),
+        )
+    )
+    found = diagnose(failed("run.error_at_stop"), evidence(bench, text, shown))
+    assert found.where is not None
+    assert found.where.line == line_of(text, "count += 1")
+
+
+def test_an_exception_that_python_ignores_is_not_the_cause(bench: Bench) -> None:
+    text = changed("self.counter_ = 0", "self.counter_ = zero")
+    error = "NameError: name 'zero' is not defined"
+    shown = TRACEBACK.format(line=line_of(text, "= zero"), error=error) + IGNORED
+    found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
+    assert found.mistakes[0].id == "node.name_unknown"
+
+
+def test_a_python_suggestion_helps_only_if_nothing_else_is_known(bench: Bench) -> None:
+    text = changed("rclpy.init(args=args)", "rclpy.init(args=args.copi())")
+    error = "AttributeError: 'list' object has no attribute 'copi'. Did you mean: 'copy'?"
+    shown = TRACEBACK.format(line=line_of(text, "copi"), error=error)
+    found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
+    assert found.mistakes[0].id == "node.attribute_unknown"
+    assert found.fix.startswith("Write copy instead of copi")
+    text = changed("'my_first_node'", "my_first_node")
+    error = "NameError: name 'my_first_node' is not defined. Did you mean: 'MyFirstNode'?"
+    shown = TRACEBACK.format(line=line_of(text, "(my_first_node)"), error=error)
+    found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
+    assert found.fix == "Write super().__init__('my_first_node')."
+
+
+@pytest.mark.parametrize(
+    ("handler", "hidden"),
+    [
+        ("except:\n            pass", True),
+        ("except Exception:\n            return", True),
+        ("except (TypeError, ValueError):\n            print('oops')", True),
+        ("except Exception as error:\n            print(error)", False),
+        ("except Exception:\n            raise", False),
+        ("except KeyboardInterrupt:\n            pass", False),
+    ],
+)
+def test_only_an_except_that_shows_nothing_is_reported(handler: str, hidden: bool) -> None:
+    text = changed(LOG, f"        try:\n    {LOG}        {handler}\n")
+    found = look("run.no_lines", text)
+    assert (found is not None and found.kind == "node.error_hidden") == hidden
+    if found is not None:
+        assert found.where is not None
+        assert found.where.line == line_of(text, handler.partition("\n")[0])
+
+
+def test_a_missing_timer_is_named_before_what_else_may_be_wrong() -> None:
+    text = changed(LOG, f"        try:\n    {LOG}        except:\n            pass\n")
+    text = text.replace("        self.create_timer(1.0, self.timer_callback)\n", "")
+    found = look("run.no_lines", text)
+    assert found is not None
+    assert found.kind == "node.timer_missing"
+
+
+def test_a_return_after_the_last_line_is_not_reported() -> None:
+    text = changed("        self.counter_ += 1\n", "        self.counter_ += 1\n        return\n")
+    for symptom in ("run.no_lines", "run.constant_counter", "run.exits_at_once"):
+        assert look(symptom, text) is None
+
+
+def test_the_node_is_never_suggested_to_be_its_class() -> None:
+    text = changed("node = MyFirstNode()", "robot = MyFirstNode()")
+    at = line_of(text, "rclpy.spin(node)")
+    found = raised("NameError: name 'node' is not defined", text, at)
+    assert found is not None
+    assert (found.kind, found.params["close"]) == ("node.name_unknown", "robot")
+
+
+def test_self_in_main_is_told_from_a_line_below_a_method() -> None:
+    text = changed("rclpy.spin(node)", "rclpy.spin(self)")
+    found = raised("NameError: name 'self' is not defined", text, line_of(text, "spin(self)"))
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.self_outside", "variable")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "variant", "fix"),
+    [
+        ("self.counter_ = 0", "self.counter = 0", "start", "Write self.counter_ on that line"),
+        ("self.counter_ += 1", "self.counter_ = self.counter + 1", "close",
+         "Write self.counter_ instead of self.counter."),
+    ],
+)  # fmt: skip
+def test_the_name_that_differs_from_all_others_is_the_one_to_correct(
+    old: str, new: str, variant: str, fix: str
+) -> None:
+    text = changed(old, new)
+    name, at = ("counter_", LOG.strip()) if variant == "start" else ("counter", new)
+    error = f"AttributeError: 'MyFirstNode' object has no attribute '{name}'"
+    found = raised(error, text, line_of(text, at))
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.attribute_not_set", variant)
+    values = {**found.params, **found.words}
+    assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(fix)
+
+
+@pytest.mark.parametrize(
+    ("start", "expected"),
+    [
+        ("    counter_ = 5\n\n    def __init__(self):\n", "Write on that line: counter_ = 0"),
+        ("    def __init__(self):\n        self.counter_ = 5\n",
+         "Write on that line: self.counter_ = 0"),
+    ],
+)  # fmt: skip
+def test_a_wrong_start_is_written_as_it_is_in_the_source(start: str, expected: str) -> None:
+    text = changed("        self.counter_ = 0\n", "").replace("    def __init__(self):\n", start)
+    found = look("run.wrong_start", text)
+    assert found is not None
+    assert found.where is not None
+    assert found.where.line == line_of(text, "counter_ = 5")
+    values = {**found.params, **found.words}
+    assert str(CATALOGUE[found.kind].fix_text(values, found.variant)) == expected
+
+
+@pytest.mark.parametrize(
+    "step",
+    [
+        "        counter_ += 1\n",
+        "        counter_ = counter_ + 1\n",
+        "        self.counter_ += 1\n",
+    ],
+)
+def test_a_counter_that_each_call_makes_anew_is_reported_with_its_line(step: str) -> None:
+    text = changed(LOG, f"        counter_ = 0\n{LOG.replace('self.counter_', 'counter_')}")
+    text = text.replace("        self.counter_ += 1\n", step)
+    found = look("run.constant_counter", text)
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.counter_reset", "local")
+    assert found.where is not None
+    assert (found.where.file, found.where.line) == (NODE, line_of(text, "        counter_ = 0"))
