@@ -317,10 +317,11 @@ def test_explain_uses_the_lesson_and_the_distro(course: Path) -> None:
     assert "source /opt/ros/kilted/" in explained("lab.ros_not_sourced", "--distro", "kilted")
 
 
-def test_explain_without_a_lesson_shows_placeholders(tmp_path: Path) -> None:
+def test_explain_without_a_lesson_shows_an_example(tmp_path: Path) -> None:
     several = weather.write_course(tmp_path, "winds")
     output = explained("run.no_lines", **env(several))
-    assert "create_timer(<period>, self.<callback>)" in output
+    assert "create_timer(1.0, self.callback)" in output
+    assert "an example" in output
     assert "f'Count: {self.counter}'" in explained("node.f_prefix", **env(several))
     assert "https://docs.ros.org/en/jazzy/" in explained("run.no_lines", ROS_DISTRO="unheard-of")
 

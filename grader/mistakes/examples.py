@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment
-from grader.mistakes.placeholders import EXAMPLE, placeholder_values
+from grader.mistakes.placeholders import CALLBACK, EXAMPLE, placeholder_values
 
 NAMES: Mapping[str, Value] = {
     **EXAMPLE,
@@ -22,7 +22,7 @@ NAMES: Mapping[str, Value] = {
     "package": "my_package",
     "path": "my_package/my_node.py",
     "period": "1.0",
-    "callback": "timer_callback",
+    "callback": CALLBACK,
     "start": 0,
     "statement": "from rclpy.node import Node",
     "step": 1,
