@@ -35,7 +35,8 @@ class Example:
 
     `fails` is the check that reports the mistake, `also` are others that fail, with the mistake
     that they report. `blocks` are checks that are skipped because of what the build or the run
-    does; with them, and with a failed check, all that depend on them are skipped.
+    does; with them, and with a failed check, all that depend on them are skipped. If not
+    `blocking`, the checks that depend on `fails` are evaluated all the same.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Example:
     fails: str
     also: Mapping[str, str] = field(default_factory=dict)
     blocks: tuple[str, ...] = ()
+    blocking: bool = True
     note: str = ""
 
 
@@ -52,7 +54,16 @@ def example(
     fails: str,
     also: Mapping[str, str] | None = None,
     blocks: tuple[str, ...] = (),
+    blocking: bool = True,
     note: str = "",
 ) -> Example:
     """Return an example; its name is a valid folder name, and unique."""
-    return Example(name=name, edits=edits, fails=fails, also=also or {}, blocks=blocks, note=note)
+    return Example(
+        name=name,
+        edits=edits,
+        fails=fails,
+        also=also or {},
+        blocks=blocks,
+        blocking=blocking,
+        note=note,
+    )

@@ -143,6 +143,7 @@ KINDS = (
                     "import rclpi\n",
                 ),
                 fails="build.colcon",
+                blocking=False,
                 note="colcon refuses both, but which one is meant is clear",
             ),
             example(
@@ -155,6 +156,7 @@ KINDS = (
                     "import rclpi\n",
                 ),
                 fails="build.colcon",
+                blocking=False,
                 note="colcon refuses both, but which one is meant is clear",
             ),
             example(
@@ -167,6 +169,7 @@ KINDS = (
                     "import rclpi\n",
                 ),
                 fails="build.colcon",
+                blocking=False,
                 note="colcon refuses both, but which one is meant is clear",
             ),
             example(
@@ -175,6 +178,7 @@ KINDS = (
                 Copy("src/my_robot_controller", "src/first_try"),
                 Delete("src/first_try/my_robot_controller/my_first_node.py"),
                 fails="build.colcon",
+                blocking=False,
                 note="the other one lacks the node",
             ),
         ),

@@ -12,6 +12,7 @@ BROKEN: tuple[Package, ...] = tuple(
         edits=example.edits,
         expect_failed={example.fails: kind.id, **example.also},
         blocked=frozenset(example.blocks),
+        not_blocking=frozenset() if example.blocking else frozenset({example.fails}),
         note=example.note,
     )
     for kind, example in EXAMPLES

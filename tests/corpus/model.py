@@ -44,7 +44,8 @@ class Package:
     """One package of the corpus.
 
     `expect_failed` names the checks that fail, each with the mistake that the verdict must name
-    (None: any). `blocked` are checks that are skipped because of what the build or the run does.
+    (None: any). `blocked` are checks that are skipped because of what the build or the run does;
+    after a failed check in `not_blocking`, those that depend on it are evaluated.
     `undecided` are checks whose outcome depends on the machine's limits. Every other check passes,
     if none that it depends on fails. `wall_clock` means that the node does not follow `/clock`;
     `hostile`, that it needs a sandbox.
@@ -54,6 +55,7 @@ class Package:
     edits: tuple[Edit, ...]
     expect_failed: Mapping[str, str | None] = field(default_factory=dict)
     blocked: frozenset[str] = frozenset()
+    not_blocking: frozenset[str] = frozenset()
     undecided: frozenset[str] = frozenset()
     wall_clock: bool = False
     hostile: bool = False
@@ -64,7 +66,7 @@ class Package:
         """The checks that are skipped: the blocked ones, and all that depend on a lost check."""
         lost = {*self.expect_failed, *self.blocked}
         for check in CHECKS.values():  # in the order of their dependencies
-            if lost & set(check.depends):
+            if (lost - self.not_blocking) & set(check.depends):
                 lost.add(check.id)
         return frozenset(lost) - set(self.expect_failed) - self.undecided
 
