@@ -2,27 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
-from pathlib import Path
 
 from grader.mistakes.catalogue import CATALOGUE
-
-ROOT = Path(__file__).resolve().parents[2]
+from tests import processes
 
 
 def explain(*words: str, text: str = "", lang: str = "C") -> subprocess.CompletedProcess[str]:
-    clean = {k: v for k, v in os.environ.items() if k not in ("LC_ALL", "LANGUAGE", "LC_MESSAGES")}
-    return subprocess.run(
-        [sys.executable, "-m", "grader", "explain", *words],
-        input=text,
-        capture_output=True,
-        encoding="utf-8",
-        env={**clean, "LANG": lang, "PYTHONIOENCODING": "utf-8", "COLUMNS": "100"},
-        cwd=ROOT,
-        check=False,
-    )
+    env = {"LC_ALL": "", "LANGUAGE": "", "LC_MESSAGES": "", "LANG": lang, "COLUMNS": "100"}
+    return processes.run(processes.grader("explain", *words), env=env, stdin=text)
 
 
 def test_an_entry_has_the_reason_the_fix_and_a_link() -> None:
