@@ -14,6 +14,7 @@ from pathlib import Path
 from grader.base.cache import cache_root
 from grader.ros.prefix import base_interpreter
 from grader.sandbox.processes import stat_fields
+from tests.command_server import commands
 
 ROOT = Path(__file__).resolve().parent.parent
 USER = 54_321
@@ -25,18 +26,34 @@ def grader(*words: str | Path) -> list[str]:
     return [sys.executable, "-m", "grader", *map(str, words)]
 
 
+def replaying(*words: str | Path) -> list[str]:
+    """Return the command line of a grader that marks from recorded evidence (`recorded`)."""
+    return [sys.executable, "-m", "tests.replaying", *map(str, words)]
+
+
 def run(
     command: Sequence[str | Path],
     *,
     cwd: Path = ROOT,
     env: dict[str, str] | None = None,
     timeout: float = 120,
+    stdin: str = "",
+    forked: bool = True,
 ) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end and return it with its output."""
+    """Run a command to its end and return it with its output.
+
+    A command of this Python (`python -m …`) is forked from one that has made its imports, unless
+    `forked` is false (see `command_server`).
+    """
+    words = [str(word) for word in command]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), **(env or {})}
+    if forked and words[:2] == [sys.executable, "-m"]:
+        return commands().run(words[2:], cwd=cwd, env=environment, timeout=timeout, stdin=stdin)
     return subprocess.run(
-        [str(word) for word in command],
+        words,
         cwd=cwd,
-        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+        env=environment,
+        input=stdin,
         capture_output=True,
         text=True,
         timeout=timeout,

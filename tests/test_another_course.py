@@ -91,7 +91,7 @@ def test_an_assignment_may_ask_for_the_output_alone(
     checks = "checks:\n  - {id: package.found, points: 1}\n  - {id: run.output, points: 2}\n"
     course.write_text(text[: text.index("\nchecks:") + 1] + checks)
     done = processes.run(
-        processes.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")
+        processes.replaying("grade", package, "--assignment", course, "--out", tmp_path / "o")
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 / 3" in done.stdout
@@ -112,7 +112,7 @@ def test_a_course_folder_is_named_by_the_environment(
     course: Path, package: Path, tmp_path: Path
 ) -> None:
     done = processes.run(
-        processes.grader("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
+        processes.replaying("grade", package, "--assignment", "ticking", "--out", tmp_path / "o"),
         env={"GRADER_COURSE": str(course.parent.parent)},
     )
     assert done.returncode == 0, done.stdout + done.stderr
@@ -120,7 +120,7 @@ def test_a_course_folder_is_named_by_the_environment(
 
 def test_a_self_check_says_how_many_checks_are_hidden(course: Path, package: Path) -> None:
     course.write_text(course.read_text().replace("hidden_checks: 0", "hidden_checks: 2"))
-    done = processes.run(processes.grader("check", package, "--assignment", course))
+    done = processes.run(processes.replaying("check", package, "--assignment", course))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "2 hidden checks" in done.stdout
 
@@ -141,7 +141,7 @@ def test_hidden_checks_are_read_from_the_instructors_folder(
     course: Path, package: Path, keys: Path, tmp_path: Path
 ) -> None:
     words = ("grade", package, "--assignment", course, "--keys", keys, "--out", tmp_path / "o")
-    done = processes.run(processes.grader(*words))
+    done = processes.run(processes.replaying(*words))
     assert done.returncode == 0, done.stdout + done.stderr
     assert "3 / 3" in done.stdout
     (file,) = (tmp_path / "o").rglob("report.json")

@@ -126,7 +126,8 @@ def test_the_help_of_a_command_is_english_again_after_a_run(
 
 def test_a_command_imported_for_korean_help_keeps_its_metavars() -> None:
     """click translates the name of a path's type once, when the option is made."""
-    status, korean = run("grader", "grade", "--lang", "ko", "--help", env=ENGLISH)
-    assert status == 0
-    assert HANGUL.search(korean)
-    assert "--out DIRECTORY" in korean
+    command = processes.grader("grade", "--lang", "ko", "--help")
+    done = processes.run(command, env=ENGLISH, forked=False)
+    assert done.returncode == 0
+    assert HANGUL.search(done.stdout)
+    assert "--out DIRECTORY" in done.stdout

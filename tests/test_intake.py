@@ -145,14 +145,14 @@ def test_ten_thousand_files_are_too_many_only_inside_the_package(
         folder.mkdir(parents=True)
         for k in range(100):
             (folder / str(k)).touch()
-    begin = time.monotonic()
+    begin = time.process_time()
     assert take(tmp_path / "given").root == f"src/{PACKAGE}"
     (tmp_path / "given/photos").rename(root / "photos")
     found = take(tmp_path / "given")
     assert found.root is None
     assert found.problem_mistake == "package.too_large"
     assert "5,000" in found.problem
-    assert time.monotonic() - begin < 5
+    assert time.process_time() - begin < 5
 
 
 def test_a_folder_with_too_many_names_is_cut(tmp_path: Path) -> None:
@@ -201,9 +201,9 @@ def test_links_that_multiply_take_bounded_time(tmp_path: Path) -> None:
     (root / "l0").symlink_to("resource")
     for n in range(1, 150):
         (root / f"l{n}").symlink_to("/".join([f"l{n - 1}", ".."] * 80))
-    begin = time.monotonic()
+    begin = time.process_time()
     assert take(root).root == "."
-    assert time.monotonic() - begin < 5
+    assert time.process_time() - begin < 5
 
 
 def test_an_unreadable_file_is_kept_with_the_reason(

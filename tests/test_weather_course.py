@@ -1,4 +1,7 @@
-"""Students of another course read only texts, commands and links of their own lesson."""
+"""Students of another course read only texts, commands and links of their own lesson.
+
+The verdicts are from recorded evidence (test_another_course.py has a real one of another lesson).
+"""
 
 from __future__ import annotations
 
@@ -269,11 +272,11 @@ def test_the_right_package_passes_every_run_check(tmp_path: Path) -> None:
 def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None:
     package = weather.write_package(tmp_path)
     graded = processes.run(
-        processes.grader("grade", package, "--out", tmp_path / "o"), env=env(course)
+        processes.replaying("grade", package, "--out", tmp_path / "o"), env=env(course)
     )
     assert graded.returncode == 0, graded.stdout + graded.stderr
     assert f"{weather.FULL_MARKS} / {weather.FULL_MARKS}" in graded.stdout
-    checked = processes.run(processes.grader("check", package), env=env(course))
+    checked = processes.run(processes.replaying("check", package), env=env(course))
     assert checked.returncode == 0, checked.stdout + checked.stderr
     for output in (graded, checked):
         assert not OURS.search(output.stdout), output.stdout
@@ -281,11 +284,10 @@ def test_the_right_package_gets_full_marks(course: Path, tmp_path: Path) -> None
 
 @pytest.mark.prefix
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_real_verdict_mentions_nothing_of_our_lesson(
-    course: Path, tmp_path: Path, lang: str
-) -> None:
+def test_a_verdict_mentions_nothing_of_our_lesson(course: Path, tmp_path: Path, lang: str) -> None:
     package = weather.write_package(tmp_path, Replace(NODE, "f'Reading {", "f'Readings {"))
-    done = processes.run(processes.grader("check", "--lang", lang, "-v", package), env=env(course))
+    words = processes.replaying("check", "--lang", lang, "-v", package)
+    done = processes.run(words, env=env(course))
     assert done.returncode == 1, done.stderr
     assert "Reading 1" in done.stdout
     assert not OURS.search(done.stdout), done.stdout

@@ -13,7 +13,7 @@ from pathlib import Path
 from tests.batch.pool_tasks import package
 from tests.corpus.broken import BROKEN
 from tests.corpus.right import RIGHT
-from tests.processes import ROOT, grader
+from tests.processes import ROOT, grader, replaying, run
 
 SOLUTION = ROOT / "grader/keys/hello_time/solution/my_robot_controller"
 
@@ -55,36 +55,12 @@ def large_class(folder: Path, count: int) -> Path:
     return folder
 
 
-WITH_WORKERS = """
-import functools, sys
-from grader.publish import class_run
-from grader.batch.local_pool import LocalPool
-from grader.cli.main import main
-worker = (sys.executable, "-m", sys.argv[1])
-class_run.LocalPool = functools.partial(LocalPool, command=worker)
-sys.exit(main(sys.argv[2:]))
-"""
-
-
-def with_workers(module: str, *words: str | Path) -> list[str]:
-    """Return the command line of a grader whose workers are this module."""
-    return [sys.executable, "-c", WITH_WORKERS, module, *map(str, words)]
-
-
 def replay_all(
     folder: Path, out: Path, *words: str, env: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
-    """Run the command on a class; its workers mark from recorded evidence."""
-    options = ("--out", str(out), "--sandbox", "bubblewrap", *words)
-    return subprocess.run(
-        with_workers("tests.batch.replay_worker", "grade-all", folder, *options),
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
+    """Run the command on a class and mark it from recorded evidence."""
+    command = replaying("grade-all", folder, "--out", out, "--sandbox", "bubblewrap", *words)
+    return run(command, env=env, timeout=300)
 
 
 def grade_all(

@@ -1,4 +1,4 @@
-"""Run the real command on a class with workers that read the score from the node's source.
+"""Run the real command on a class with verdicts that are the scores in the nodes' sources.
 
 Everything else is real: the command line, the sandbox and its proof, intake, ledger, outputs.
 """
@@ -7,18 +7,15 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 import re
-import subprocess
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.batch.work import Answer, Task
+from grader.batch.work import Answer, Job, Task
 from grader.report.model import Report
-from tests.batch.classes import with_workers
-from tests.processes import ROOT
+from tests import processes
+from tests.batch import in_process
 from tests.report.samples import check, report
 
 SCORE = re.compile(rb"# score: ([\d.]+)")
@@ -55,15 +52,8 @@ class Run:
 def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
     """Run `grader grade-all`."""
     options = ("--out", out, "--sandbox", "bubblewrap", "--quiet", *words)
-    done = subprocess.run(
-        with_workers("tests.batch.stub_run", "grade-all", path, *options),
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "LC_ALL": "C.UTF-8"},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    command = [sys.executable, "-m", "tests.batch.stub_run", "grade-all", path, *options]
+    done = processes.run(command)
     assert "Traceback" not in done.stderr, done.stderr
     return Run(done.returncode, done.stdout + done.stderr, out)
 
@@ -79,14 +69,11 @@ def verdict(task: Task) -> Report:
     return made.model_copy(update={"submission": submission, "score": score, "max_score": 100})
 
 
-def main(argv: Sequence[str]) -> int:
-    """Answer tasks as a worker does, until the input ends."""
-    del argv
-    sys.stdin.readline()
-    for line in iter(sys.stdin.readline, ""):
-        print(Answer(verdict(Task.from_text(line))).to_text(), flush=True)
-    return 0
+def mark(job: Job, task: Task) -> Answer:
+    """Return the answer to a task."""
+    del job
+    return Answer(verdict(task))
 
 
 if __name__ == "__main__":
-    raise SystemExit(main(sys.argv[1:]))
+    raise SystemExit(in_process.run(mark))

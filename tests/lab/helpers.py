@@ -20,16 +20,8 @@ def run(
     kind: Kind, workspace: Path, *words: str, stdin: str = ""
 ) -> subprocess.CompletedProcess[str]:
     """Run a command in the lab without a terminal."""
-    return subprocess.run(
-        command("--sandbox", kind.sandbox, "--workspace", workspace, *words),
-        cwd=processes.ROOT,
-        env=environment(**kind.env),
-        input=stdin,
-        capture_output=True,
-        text=True,
-        timeout=SLOW,
-        check=False,
-    )
+    line = command("--sandbox", kind.sandbox, "--workspace", workspace, *words)
+    return processes.run(line, env=environment(**kind.env), stdin=stdin, timeout=SLOW)
 
 
 def start(lab: Lab, mark: str) -> None:

@@ -26,16 +26,8 @@ def lab(
 ) -> subprocess.CompletedProcess[str]:
     """Run the lab without a terminal."""
     line = command(*words)
-    return subprocess.run(
-        processes.as_user(line) if user else line,
-        cwd=processes.ROOT,
-        env=environment(**(env or {})),
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        timeout=90,
-        check=False,
-    )
+    own = environment(**(env or {}))
+    return processes.run(processes.as_user(line) if user else line, env=own, timeout=90)
 
 
 def test_help_is_quick_to_load_and_names_the_options() -> None:

@@ -8,7 +8,6 @@ import re
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pexpect
 import pytest
@@ -18,9 +17,7 @@ from grader.course.load import load_assignment
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.explanation import Reader, print_entry
 from grader.ros.distro import find_distro
-
-ROOT = Path(__file__).resolve().parents[2]
-
+from tests import processes
 
 COMMAND = [sys.executable, "-m", "grader", "explain"]
 PLACEHOLDER = re.compile(r"<(?:before|wanted|name|node_name|callback|period)>")
@@ -32,15 +29,8 @@ def environment(lang: str = "C") -> dict[str, str]:
 
 
 def explain(*words: str, text: str = "", lang: str = "C") -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [*COMMAND, *words],
-        input=text,
-        capture_output=True,
-        encoding="utf-8",
-        env=environment(lang),
-        cwd=ROOT,
-        check=False,
-    )
+    env = {"LC_ALL": "", "LANGUAGE": "", "LC_MESSAGES": "", "LANG": lang, "COLUMNS": "100"}
+    return processes.run(processes.grader("explain", *words), env=env, stdin=text)
 
 
 def test_an_entry_has_the_reason_the_fix_and_a_link() -> None:
@@ -122,7 +112,7 @@ def test_what_is_read_is_shown_at_once_and_ctrl_c_is_for_the_program_before_the_
     """As in `ros2 run … 2>&1 | explain -`, where Ctrl+C reaches both sides of the pipe."""
     process = subprocess.Popen(
         [*COMMAND, "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        env=environment(), cwd=ROOT, bufsize=0,
+        env=environment(), cwd=processes.ROOT, bufsize=0,
     )  # fmt: skip
     assert process.stdin is not None
     assert process.stdout is not None
@@ -150,14 +140,14 @@ def test_the_end_of_a_long_output_is_explained() -> None:
 
 
 def test_a_terminal_as_input_is_asked_for_the_output_and_ctrl_c_ends_it() -> None:
-    terminal = pexpect.spawn(COMMAND[0], [*COMMAND[1:], "-"], env=environment(), cwd=str(ROOT),
+    terminal = pexpect.spawn(COMMAND[0], [*COMMAND[1:], "-"], env=environment(), cwd=str(processes.ROOT),
                              encoding="utf-8", timeout=30)  # fmt: skip
     terminal.expect("Ctrl\\+D")
     terminal.sendline("No executable found")
     terminal.sendeof()
     terminal.expect("lab.no_executable")
     terminal.expect(pexpect.EOF)
-    other = pexpect.spawn(COMMAND[0], [*COMMAND[1:], "-"], env=environment(), cwd=str(ROOT),
+    other = pexpect.spawn(COMMAND[0], [*COMMAND[1:], "-"], env=environment(), cwd=str(processes.ROOT),
                           encoding="utf-8", timeout=30)  # fmt: skip
     other.expect("Ctrl\\+D")
     other.sendintr()
