@@ -77,14 +77,15 @@ def _with_cause(text: str) -> str:
     """Return a transcript up to the exception that made a later one.
 
     If creating the node fails, a `finally` that uses the variable of the node raises
-    UnboundLocalError as well.
+    UnboundLocalError as well; if nothing sets the variable, it raises the same NameError again.
     """
     for _ in range(MOST_CAUSES):
         before, handling, after = text.rpartition(HANDLING)
         cause, _ = python_error(before, "")
         stopped = cause.rpartition(".")[2].startswith(("KeyboardInterrupt", "ExternalShutdown"))
         second, _ = python_error(after, "")
-        if not handling or not cause or stopped or not second.startswith("UnboundLocalError"):
+        follows = second.startswith("UnboundLocalError") or second == cause
+        if not handling or not cause or stopped or not follows:
             break
         text = before
     return text
