@@ -265,7 +265,7 @@ KINDS = (
         fixed_by=(node_count.outer,),
         examples=(
             example(
-                "counter_global",
+                "counter_not_declared",
                 Replace(NODE, "class MyFirstNode", "counter = 0\n\n\nclass MyFirstNode"),
                 Replace(NODE, "        self.counter_ = 0\n", ""),
                 Replace(NODE, "str(self.counter_)", "str(counter)"),

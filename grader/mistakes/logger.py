@@ -174,6 +174,7 @@ KINDS = (
                 "logged_once",
                 Replace(NODE, "str(self.counter_))", "str(self.counter_), once=True)"),
                 fails="run.output",
+                blocks=("run.period",),
             ),
             example(
                 "log_throttled",
@@ -181,12 +182,12 @@ KINDS = (
                     NODE, "str(self.counter_))", "str(self.counter_), throttle_duration_sec=60.0)"
                 ),
                 fails="run.output",
+                blocks=("run.period",),
             ),
             example(
                 "log_skips_first",
                 Replace(NODE, "str(self.counter_))", "str(self.counter_), skip_first=True)"),
                 fails="run.output",
-                also={"run.period": "node.log_option"},
             ),
         ),
     ),

@@ -65,7 +65,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     start = node_names.start_of_other_name(raised.source, close)
     if start is None:
         return found
-    found = raised.finding("attribute_not_set", at=start, name=name, close=close)
+    found = raised.finding("attribute_not_set", at=start, name=close, close=name)
     return replace(found, variant="start")
 
 
@@ -151,7 +151,7 @@ KINDS = (
         close=msg("Write self.{close} instead of self.{name}."),
         fixes={
             "start": msg(
-                "Write self.{name} on that line: the other lines use this name, not self.{close}."
+                "Write self.{close} on that line: the other lines use this name, not self.{name}."
             )
         },
         raised={OWN_ATTRIBUTE: _not_set},

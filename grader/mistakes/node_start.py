@@ -354,7 +354,7 @@ KINDS = (
         raised={
             r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'": _no_name_in_module
         },
-        fixed_by=(node_life.node_import, rename.imported),
+        fixed_by=(rename.imported, node_life.node_import),
         examples=(
             example(
                 "import_in_lower_case",

@@ -76,7 +76,7 @@ def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistak
     name, methods = match["name"], raised.source.methods
     close = nearest(name, [m for m in methods if m != "__init__"])
     if close and _known_words(name) > _known_words(close):
-        found = raised.finding("callback_misspelt", at=methods[close], name=name, close=close)
+        found = raised.finding("callback_misspelt", at=methods[close], name=close, close=name)
         return replace(found, variant="definition")
     found = raised.finding("callback_misspelt", name=name, close=close)
     return replace(found, variant="", words={**found.words, "callback": close or name})
@@ -211,7 +211,7 @@ KINDS = (
                 blocks=("run.period",),
             ),
             example(
-                "rate_in_main",
+                "rate_sleeps_in_main",
                 Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
                 Replace(
                     NODE,
@@ -308,7 +308,7 @@ KINDS = (
         msg("The callback's name is misspelt"),
         msg("create_timer needs the method's exact name."),
         TIMER,
-        fixes={"definition": msg("Write def {name}(self): instead of def {close}(self):")},
+        fixes={"definition": msg("Write def {close}(self): instead of def {name}(self):")},
         raised={OWN_ATTRIBUTE: _callback_misspelt},
         fixed_by=(node_scope.definition, node_timer.callback),
         examples=(

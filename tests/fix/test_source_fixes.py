@@ -25,7 +25,7 @@ BACK_TO_SOLUTION = (
     *("sum_not_kept", "compared_instead_of_set", "definition_misspelt", "logged_once"),
     *("log_throttled", "log_skips_first", "import_of_cpp_client", "module_of_rclpy_misspelt"),
     *("import_in_lower_case", "import_of_misspelt_name", "super_with_self"),
-    *("super_with_self_alone", "interrupt_misspelt", "counter_of_other_name"),
+    *("super_with_self_alone", "counter_of_other_name"),
 )
 OTHERWISE = {
     "spin_before_node": "    node = MyFirstNode()\n    rclpy.spin(node)\n",
@@ -38,13 +38,19 @@ OTHERWISE = {
     "percent_without_value": "'Hello time: %d' % self.counter_)",
     "format_forgotten": "'Hello time: {}'.format(self.counter_))",
     "logger_with_value": "'Hello time: %d' % self.counter_)",
-    "counter_global": "        global counter\n        self.get_logger()",
+    "counter_not_declared": "        global counter\n        self.get_logger()",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
 # Only the student knows what these should be.
 NOT_FIXED = (
     *("error_hidden_in_callback", "error_hidden_in_main", "returns_if_zero", "rate_in_callback"),
-    *("rate_in_main", "start_outside_init", "printf_in_callback", "to_string", "none_called"),
+    *(
+        "rate_sleeps_in_main",
+        "start_outside_init",
+        "printf_in_callback",
+        "to_string",
+        "none_called",
+    ),
 )
 
 

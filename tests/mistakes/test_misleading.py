@@ -160,6 +160,7 @@ def test_the_name_that_differs_from_all_others_is_the_one_to_correct(
     found = raised(error, text, line_of(text, at))
     assert found is not None
     assert (found.kind, found.variant) == ("node.attribute_not_set", variant)
+    assert found.params["close"] == "counter_"
     values = {**found.params, **found.words}
     assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(fix)
 
@@ -198,3 +199,28 @@ def test_a_counter_that_each_call_makes_anew_is_reported_with_its_line(step: str
     assert (found.kind, found.variant) == ("node.counter_reset", "local")
     assert found.where is not None
     assert (found.where.file, found.where.line) == (NODE, line_of(text, "        counter_ = 0"))
+
+
+def test_a_name_that_no_line_sets_is_reported_where_it_is_used_first(bench: Bench) -> None:
+    text = changed("    node = MyFirstNode()\n", "")
+    error = "NameError: name 'node' is not defined"
+    lines = [line_of(text, "rclpy.spin"), line_of(text, "destroy_node")]
+    shown = HANDLING.join(TRACEBACK.format(line=line, error=error) for line in lines)
+    found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
+    assert found.mistakes[0].id == "node.node_not_kept"
+    assert found.where is not None
+    assert found.where.line == lines[0]
+
+
+def test_of_two_names_of_the_callback_the_misspelt_one_is_corrected() -> None:
+    for old, new, name in (
+        ("def timer_callback(", "def timer_callbak(", "timer_callback"),
+        ("self.timer_callback)", "self.timer_callbak)", "timer_callbak"),
+    ):
+        text = changed(old, new)
+        error = f"AttributeError: 'MyFirstNode' object has no attribute '{name}'"
+        found = raised(error, text, line_of(text, "create_timer"))
+        assert found is not None
+        assert (found.params["name"], found.params["close"]) == ("timer_callbak", "timer_callback")
+        assert found.where is not None
+        assert found.where.line == line_of(text, "timer_callbak")

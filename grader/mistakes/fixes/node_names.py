@@ -113,18 +113,17 @@ def start_of_other_name(node: NodeSource, close: str) -> ast.Attribute | None:
 
 
 def close_attribute(case: Case) -> Files | None:
-    """Write the attribute that __init__ sets instead of one of nearly the same name."""
+    """Give an attribute the name that the other lines use for it."""
     node = case.node
     name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
-    if node is None or not close or _is_set(node, name):
+    start = start_of_other_name(node, name) if node is not None else None
+    if node is None or not close or (start is None and _is_set(node, name)):
         return None
-    start = start_of_other_name(node, close)
     parts = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and own_name(n) == name]
-    wrong, right = ([start], name) if start is not None else (parts, close)
     module = node.module
-    if not all(module.has(part) for part in wrong):
+    if not all(module.has(part) for part in parts):
         return None
-    splices = splices_of(module, wrong, right)
+    splices = splices_of(module, parts, close)
     return case.changed(module, *splices) if splices else None
 
 

@@ -196,16 +196,16 @@ def definition(case: Case) -> Files | None:
     """Give a method the name by which the timer refers to it, if the finding is at the method."""
     node = case.node
     name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
-    method = node.method(close) if node is not None else None
-    if node is None or method is None or not name or name in node.methods:
+    method = node.method(name) if node is not None else None
+    if node is None or method is None or not close or close in node.methods:
         return None
     if method.lineno != case.finding.line:
         return None
     module = node.module
-    same = [n for n in module.nodes if isinstance(n, ast.Attribute) and n.attr == close]
+    same = [n for n in module.nodes if isinstance(n, ast.Attribute) and n.attr == name]
     if any(own_name(part) for part in same):
         return None
     at = module.text.at(method.lineno, method.col_offset) + len("def ")
-    if module.text.text[at : at + len(close)] != close:
+    if module.text.text[at : at + len(name)] != name:
         return None
-    return case.changed(module, Splice(at, at + len(close), name))
+    return case.changed(module, Splice(at, at + len(name), close))
