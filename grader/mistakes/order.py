@@ -149,6 +149,7 @@ KINDS = (
         links.RCLPY,
         raised={r"\w": _cleaned_up_first},
         behind={
+            "run.never_spins": _cleans_up_first,
             "run.exits_at_once": _cleans_up_first,
             "run.no_node": _cleans_up_first,
             "run.no_lines": _cleans_up_first,
@@ -186,8 +187,8 @@ KINDS = (
                     "    node = MyFirstNode()\n",
                     "    node = MyFirstNode()\n    node.destroy_node()\n",
                 ),
-                fails="run.output",
-                blocks=SILENT,
+                fails="run.spins",
+                blocks=("run.output", *SILENT),
             ),
         ),
     ),

@@ -198,7 +198,12 @@ KINDS = (
             "self.create_timer({period}, self.{callback})"
         ),
         links.EXECUTORS,
-        behind={"run.no_lines": _rates, "run.stops": _rates, "run.no_node": _rates},
+        behind={
+            "run.no_lines": _rates,
+            "run.stops": _rates,
+            "run.no_node": _rates,
+            "run.never_spins": _rates,
+        },
         examples=(
             example(
                 "rate_in_callback",
@@ -223,7 +228,8 @@ KINDS = (
                         "            rate.sleep()\n"
                     ),
                 ),
-                fails="run.output",
+                fails="run.spins",
+                also={"run.output": "node.rate_sleep"},
                 blocks=("run.period",),
             ),
         ),
