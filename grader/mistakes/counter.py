@@ -10,9 +10,11 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_count, node_log, node_words
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, starts_of, targets_of
 from grader.package.source.module import Function
@@ -176,6 +178,26 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
     if counter is None or counter.added or counter.set:
         return None
     return suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+
+
+def _multiplied(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a product: a counter that starts at 0 stays there."""
+    counter = _counter(suspect)
+    for node in counter.added if counter is not None else ():
+        if isinstance(node.op, ast.Mult) and counter is not None:
+            return suspect.finding("counter_multiplied", node, name=counter.name)
+    return None
+
+
+def _added_instead(case: Case) -> Files | None:
+    """Write += and the required step instead of the product."""
+    node = case.node
+    found = [n for n in node.all_nodes if isinstance(n, ast.AugAssign)] if node else []
+    if node is None or len(found) != 1 or not isinstance(found[0].op, ast.Mult):
+        return None
+    module = node.module_of(found[0])
+    code = f"{module.text.code(found[0].target)} += {case.assignment.output.step}"
+    return case.changed(module, module.text.swap(found[0], code))
 
 
 def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
@@ -471,6 +493,22 @@ KINDS = (
             example(
                 "counter_constant",
                 Replace(NODE, "        self.counter_ += 1\n", ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "counter_multiplied",
+        "counter",
+        msg("The counter is multiplied"),
+        msg("x *= 2 doubles x. A counter that starts at 0 stays at 0."),
+        msg("Write {name} += {step}"),
+        behind={"run.constant_counter": _multiplied},
+        fixed_by=(_added_instead,),
+        examples=(
+            example(
+                "counter_doubled",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ *= 2"),
                 fails="run.output",
             ),
         ),
