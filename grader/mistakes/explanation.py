@@ -16,7 +16,7 @@ from grader.base.shown import shown
 from grader.base.stream import takes_styles, width_of
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.examples import example_values, lesson_values
+from grader.mistakes.example_values import example_values, lesson_values
 from grader.mistakes.from_terminal import seen_in
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
