@@ -17,7 +17,8 @@ BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 # the tests whose verdicts are from recorded evidence
 RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py \
-  tests/batch/test_grade_all.py tests/batch/test_language.py
+  tests/batch/test_grade_all.py tests/batch/test_language.py tests/test_cli.py \
+  tests/test_another_course.py tests/test_weather_course.py tests/gradebook/test_gradescope_run.py
 GRADER := .venv/bin/python -m grader
 OPTIONS := $${ASSIGNMENT:+--assignment "$$ASSIGNMENT"} $${DISTRO:+--distro "$$DISTRO"} \
   $${SANDBOX:+--sandbox "$$SANDBOX"}

@@ -170,10 +170,10 @@ def test_unread_stderr_does_not_block_a_pipe(sandbox: Sandbox) -> None:
     pipe.finish(1)
 
 
-@pytest.mark.parametrize("status", [0, 1, 2, 125, 126, 127, 128, 130, 137, 143, 250, 251, 254, 255])
-def test_the_status_is_the_commands_own(sandbox: Sandbox, status: int) -> None:
-    outcome = sandbox.run(["sh", "-c", f"echo said; exit {status}"], seconds=20)
-    assert (outcome.status, outcome.output, outcome.stopped_by) == (status, b"said\n", "")
+def test_the_status_is_the_commands_own(sandbox: Sandbox) -> None:
+    for status in (0, 1, 2, 125, 126, 127, 128, 130, 137, 143, 250, 251, 254, 255):
+        outcome = sandbox.run(["sh", "-c", f"echo said; exit {status}"], seconds=20)
+        assert (outcome.status, outcome.output, outcome.stopped_by) == (status, b"said\n", "")
 
 
 def test_output_is_cut_while_it_is_read(sandbox: Sandbox) -> None:

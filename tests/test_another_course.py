@@ -97,6 +97,7 @@ def test_an_assignment_may_ask_for_the_output_alone(
     assert "3 / 3" in done.stdout
 
 
+@pytest.mark.full
 def test_the_package_of_the_first_course_does_not_get_full_marks(
     course: Path, tmp_path: Path
 ) -> None:

@@ -8,16 +8,25 @@ import secrets
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from grader.ros.prefix import Ros
+from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
 from grader.sandbox.processes import adopt_orphans
 from tests import processes
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
+
+
+@pytest.fixture(scope="module")
+def sandbox(ros_jazzy: Ros) -> Iterator[Sandbox]:
+    """One sandbox for the contract: its commands end with each test."""
+    with Bubblewrap(ros_jazzy, Limits()) as opened:
+        yield opened
 
 
 def test_closing_ends_every_process_and_removes_the_control_group(ros_jazzy: Ros) -> None:

@@ -155,6 +155,7 @@ def test_a_self_check_finds_the_workspace_in_the_home_folder(tmp_path: Path) -> 
     assert str(tmp_path / "ros2_ws") in done.stderr
 
 
+@pytest.mark.full
 def test_a_self_check_runs_without_a_sandbox_and_says_so(tmp_path: Path) -> None:
     package = solution(tmp_path)
     tools = tmp_path / "tools"

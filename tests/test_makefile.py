@@ -168,6 +168,7 @@ def test_the_course_and_the_language_are_in_the_environment(given: Given, tmp_pa
     assert environment == {**words, "LANG": "ko_KR.UTF-8", "LC_ALL": ""}
 
 
+@pytest.mark.full
 def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     package = weather.write_package(tmp_path, Replace(weather.SETUP, weather.ENTRY, ""))
@@ -176,6 +177,7 @@ def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None
     assert weather.ENTRY in shown
 
 
+@pytest.mark.full
 def test_a_package_can_be_fixed_through_make(tmp_path: Path) -> None:
     package = solution(tmp_path)
     (package / "setup.cfg").unlink()
@@ -210,6 +212,7 @@ def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
     assert "100 / 100" in output
 
 
+@pytest.mark.full
 def test_a_package_in_a_hostile_folder_is_marked(tmp_path: Path) -> None:
     folder = tmp_path / 'it\'s; $(touch HACKED) "100 %"'
     package = solution(folder)

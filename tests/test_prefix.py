@@ -79,15 +79,23 @@ def test_rclpy_makes_a_node_and_python_is_started_once(jazzy_prefix: Path, tmp_p
     assert output.split() == ["a", "False"]
 
 
-def test_the_prefix_has_the_distros_versions(ros_jazzy: Ros, ros_kilted: Ros) -> None:
-    for ros, rclpy in ((ros_jazzy, "7.1.6"), (ros_kilted, "9.1.2")):
-        assert ros.versions["rclpy"] == rclpy == ros.distro.rclpy
-        assert ros.versions["setuptools"] == ros.distro.setuptools
-        code = "import em, setuptools; print(em.__version__, setuptools.__version__)"
-        assert sourced(ros.path, f"python3 -c '{code}'").split() == ["3.3.4", "68.1.2"]
-        messages = "geometry_msgs.msg std_msgs.msg sensor_msgs.msg nav_msgs.msg"
-        imports = "; ".join(f"import {module}" for module in messages.split())
-        assert sourced(ros.path, f"python3 -c '{imports}'") == ""
+def assert_versions(ros: Ros, rclpy: str) -> None:
+    assert ros.versions["rclpy"] == rclpy == ros.distro.rclpy
+    assert ros.versions["setuptools"] == ros.distro.setuptools
+    code = "import em, setuptools; print(em.__version__, setuptools.__version__)"
+    assert sourced(ros.path, f"python3 -c '{code}'").split() == ["3.3.4", "68.1.2"]
+    messages = "geometry_msgs.msg std_msgs.msg sensor_msgs.msg nav_msgs.msg"
+    imports = "; ".join(f"import {module}" for module in messages.split())
+    assert sourced(ros.path, f"python3 -c '{imports}'") == ""
+
+
+def test_the_prefix_has_the_distros_versions(ros_jazzy: Ros) -> None:
+    assert_versions(ros_jazzy, "7.1.6")
+
+
+@pytest.mark.full  # it makes another prefix
+def test_kilteds_prefix_has_the_distros_versions(ros_kilted: Ros) -> None:
+    assert_versions(ros_kilted, "9.1.2")
 
 
 def test_colcon_and_ros2_are_on_the_path(jazzy_prefix: Path) -> None:

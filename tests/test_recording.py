@@ -52,7 +52,7 @@ def test_a_number_that_json_does_not_have_is_refused() -> None:
 
 
 @pytest.mark.prefix
-@pytest.mark.parametrize("name", ["solution", "period_half"])
+@pytest.mark.parametrize("name", ["solution", pytest.param("period_half", marks=pytest.mark.full)])
 def test_a_replay_has_the_report_of_the_real_verdict(name: str, tmp_path: Path) -> None:
     kept: list[Recording] = []
     root = write(PACKAGES[name], tmp_path)

@@ -83,6 +83,6 @@ def test_killing_the_coordinator_loses_no_verdict(ros_jazzy: Ros, tmp_path: Path
     _compare(ros_jazzy, tmp_path, students=3, kills=3, seed=random.randrange(10**6))
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_twenty_kills_at_random_moments_change_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=30, kills=20, seed=random.randrange(10**6))

@@ -35,13 +35,12 @@ def _score(done: Done) -> float:
 
 
 def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
-    names = ["solution", "entry_missing", "text_capital", "solution"]
+    names = ["manifest_empty", "solution", "entry_missing"]
     found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))
     scores = {done.task.student: _score(done) for done in found}
-    assert set(scores) == {"solution-0", "entry_missing-1", "text_capital-2", "solution-3"}
-    assert scores["solution-0"] == scores["solution-3"] == 100
-    assert scores["entry_missing-1"] == 50
-    assert 50 < scores["text_capital-2"] < 100
+    assert set(scores) == {"manifest_empty-0", "solution-1", "entry_missing-2"}
+    assert scores["manifest_empty-0"] < scores["entry_missing-2"] == 50
+    assert scores["solution-1"] == 100
     assert {done.tries for done in found} == {1}
     assert own_workers() == []
 

@@ -29,16 +29,26 @@ def client() -> Iterator[DockerClient]:
     opened.close()
 
 
+def docker_sandbox(limits: Limits) -> Sandbox:
+    """Return a `docker` sandbox on jazzy with given limits."""
+    jazzy = find_distro("jazzy")
+    opened = images.connect()
+    image = images.find_image(opened, jazzy)
+    if image is None:
+        pytest.fail("the tests' images are not here: python -m tests.engine up")
+    return DockerSandbox(opened, image, jazzy, limits)
+
+
 @pytest.fixture
 def make_sandbox() -> Callable[[Limits], Sandbox]:
     """A function that makes a `docker` sandbox on jazzy with given limits."""
-    jazzy = find_distro("jazzy")
+    return docker_sandbox
 
-    def make(limits: Limits) -> Sandbox:
-        opened = images.connect()
-        image = images.find_image(opened, jazzy)
-        if image is None:
-            pytest.fail("the tests' images are not here: python -m tests.engine up")
-        return DockerSandbox(opened, image, jazzy, limits)
 
-    return make
+@pytest.fixture(scope="module")
+def sandbox() -> Iterator[Sandbox]:
+    """One `docker` sandbox for the tests of a module: its commands end with each test."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv(images.REPOSITORY_VARIABLE, engine.REPOSITORY)
+        with docker_sandbox(Limits()) as opened:
+            yield opened

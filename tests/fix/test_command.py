@@ -175,6 +175,7 @@ def test_control_characters_of_a_submission_do_not_reach_the_terminal(tmp_path: 
     assert b"\\x1b]0;title" in shown
 
 
+@pytest.mark.full  # it marks the package for real, twice
 @pytest.mark.prefix
 def test_a_mistake_found_by_a_run_is_fixed_and_run_again(tmp_path: Path) -> None:
     root = edited(

@@ -29,7 +29,7 @@ from grader.ros.prefix import Ros
 from grader.validate.tree import Replace
 from grader.verdict.mark import grade
 from grader.verdict.order import Order, make_orders
-from tests import processes, weather
+from tests import processes, recorded, weather
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.gradebook.schemas import GRADESCOPE
@@ -165,6 +165,7 @@ def test_results_are_complete_after_each_check(
         assert started["score"] == 0, "it is there before the first check"
         return grade(order, listener)
 
+    monkeypatch.setattr("grader.verdict.mark.mark", recorded.mark_submission)
     monkeypatch.setattr(gradescope_run, "grade", watched)
     assert gradescope_run.run(tmp_path, sandbox="bubblewrap") == 0
     final = json.loads((tmp_path / "results/results.json").read_text())

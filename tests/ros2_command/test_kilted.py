@@ -16,6 +16,7 @@ from tests.processes import wait_until_asleep
 
 from .surroundings import Surroundings, files
 
+pytestmark = pytest.mark.full  # it makes another prefix
 CREATE = ("pkg", "create", "--build-type", "ament_python", "my_robot_controller")
 # Prints each SIGINT and SIGTERM, and ends at SIGTERM
 LISTENER = f"""\

@@ -68,6 +68,7 @@ def test_static_checks_decide_as_many_mutants_of_another_package(course: Path, k
     assert {"no_marker", "delete turtle_counter/ticker.py", "entry letter added to name"} <= names
 
 
+@pytest.mark.full
 def test_its_node_is_run(course: Path, keys: Path) -> None:
     matrix = matrix_of(course, keys, "--only", "other_text")
     (row,) = matrix["rows"]

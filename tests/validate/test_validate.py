@@ -27,9 +27,8 @@ mutants:
 """
 
 
-def validate(*words: str | Path, timeout: float = 120) -> tuple[int, str, str]:
-    # a forked command's processor time would not be that of our children
-    done = processes.run(processes.grader("validate", *words), timeout=timeout, forked=False)
+def validate(*words: str | Path, timeout: float = 120, forked: bool = True) -> tuple[int, str, str]:
+    done = processes.run(processes.grader("validate", *words), timeout=timeout, forked=forked)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -50,7 +49,8 @@ def test_all_static_mutants_fail_the_expected_checks_for_the_expected_reason(
     tmp_path: Path,
 ) -> None:
     before = processor_seconds()
-    status, shown, errors = validate("hello_time", "--static", "--json", tmp_path / "m.json")
+    words = ("hello_time", "--static", "--json", tmp_path / "m.json")
+    status, shown, errors = validate(*words, forked=False)  # a child of ours, for its time
     assert processor_seconds() - before < QUICK
     assert status == 0, shown[-2000:] + errors
     figures = json.loads((tmp_path / "m.json").read_text())["figures"]
@@ -76,6 +76,7 @@ def test_a_mutant_that_must_run_fails_the_expected_check(name: str, tmp_path: Pa
     assert "100 of 100" in shown
 
 
+@pytest.mark.full
 def test_a_surviving_mutant_is_reported(tmp_path: Path) -> None:
     harmless = CHECKED + "      - {write: README.md, text: hello}\n"
     found = keys(tmp_path, harmless)
@@ -103,6 +104,7 @@ def test_another_mistake_than_the_named_one_is_reported(tmp_path: Path) -> None:
     assert "mine: the first mistake is source.not_executable, not source.crlf" in shown
 
 
+@pytest.mark.full
 def test_a_solution_without_full_marks_is_reported(tmp_path: Path) -> None:
     mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
     found = keys(tmp_path, CHECKED + mode)
