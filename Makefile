@@ -15,6 +15,12 @@ $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval overri
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # one process more than cores: a node under observation leaves them mostly idle
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
+# those that keep every core busy run after the others (PYTEST_ARGS chooses a part: all at once)
+ALONE := .venv/bin/python -m pytest -q -p no:xdist tests/test_load.py
+define run_tests
+if [ -n "$${PYTEST_ARGS:-}" ]; then $(PYTEST) -m "$(1)" $${PYTEST_ARGS}; \
+  else $(PYTEST) -m "($(1)) and not alone" && $(ALONE) -m "$(1)"; fi
+endef
 # the tests whose verdicts are from recorded evidence
 RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py \
   tests/batch/test_grade_all.py tests/batch/test_language.py tests/test_cli.py \
@@ -93,16 +99,16 @@ test-all:  ## Run all tests (as root: installs and starts Docker if it is missin
 	@$(MAKE) --no-print-directory test
 	@if [ "$${GRADER_TESTS_WITHOUT_DOCKER:-}" = 1 ]; then \
 	  echo "make test-all: GRADER_TESTS_WITHOUT_DOCKER=1: the tests that need Docker are skipped" >&2; \
-	  $(PYTEST) -m "full and not docker and not long" $${PYTEST_ARGS}; \
+	  $(call run_tests,full and not docker and not long); \
 	else \
 	  trap '.venv/bin/python -m tests.engine down' EXIT; \
-	  .venv/bin/python -m tests.engine up && $(PYTEST) -m "(full or docker) and not long" $${PYTEST_ARGS}; \
+	  .venv/bin/python -m tests.engine up && { $(call run_tests,(full or docker) and not long); }; \
 	fi
 
 test-long:  ## Run what counts in dozens: every package for real, attacks, kills (as root; part: PYTEST_ARGS=path)
 	@$(BOOTSTRAP) --tests
 	@trap '.venv/bin/python -m tests.engine down' EXIT; \
-	  .venv/bin/python -m tests.engine up all && $(PYTEST) -m long $${PYTEST_ARGS} && \
+	  .venv/bin/python -m tests.engine up all && { $(call run_tests,long); } && \
 	  GRADER_TESTS_EVIDENCE=real $(PYTEST) $(RECORDED)
 
 recordings:  ## Record the evidence of the tests' packages anew (a quarter of an hour)

@@ -14,6 +14,7 @@ from tests.corpus.build import write
 from tests.corpus.right import RIGHT
 from tests.marking import mark, outcomes, summary
 
+pytestmark = pytest.mark.alone
 TIMES = 30
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import grader
+from grader import bootstrap
 from tests import processes
 
 
@@ -89,6 +90,17 @@ def test_the_versions_agree() -> None:
     setup = (processes.ROOT / "setup.py").read_text()
     assert f"<version>{grader.__version__}</version>" in manifest
     assert f'version="{grader.__version__}"' in setup
+
+
+def test_the_lock_files_list_everything_that_is_needed() -> None:
+    """The environment is made without dependencies that they do not list (bootstrap.py)."""
+    done = processes.run([sys.executable, "-m", "pip", "check"])
+    assert done.returncode == 0, done.stdout
+    for lock in ("grader/requirements.txt", "tests/requirements.txt"):
+        first, *hashes = bootstrap.requirement("pip", str(processes.ROOT / lock)).splitlines()
+        assert first.startswith("pip==")
+        assert hashes
+        assert all(line.strip().startswith("--hash=sha256:") for line in hashes)
 
 
 def test_grader_never_imports_lab() -> None:

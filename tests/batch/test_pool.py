@@ -35,12 +35,10 @@ def _score(done: Done) -> float:
 
 
 def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
-    names = ["manifest_empty", "solution", "entry_missing"]
+    names = ["empty_folder", "solution", "entry_missing"]
     found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))
     scores = {done.task.student: _score(done) for done in found}
-    assert set(scores) == {"manifest_empty-0", "solution-1", "entry_missing-2"}
-    assert scores["manifest_empty-0"] < scores["entry_missing-2"] == 50
-    assert scores["solution-1"] == 100
+    assert scores == {"empty_folder-0": 0, "solution-1": 100, "entry_missing-2": 45}
     assert {done.tries for done in found} == {1}
     assert own_workers() == []
 
