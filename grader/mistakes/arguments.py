@@ -90,7 +90,7 @@ KINDS = (
                 "the node its name."
             )
         },
-        seen=rf"AttributeError: module 'rclpy' has no attribute '(?P<name>{'|'.join(ROS_1)})'",
+        seen=r"AttributeError: module 'rclpy' has no attribute '(?P<name>loginfo)'",
         raised={r"module 'rclpy' has no attribute '(?P<name>\w{1,120})'": _ros_1},
         fixed_by=(node_arguments.ros_2_log, node_arguments.without_init_node),
         examples=(
