@@ -90,6 +90,18 @@ SIGNS = [
     ("if a = 1:\n    b = 2\n", "one_equals", 1, "if a == 1:\n    b = 2\n"),
     ("if a:\nb = 1\n", "not_indented", 2, ""),
     ("def f():\na = 1\n    b = 2\n", "not_indented", 2, "def f():\n    a = 1\n    b = 2\n"),
+    (
+        "try:\na = 1\nexcept KeyError:\n    pass\n",
+        "not_indented",
+        2,
+        "try:\n    a = 1\nexcept KeyError:\n    pass\n",
+    ),
+    (
+        'def f():\n    """Text.""\n    a = 1\n',
+        "text_without_end",
+        2,
+        'def f():\n    """Text."""\n    a = 1\n',
+    ),
     ("class A:\n    def f(self):\n\n    def g(self):\n        pass\n", "block_empty", 2, ""),
     (
         "def f():\n    a = 1\nb = 2\n    c = 3\n    d = 4\n",

@@ -16,6 +16,7 @@ FUNCTION = re.compile(
 WORD = re.compile(
     rf"[ \t]*(?P<word>(?i:{BLOCK}|import|from|return|pass|break|continue|raise|global))\b"
 )
+CLAUSE = re.compile(r"[ \t]*(?:except|finally|else|elif)\b")
 AFTER_COLON = re.compile(r"expected an indented block after .{0,60} on line (?P<line>\d{1,6})")
 TRIPLE = re.compile(r"\"\"\"|'''")
 EQUALS = re.compile(r"(?<![=!<>:+*/%-])=(?!=)")
@@ -114,9 +115,15 @@ def _not_indented(text: Broken) -> Slip | None:
     own = len(indent_of(text.source.line(text.number)))
     if own < width or re.match(r"[ \t]*(?:def|class|@|async|else|elif|except|finally)", text.line):
         return Slip("signs", "block_empty", head, text.source.line(head).strip(), other=text.number)
-    alone = own == width and _next_indent(text) > own
+    alone = own == width and (_next_indent(text) > own or _ends_after(text))
     new = text.changed(text.within(0, 0, " " * 4)) if alone else None
     return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+def _ends_after(text: Broken) -> bool:
+    """Whether the next line with code belongs to the statement around, e.g. `except`."""
+    rest = (text.code.line(n) for n in range(text.number + 1, len(text.code.lines) + 1))
+    return CLAUSE.match(next((line for line in rest if line.strip()), "")) is not None
 
 
 def _line_above(text: Broken) -> Slip | None:
@@ -159,9 +166,8 @@ def _without_end(text: Broken) -> Slip | None:
         for number in range(first, min(first + LONGEST_TEXT, last)):
             tries += 1
             at = text.source.end_of(number)
-            row = text.source.text[:at].rstrip(" \t")
-            bare = row.rstrip(quotes[0]) if number > first else row
-            new = text.source.spliced([Splice(len(bare), at, quotes)])
+            inside = text.source.text[start + 3 : at].rstrip(" \t").rstrip(quotes[0])
+            new = text.source.spliced([Splice(start + 3 + len(inside), at, quotes)])
             if new is not None and _is_read(new):
                 shown = text.source.line(first).strip()
                 return Slip("signs", "text_without_end", first, shown, quotes, new)
