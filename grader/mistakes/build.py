@@ -90,6 +90,10 @@ KINDS = (
             **dict.fromkeys(SIGNS, UNREADABLE),
         },
         fixes={
+            "comma": msg(
+                "Write a comma at the end of line {line}: without it, Python calls what that line "
+                "contains."
+            ),
             "unreadable": msg(
                 "Fix that line of setup.py, then build again. Often a comma, a "
                 "quote or a bracket is missing in the line above."
@@ -102,9 +106,15 @@ KINDS = (
         fixed_by=(
             syntax.setup_py,
             setup_py.setuptools,
+            setup_py.comma,
             setup_py.names,
         ),
         examples=(
+            example(
+                "comma_between_tuples_missing",
+                Replace(SETUP, "['resource/' + package_name]),", "['resource/' + package_name])"),
+                fails="build.colcon",
+            ),
             example(
                 "setup_syntax_error",
                 Replace(SETUP, "    version='0.0.0',", "    version='0.0.0'"),

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from grader.mistakes import (
+    arguments,
     build,
     callback,
+    classes,
     counter,
     entry_points,
     hidden,
@@ -24,6 +26,7 @@ from grader.mistakes import (
     submission,
     terminal,
     timer,
+    values,
 )
 from grader.mistakes.example import Example
 from grader.mistakes.fixes.case import Finding, Fix
@@ -41,6 +44,9 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             entry_points,
             other_language,
             scope,
+            classes,
+            arguments,
+            values,
             order,
             node_start,
             timer,

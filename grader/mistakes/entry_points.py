@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import SETUP, UNBUILT, UNINSTALLED, UNSTARTED, example
-from grader.mistakes.fixes import entries, layout
+from grader.mistakes.fixes import entries, layout, setup_py
 from grader.mistakes.kind import Kind, Parts
 from grader.package.edit.tree import Delete, Replace, Write
 
@@ -538,7 +538,14 @@ KINDS = (
         ),
         fix=msg("Write packages=find_packages(exclude=['test']), in setup(), then build again."),
         link=links.DEVELOPING,
-        fixed_by=(layout.init_file,),
+        fixed_by=(layout.init_file, setup_py.packages),
+        examples=(
+            example(
+                "packages_name_the_file",
+                Replace(SETUP, "find_packages(exclude=['test'])", "['my_first_node']"),
+                fails="build.colcon",
+            ),
+        ),
     ),
     Kind(
         id="entry_point.computed_mapping",

@@ -118,12 +118,25 @@ KINDS = (
         title=msg("The node's file is in another folder"),
         why=PLACE,
         fix=msg("Move it into the inner folder: its path in the package must be {wanted}."),
+        fixes={
+            "init": msg(
+                "Move the code from {init} into a new file {wanted}, and leave __init__.py empty."
+            )
+        },
         link=links.PACKAGE,
         fixed_by=(
             layout.inner_folder,
             layout.node_file,
+            layout.out_of_init,
         ),
         examples=(
+            example(
+                "node_in_init",
+                Delete(INIT),
+                Move(NODE, INIT),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+            ),
             example(
                 "node_in_package_root",
                 Move(NODE, "my_first_node.py"),
@@ -181,6 +194,7 @@ KINDS = (
             "Without it, nothing in the folder is installed."
         ),
         fix=msg("Create the empty file: touch {path}"),
+        fixes={"misnamed": msg("Rename it to __init__.py: mv {there} {path}")},
         link=links.PACKAGE,
         fixed_by=(layout.init_file,),
         examples=(
@@ -189,6 +203,11 @@ KINDS = (
                 Delete(INIT),
                 fails="run.starts",
                 note="find_packages finds nothing; builds, then fails with ModuleNotFoundError",
+            ),
+            example(
+                "init_with_single_underscores",
+                Move(INIT, f"{INNER}/_init_.py"),
+                fails="run.starts",
             ),
         ),
     ),
@@ -360,6 +379,18 @@ KINDS = (
                 blocks=UNSTARTED,
             ),
             example(
+                "class_with_capital",
+                Replace(NODE, "class MyFirstNode", "Class MyFirstNode"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "arrow_after_call",
+                Replace(NODE, "self.get_logger().info", "self.get_logger()->info"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "typed_variable",
                 Replace(
                     NODE,
@@ -431,6 +462,36 @@ KINDS = (
                 Replace(
                     NODE, "super().__init__('my_first_node')", "super().__init__('my_first_node)"
                 ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "bracket_too_many",
+                Replace(NODE, "str(self.counter_))", "str(self.counter_)))"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "colon_after_super",
+                Replace(NODE, "__init__('my_first_node')", "__init__('my_first_node'):"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "one_equals_sign",
+                Replace(NODE, "__name__ == '", "__name__ = '"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "body_not_indented",
+                Replace(NODE, "    rclpy.init(args=args)\n", "rclpy.init(args=args)\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "docstring_not_closed",
+                Replace(NODE, 'the node spins."""', "the node spins."),
                 fails="source.node_file",
                 blocks=UNSTARTED,
             ),

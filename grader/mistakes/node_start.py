@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import sys
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
@@ -26,6 +27,12 @@ MODULES = (
 )
 OTHER_CLIENTS = ("rclcpp", "rospy", "roscpp", "ros2", "ros", "ros2py", "rclpy2")
 """Names under which beginners look for the Python client library: those of C++ and of ROS 1."""
+OTHER_PACKAGES = (
+    *("turtlesim", "turtlesim_msgs", "nav_msgs", "tf2_ros", "tf2_msgs", "visualization_msgs"),
+    *("trajectory_msgs", "shape_msgs", "stereo_msgs", "diagnostic_msgs", "example_interfaces"),
+    *("action_msgs", "std_srvs", "cv_bridge", "cv2", "tf_transformations", "nav2_msgs"),
+)
+"""Packages that exist, but may not be installed: their names are not misspelt."""
 RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_node", "logging")
 IMPORTS = {
     "Node": "from rclpy.node import Node",
@@ -78,10 +85,14 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
+    unused = node_names.unused_import(raised.module, raised.line)
     close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
+    if head in OTHER_PACKAGES:
+        close = ""
     if head in OTHER_CLIENTS:
-        close = f"rclpy{dot}{tail}"
-    return raised.finding("import_misspelt", name=name, close=close)
+        close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
+    found = raised.finding("import_misspelt", name=name, close=close)
+    return replace(found, variant="unused") if unused and not close else found
 
 
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -316,10 +327,25 @@ KINDS = (
         ),
         links.PYTHON_ERRORS,
         close=CLOSE,
+        fixes={
+            "unused": msg("Delete this line: {name} is not installed here, and no line uses it.")
+        },
         seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
-        fixed_by=(node_names.rclpy, rename.imported),
+        fixed_by=(node_names.without_unused, node_names.rclpy, rename.imported),
         examples=(
+            example(
+                "import_of_other_lesson",
+                Replace(
+                    NODE, "import rclpy\nfrom", "import rclpy\nfrom turtlesim.msg import Pose\nfrom"
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_ros_1",
+                Replace(NODE, "import rclpy\nfrom", "import rclpy\nimport rospy\nfrom"),
+                fails="run.starts",
+            ),
             example(
                 "import_of_cpp_client",
                 Replace(NODE, "import rclpy\nfrom rclpy.node", "import rclcpp\nfrom rclcpp.node"),

@@ -563,6 +563,7 @@ KINDS = (
         fix=msg("Write {key}={wanted}"),
         fixes={
             "key": msg("Write below [{section}]: {key}={wanted}"),
+            "heading": msg("Write [{section}] instead of [{close}]."),
             "section": msg("Add two lines: [{section}] and below it {key}={wanted}"),
         },
         link=links.DEVELOPING,
@@ -596,6 +597,11 @@ KINDS = (
                 Write(CFG, "[develop]\nscript_dir=$base/lib/my_robot_controller\n"),
                 fails="package.setup_cfg",
                 note="works with --symlink-install; without, the script lands in bin",
+            ),
+            example(
+                "setup_cfg_heading",
+                Replace(CFG, "[install]", "[instal]"),
+                fails="package.setup_cfg",
             ),
             example(
                 "setup_cfg_bin",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.shown import shown
+from grader.package.source.broken_python import Slip
 from grader.package.source.pasted import Pasted
-from grader.package.source.slips import Slip
 
 WEB = msg(
     "A web page or a document shows code with its own quotes, spaces and labels. If they are copied "
@@ -40,6 +40,7 @@ LANGUAGE = {
     "compare": msg("Python compares with == and !=. Write: {wanted}"),
     "operator": msg("Python has the words and, or, not instead of &&, ||, !. Write: {wanted}"),
     "elif": msg("Python has the word elif. Write: {wanted}"),
+    "capital": msg("The words of Python are written in small letters. Write: {wanted}"),
     "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
     "function": msg("A function begins with def in Python. Write: {wanted}"),
     "new": msg("Python has no new: to make an object, call its class. Write: {wanted}"),
@@ -59,6 +60,32 @@ SIGNS = {
         "In a call, write name=value: '=' between the two, and no quotes around the name."
     ),
     "quote": msg("Add the missing quote: a text begins and ends with the same quote, on one line."),
+    "bracket_extra": msg("Remove one {wanted}: the line closes more brackets than are open."),
+    "bracket_alone": msg(
+        "No bracket is open that this {wanted} closes: remove it, or write the bracket that it "
+        "closes."
+    ),
+    "colon_extra": msg(
+        "Remove the colon at the end of that line: only lines that begin a block, such as def, if "
+        "or try, end with one."
+    ),
+    "def_missing": msg("A function begins with def. Write: {wanted}"),
+    "one_equals": msg("One = assigns a value; two compare. Write: {wanted}"),
+    "not_indented": msg(
+        "Line {line} ends with a colon, so its block comes next: indent this line, and the other "
+        "lines of the block, by 4 spaces more than line {line}."
+    ),
+    "block_empty": msg(
+        "This line ends with a colon, but line {line} is not in its block. Write the lines of the "
+        "block below this line, indented by 4 spaces."
+    ),
+    "line_above": msg(
+        "Indent this line as far as line {line}: the lines of one block begin in the same column."
+    ),
+    "text_without_end": msg(
+        "A text in three quotes begins in this line and has no end. Write {wanted} where the text "
+        "ends."
+    ),
 }
 KINDS = {"pasted": "source.pasted", "language": "source.other_language"}
 """The mistakes of the node's file by the cause of a slip; the others are syntax errors."""
@@ -67,7 +94,8 @@ KINDS = {"pasted": "source.pasted", "language": "source.other_language"}
 def words_of(slip: Slip | Pasted) -> dict[str, str]:
     """Return the values of the placeholders in the texts above."""
     wanted = slip.wanted if isinstance(slip, Slip) else ""
-    return {"found": shown(slip.found), "wanted": shown(wanted)}
+    line = str(slip.other) if isinstance(slip, Slip) else ""
+    return {"found": shown(slip.found), "wanted": shown(wanted), "line": line}
 
 
 def description(slip: Slip | Pasted) -> Message:

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message, joined, say
-from grader.base.nearest import compared, meant
+from grader.base.nearest import compared, meant, nearest
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import raised_in
+from grader.verdict.checks.parsed import names_in
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
 
@@ -104,10 +105,21 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
         return None
     init = f"{package}/__init__.py"
     if evidence.submission.file(init) is None:
-        return RecognisedMistake(
-            kind="source.no_init_file", words={"path": init}, where=Where(file=init)
-        )
+        return _no_init(package, init, evidence)
     return RecognisedMistake(kind="setup.not_packaged", where=Where(file="setup.py"))
+
+
+def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:
+    """Return that there is no __init__.py, with the file that has nearly this name."""
+    close = nearest("__init__.py", names_in(evidence, package), cutoff=0.75)
+    there = f"{package}/{shown(close)}"
+    return RecognisedMistake(
+        kind="source.no_init_file",
+        params={"there": there} if close else {},
+        words={"path": init, "there": there},
+        variant="misnamed" if close else "",
+        where=Where(file=there if close else init),
+    )
 
 
 def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:

@@ -25,7 +25,13 @@ BACK_TO_SOLUTION = (
     *("sum_not_kept", "compared_instead_of_set", "definition_misspelt", "logged_once"),
     *("log_throttled", "log_skips_first", "import_of_cpp_client", "module_of_rclpy_misspelt"),
     *("import_in_lower_case", "import_of_misspelt_name", "super_with_self"),
-    *("super_with_self_alone", "counter_of_other_name"),
+    *("super_with_self_alone", "interrupt_misspelt", "counter_of_other_name"),
+    *("node_for_self", "base_class_called", "callback_of_the_class", "plain_node"),
+    *("lambda_without_call", "loginfo_of_ros_1", "init_node_of_ros_1", "decimal_comma"),
+    *("third_argument_of_timer", "keyword_of_timer", "print_argument", "counter_is_text"),
+    *("import_of_other_lesson", "import_of_ros_1", "class_with_capital", "arrow_after_call"),
+    *("bracket_too_many", "colon_after_super", "one_equals_sign", "body_not_indented"),
+    *("docstring_not_closed", "node_in_init", "comma_between_tuples_missing"),
 )
 OTHERWISE = {
     "spin_before_node": "    node = MyFirstNode()\n    rclpy.spin(node)\n",
@@ -39,6 +45,7 @@ OTHERWISE = {
     "format_forgotten": "'Hello time: {}'.format(self.counter_))",
     "logger_with_value": "'Hello time: %d' % self.counter_)",
     "counter_not_declared": "        global counter\n        self.get_logger()",
+    "variable_named_str": "str_ = 'Hello time: '\n        self.get_logger().info(str_ + str(",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
 # Only the student knows what these should be.
@@ -51,6 +58,7 @@ NOT_FIXED = (
         "to_string",
         "none_called",
     ),
+    *("init_defined_twice", "callback_defined_twice", "init_twice_without_counter"),
 )
 
 

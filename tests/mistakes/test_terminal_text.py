@@ -142,6 +142,7 @@ SHOWN = {
         "TypeError: float() argument must be a string or a real number, not 'method'"
     ],
     "node.period_text": ["ValueError: could not convert string to float: '1.0s'"],
+    "node.ros_1": ["AttributeError: module 'rclpy' has no attribute 'loginfo'"],
     "node.logger_not_called": ["AttributeError: 'function' object has no attribute 'info'"],
     "node.logger_arguments": [
         "TypeError: RcutilsLogger.info() takes 2 positional arguments but 3 were given"

@@ -50,6 +50,16 @@ def node_file(case: Case) -> Files | None:
     return case.files.with_move(path, case.node_path)
 
 
+def out_of_init(case: Case) -> Files | None:
+    """Move the node from __init__.py into its own file, and leave __init__.py empty."""
+    init = f"{case.assignment.folder}/__init__.py"
+    if case.finding.params.get("path") != init or case.node_path in case.files.by_path:
+        return None
+    if case.files.file(init) is None:
+        return None
+    return case.files.with_move(init, case.node_path).with_data(init, b"")
+
+
 def _only_one_named(files: Files, name: str) -> str | None:
     found = [path for path in files.by_path if path.rpartition("/")[2] == name]
     return found[0] if len(found) == 1 and files.file(found[0]) is not None else None
@@ -68,6 +78,9 @@ def init_file(case: Case) -> Files | None:
     path = f"{case.package}/__init__.py"
     if path in case.files.by_path or case.files.file(case.node_path) is None:
         return None
+    there = str(case.finding.params.get("there", ""))
+    if case.files.file(there) is not None:
+        return case.files.with_move(there, path)
     return case.with_data(path, b"")
 
 

@@ -27,6 +27,31 @@ def rclpy(case: Case) -> Files | None:
     return None
 
 
+def unused_import(module: Module, line: int | None) -> ast.Import | ast.ImportFrom | None:
+    """Return the import on a line, if it is alone there and no line uses what it imports."""
+    found = [s for s in module.nodes if isinstance(s, IMPORT) and s.lineno == line]
+    if len(found) != 1 or "*" in (bound := _bound(found[0])):
+        return None
+    used = {n.id for n in module.nodes if isinstance(n, ast.Name)}
+    alone = module.line(line) == module.text.code(found[0])
+    return None if used & bound or not alone else found[0]
+
+
+def _bound(statement: ast.Import | ast.ImportFrom) -> set[str]:
+    return {alias.asname or alias.name.partition(".")[0] for alias in statement.names}
+
+
+def without_unused(case: Case) -> Files | None:
+    """Delete an import that nothing uses, of a module that is not there."""
+    module, line = case.module, case.finding.line
+    found = unused_import(module, line) if module is not None else None
+    if module is None or found is None or line is None or case.finding.params.get("close"):
+        return None
+    if found not in module.tree.body:
+        return None
+    return case.changed(module, module.text.without(line))
+
+
 def missing_import(case: Case) -> Files | None:
     """Add the missing import below the imports at the top of the file."""
     module = case.module

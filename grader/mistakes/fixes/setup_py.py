@@ -9,8 +9,8 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
-from grader.package.source.python import can_parse
+from grader.package.edit.text import Splice, read_source
+from grader.package.source.python import PythonFault, can_parse, parse_python
 from grader.package.source.setup_py import INDEX
 
 IMPORTS = ast.Import | ast.ImportFrom
@@ -30,6 +30,42 @@ def name(case: Case) -> Files | None:
     if setup is None or literal is None or literal.value == case.package:
         return None
     return case.with_data(FILE, setup.source.spliced([setup.text(literal, case.package)]))
+
+
+def called_value(found: bytes) -> ast.expr | None:
+    """Return the first tuple, list or string of a file that is called: a comma is missing."""
+    try:
+        tree = parse_python(found).tree
+    except PythonFault:
+        return None
+    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call)]
+    values = [c.func for c in calls if isinstance(c.func, ast.Tuple | ast.List | ast.Constant)]
+    return min(values, key=lambda n: (n.lineno, n.col_offset), default=None)
+
+
+def comma(case: Case) -> Files | None:
+    """Write the comma that is missing between two values."""
+    found = case.files.data(FILE)
+    value, source = called_value(found or b""), read_source(found)
+    if value is None or source is None:
+        return None
+    at = source.span(value)[1]
+    new = source.spliced([Splice(at, at, ",")])
+    return case.with_data(FILE, new) if new is not None and can_parse(new) else None
+
+
+def packages(case: Case) -> Files | None:
+    """Let find_packages find the package, if setup() lists a folder that does not exist."""
+    setup = read_setup_call(case)
+    listed = setup.argument("packages") if setup else None
+    folder = str(case.finding.params.get("folder", ""))
+    if setup is None or not isinstance(listed, ast.List) or not folder:
+        return None
+    if not re.search(r"^from setuptools import .{0,80}\bfind_packages\b", setup.source.text, re.M):
+        return None
+    q = setup.source.quote
+    swap = setup.source.swap(listed, f"find_packages(exclude=[{q}test{q}])")
+    return case.with_data(FILE, setup.source.spliced([swap]))
 
 
 def marker(case: Case) -> Files | None:

@@ -9,100 +9,31 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from grader.package.edit.text import SourceText, Splice, read_source
+from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip, fault_of
 from grader.package.source.code_only import code_only
 from grader.package.source.pasted import cleaned, pasted_in
-from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.slip_blocks import BLOCK_LOOKS
 
-Cause = Literal["pasted", "language", "signs"]
 TYPES = (
     "int|float|double|bool|boolean|string|String|var|let|const|auto|char|long|size_t|std::string"
 )
-BLOCK = "def|class|if|elif|else|for|while|try|except|finally|with"
 HEAD = re.compile(
     rf"^[ \t]*(?:{BLOCK})\b[^\r\n{{}}]*?(?P<brace>[ \t]{{0,9}}:?[ \t]{{0,9}}\{{)[ \t]{{0,9}}$", re.M
 )
 CLOSER = re.compile(r"^[ \t]{0,80}\}[ \t]{0,9};?[ \t]{0,9}$", re.M)
-MOST_TRIES = 8
-"""How many places of a file are tried for one kind of slip."""
 MOST_BLOCKS = 50
-LONGEST = 500
-"""Characters of a line that is examined: some patterns take quadratic time."""
-
-
-@dataclass(frozen=True)
-class Slip:
-    """A slip: its cause and variant, its line, what is written, and the line as it should be.
-
-    `fixed` is the file after the change; None if more than one change is possible. Python may stop
-    at another line of it.
-    """
-
-    cause: Cause
-    variant: str
-    line: int
-    found: str
-    wanted: str = ""
-    fixed: bytes | None = None
 
 
 def slip_of(found: bytes) -> Slip | None:
     """Return the slip at which Python stops reading a file; None if none is recognised."""
-    source, fault = read_source(found), _fault_of(found)
+    source, fault = read_source(found), fault_of(found)
     if source is None or fault is None or fault.line is None:
         return None
     code = SourceText(code_only(source.text), source.encoding)
     text = Broken(source, code, fault, fault.line)
     return _pasted(text) or next(filter(None, (look(text) for look in LOOKS)), None)
-
-
-@dataclass(frozen=True)
-class Broken:
-    """A file that Python cannot read: its text, its code without strings, and the line."""
-
-    source: SourceText
-    code: SourceText
-    fault: PythonFault
-    number: int
-
-    @property
-    def line(self) -> str:
-        """The code of the line at which Python stops."""
-        line = self.code.line(self.number)
-        return line if len(line) <= LONGEST else ""
-
-    def changed(self, *splices: Splice) -> bytes | None:
-        """Return the file after a change if Python then reads further; None if it does not."""
-        new = self.source.spliced(splices)
-        after = _fault_of(new) if new is not None else self.fault
-        if new is None or after is None:
-            return new
-        return new if after.line is not None and after.line > self.number else None
-
-    def within(self, start: int, end: int, new: str) -> Splice:
-        """Return the splice that replaces columns of the line at which Python stops."""
-        begin = self.code.start_of(self.number)
-        return Splice(begin + start, begin + end, new)
-
-    def slip(
-        self, cause: Cause, variant: str, found: str, *splices: Splice, fixed: bytes | None = None
-    ) -> Slip:
-        """Return a slip of the line at which Python stops; `splices` show how it should be."""
-        start, end = self.code.start_of(self.number), self.code.end_of(self.number)
-        wanted = self.source.text[start:end]
-        for splice in sorted(splices, key=lambda s: s.start, reverse=True):
-            wanted = wanted[: splice.start - start] + splice.new + wanted[splice.end - start :]
-        return Slip(cause, variant, self.number, found.strip(), wanted.strip(), fixed)
-
-
-def _fault_of(found: bytes) -> PythonFault | None:
-    try:
-        parse_python(found)
-    except PythonFault as fault:
-        return fault
-    return None
 
 
 def _pasted(text: Broken) -> Slip | None:
@@ -111,7 +42,7 @@ def _pasted(text: Broken) -> Slip | None:
     new = cleaned(text.source, found) if found else None
     if new is None:
         return None
-    after = _fault_of(new)
+    after = fault_of(new)
     gone = sum(p.variant in ("label", "command") and p.line <= text.number for p in found)
     if after is not None and (after.line is None or after.line <= text.number - gone):
         return None
@@ -158,9 +89,10 @@ RULES = (
     _rule("declaration", rf"^(?P<start>[ \t]*)(?:{TYPES})[ \t]+(?=[A-Za-z_][\w.]*[ \t]*=(?!=))",
           r"\g<start>"),
     _rule("function", r"^(?P<start>[ \t]*)(?:(?:public|private|static|async)[ \t]+)?"
-          r"(?:function|func|fn|fun|void|sub)[ \t]+(?=\w+[ \t]*\()", r"\g<start>def "),
+          r"(?:function|func|fn|fun|void|sub|define|defn)[ \t]+(?=\w+[ \t]*\()", r"\g<start>def "),
     _rule("new", r"\bnew[ \t]+(?=[A-Za-z_][\w.]*[ \t]*\()", ""),
     _rule("member", r"(?<=\w)[ \t]*->[ \t]*(?=[A-Za-z_])", "."),
+    _rule("member", r"(?<=[)\]])[ \t]*->[ \t]*(?=[A-Za-z_])", ".", certain=False),
     _rule("member", r"(?<=\w)::(?=[A-Za-z_])", ".", certain=False),
     _rule("except", r"^[ \t]*(?:\}[ \t]*)?catch\b", None),
     _rule("except", r"^(?P<start>[ \t]*)throw\b", r"\g<start>raise"),
@@ -230,7 +162,7 @@ def _braces(text: Broken) -> Slip | None:
     if len(heads) == len(lone):
         removed = [text.source.without(end) for end in ends]
         new = text.source.spliced([*splices, *removed])
-        new = new if new is not None and _fault_of(new) is None else None
+        new = new if new is not None and fault_of(new) is None else None
     if new is None and not at and text.number not in ends:
         return None
     line = text.number if at else _line_at(text.code, heads[0].start("brace"))
@@ -316,12 +248,12 @@ def _quotes(text: Broken) -> Slip | None:
     if PLAIN.fullmatch(rest[:ends].strip(" \t,([{")) is None:
         fits = []
     read = [(splice, new) for splice in fits if (new := text.changed(splice)) is not None]
-    read = [(splice, new) for splice, new in read if _fault_of(new) is None] or read
+    read = [(splice, new) for splice, new in read if fault_of(new) is None] or read
     if len(read) == 1:
         return text.slip("signs", "quote", written, read[0][0], fixed=read[0][1])
     return text.slip("signs", "quote", written)
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _braces, _comment, _commas, _quotes, _keys, _other_sign,
+    _braces, _comment, _commas, _quotes, _keys, *BLOCK_LOOKS, _other_sign,
 )  # fmt: skip

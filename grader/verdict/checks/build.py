@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
+from grader.mistakes.fixes.setup_py import called_value
 from grader.mistakes.slips import description, words_of
 from grader.package.source.pasted import labels_in
 from grader.package.source.slips import slip_of
@@ -17,6 +18,8 @@ from grader.verdict.outcome import Blocked, Failed, Passed
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
+NOT_CALLABLE = re.compile(r"TypeError: '(?:tuple|list|str)' object is not callable")
+NO_FOLDER = re.compile(r"package directory '([^'\n]{1,200})' does not exist")
 NEVER_CALLED = "was never called"
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
@@ -136,12 +139,16 @@ def _broken(evidence: Evidence) -> Failed:
             where=where,
         )
     if error:
+        return _raised(evidence, expected, error, where)
+    folder = NO_FOLDER.search(build.log)
+    if folder is not None:
+        name = shown(folder[1])
         return Failed(
-            "build.setup_error",
+            "setup.not_packaged",
             expected=expected,
-            actual=say("setup.py stopped with {error}", error=error),
-            where=where,
-            params={"error": error},
+            actual=say("setup.py names a folder that is not in the package: {folder}", folder=name),
+            where=Where(file="setup.py"),
+            params={"folder": name},
         )
     ended = say("colcon ended with status {status}", status=str(build.status))
     return Failed(
@@ -149,6 +156,21 @@ def _broken(evidence: Evidence) -> Failed:
         expected=expected,
         actual=_summary(build.log) or ended,
         params={"status": -1 if build.status is None else build.status},
+    )
+
+
+def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
+    """Return the error with which setup.py stopped, or the missing comma that it comes from."""
+    found = called_value(_setup_py(evidence)) if NOT_CALLABLE.match(error) else None
+    line = str(found.end_lineno) if found is not None else ""
+    return Failed(
+        "build.setup_error",
+        expected=expected,
+        actual=say("setup.py stopped with {error}", error=error),
+        where=Where(file="setup.py", line=int(line)) if line else where,
+        variant="comma" if line else "",
+        params={"error": error},
+        words={"line": line},
     )
 
 

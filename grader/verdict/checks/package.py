@@ -192,7 +192,7 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
                 dashed=dashed,
             )
         ]
-    line = cfg.lines.get(section)
+    line, close = cfg.lines.get(section), ""
     if setting is not None:
         line, variant = setting.line, ""
         value = shown(setting.value)
@@ -206,6 +206,8 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         variant, close = "section", nearest(section, cfg.sections)
         said = say("there is no section [{section}]", section=section) + meant(close)
         actual = with_difference(said, close, section)
+        if close and close in cfg.lines:
+            line, variant = cfg.lines[close], "heading"
     raise Failed(
         "package.setup_cfg_wrong",
         expected=expected,
@@ -213,5 +215,5 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         where=Where(file="setup.cfg", line=line),
         variant=variant,
         params={"section": section, "key": key},
-        words={"wanted": wanted},
+        words={"wanted": wanted, "close": shown(close)},
     )

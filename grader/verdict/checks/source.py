@@ -11,9 +11,13 @@ from grader.base.shown import shown
 from grader.mistakes.hints import hints
 from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
+from grader.package.source.broken_python import Slip
+from grader.package.source.module import parse_module
+from grader.package.source.node import MOST_BYTES
+from grader.package.source.node_class import derives_from_node
 from grader.package.source.pasted import Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
-from grader.package.source.slips import Slip, slip_of
+from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
@@ -103,6 +107,17 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             params={"path": place},
             words={"wanted": path},
         )
+    init = f"{inner}/__init__.py"
+    if _has_node(file_of(evidence, init), evidence.assignment.function):
+        raise Failed(
+            "source.misplaced_node_file",
+            expected=expected,
+            actual=say("your node is in {path}", path=init),
+            where=Where(file=init),
+            variant="init",
+            params={"path": init},
+            words={"wanted": path, "init": init},
+        )
     stem = name.removesuffix(".py")
     beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
     close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
@@ -132,6 +147,17 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
         variant="built" if copy else "",
         words={"path": path, "copy": copy},
     )
+
+
+def _has_node(file: SourceFile | None, function: str) -> bool:
+    """Whether a file has a class that derives from a node, or the entry point's function."""
+    if file is None or file.unreadable or len(file.data) > MOST_BYTES:
+        return False
+    try:
+        module = parse_module(file.path, file.data)
+    except (PythonFault, RecursionError, MemoryError):
+        return False
+    return function in module.functions or any(map(derives_from_node, module.classes))
 
 
 def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:

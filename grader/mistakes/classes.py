@@ -1,0 +1,265 @@
+"""Mistakes with classes and their objects: what main makes, what the timer gets, what replaces what."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.fixes import node_classes
+from grader.mistakes.kind import Family
+from grader.mistakes.order import spun_names
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    of_self,
+)
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
+from grader.package.source.module import Function
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.place import function_at
+
+TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
+STEP = "        self.counter_ += 1\n"
+CALLED_ON_CLASS = (
+    r"TypeError: (?P<method>(?:\w{1,120}\.)?\w{1,120})\(\) missing 1 required positional "
+    r"argument: 'self'"
+)
+
+
+def _variable(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A method uses the variable by which main knows the node."""
+    name, source = match["name"], raised.source
+    function = function_at(raised.module, raised.line)
+    if (
+        function is None
+        or function not in source.own_methods
+        or not node_classes.has_self(function)
+    ):
+        return None
+    if name not in {"node", *source.node_variables, *spun_names(source)}:
+        return None
+    return raised.finding("variable_for_self", name=name)
+
+
+def _base_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    for found in raised.module.classes:
+        base = node_classes.called_base(found)
+        if base is not None and raised.line in (found.lineno, base.lineno):
+            name = dotted(base.func)
+            return raised.finding("base_called", at=base, name=found.name, base=name)
+    return None
+
+
+def _of_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The timer calls a method of the class without an object."""
+    for timer in raised.source.timers:
+        written = dotted(timer.callback) if timer.callback is not None else ""
+        head, _, name = written.rpartition(".")
+        if head in raised.source.class_names and last_part(match["method"]) == name:
+            return raised.finding("callback_of_class", at=timer.call, name=written, method=name)
+    return None
+
+
+def _plain(suspect: Suspect) -> RecognisedMistake | None:
+    made = node_classes.plain_node(suspect.source)
+    if made is None or suspect.source.node_class is None:
+        return None
+    name = dotted(made.func)
+    return suspect.finding("plain_node", made, name=name, made=suspect.source.node_class.name)
+
+
+def _not_called(suspect: Suspect) -> RecognisedMistake | None:
+    for timer in suspect.source.timers:
+        body = timer.callback.body if isinstance(timer.callback, ast.Lambda) else None
+        name = dotted(body) if body is not None and not isinstance(body, ast.Call) else ""
+        if last_part(name) in suspect.source.methods:
+            return suspect.finding("lambda_not_called", timer.callback, name=name)
+    return None
+
+
+def _definitions(methods: list[ast.FunctionDef], name: str) -> list[ast.FunctionDef]:
+    return [m for m in methods if m.name == name and not m.decorator_list]
+
+
+def _uses(function: Function) -> set[str]:
+    """Return what a function calls and assigns to."""
+    called = {last_part(name) for _, name in calls_in(function)}
+    return called | {name for node in ast.walk(function) for name in targets_of(node)}
+
+
+def _replaced(suspect: Suspect) -> RecognisedMistake | None:
+    """A second definition of a method lacks what the first one does."""
+    source = suspect.source
+    for name in dict.fromkeys(method.name for method in source.own_methods):
+        found = _definitions(source.own_methods, name)
+        if len(found) > 1 and any(_uses(first) - _uses(found[-1]) for first in found[:-1]):
+            return suspect.finding("method_twice", found[-1], name=name, line=found[-2].lineno)
+    return None
+
+
+def _start_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A second __init__ does not set what the first one sets."""
+    found = _definitions(raised.source.own_methods, "__init__")
+    if len(found) < 2 or not of_self(raised, match):
+        return None
+    written = f"self.{match['name']}"
+    if written in _uses(found[-1]) or written not in set().union(*map(_uses, found)):
+        return None
+    line = str(found[-2].lineno)
+    return raised.finding("method_twice", at=found[-1], name="__init__", line=line)
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "variable_for_self",
+        "class",
+        msg("A method uses a variable of another function instead of self"),
+        msg(
+            "A variable exists only in the function that assigns it. Inside the class, the node "
+            "is self."
+        ),
+        msg("Write self instead of {name}."),
+        raised={NAME_ERROR: _variable},
+        fixed_by=(node_classes.own_object,),
+        examples=(
+            example(
+                "node_for_self",
+                Replace(NODE, TIMER, TIMER.replace("self", "node", 1)),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "base_called",
+        "class",
+        msg("The class inherits from a call instead of a class"),
+        msg(
+            "The brackets of a class line contain the name of the base class. With () after that "
+            "name, Python tries to create a {base} object there."
+        ),
+        msg("Remove the () after {base}: class {name}({base}):"),
+        raised={r"\ATypeError": _base_called},
+        fixed_by=(node_classes.base,),
+        examples=(
+            example(
+                "base_class_called",
+                Replace(NODE, "(Node):", "(Node()):"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_of_class",
+        "timer",
+        msg("create_timer gets the method of the class instead of the node's"),
+        msg(
+            "Through the class, a method does not know which object it belongs to. Through self, "
+            "Python passes self on its own."
+        ),
+        msg("Write self.{method} instead of {name}."),
+        raised={CALLED_ON_CLASS: _of_class},
+        fixed_by=(node_classes.own_callback,),
+        examples=(
+            example(
+                "callback_of_the_class",
+                Replace(NODE, "self.timer_callback)", "MyFirstNode.timer_callback)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "plain_node",
+        "start",
+        msg("The program creates a plain node instead of an object of your class"),
+        msg(
+            "{name}(…) creates a node without the timer and the callback of your class. Python "
+            "runs the code of a class only for its objects."
+        ),
+        msg("Write {made}() instead of {name}(…)."),
+        links.FIRST_NODE,
+        behind={"run.no_lines": _plain},
+        fixed_by=(node_classes.made,),
+        examples=(
+            example(
+                "plain_node",
+                Replace(NODE, "MyFirstNode()", "Node('my_first_node')"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "lambda_not_called",
+        "timer",
+        msg("The lambda does not call the callback"),
+        msg(
+            "The timer calls the lambda. This lambda only returns {name} and does not call it: the "
+            "() is missing."
+        ),
+        msg("Pass the callback itself: write {name} instead of the lambda."),
+        links.FIRST_NODE,
+        behind={"run.no_lines": _not_called},
+        fixed_by=(node_classes.without_lambda,),
+        examples=(
+            example(
+                "lambda_without_call",
+                Replace(NODE, "self.timer_callback)", "lambda: self.timer_callback)"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "method_twice",
+        "class",
+        msg("A method is defined twice"),
+        msg(
+            "A class has one method of each name. The second def {name} replaces the first one, "
+            "which then never runs."
+        ),
+        msg(
+            "Keep one def {name}: move the lines that you need from one to the other (the first is "
+            "in line {line}), and delete the other."
+        ),
+        raised={OWN_ATTRIBUTE: _start_replaced},
+        behind={"run.no_lines": _replaced, "run.constant_counter": _replaced},
+        examples=(
+            example(
+                "init_defined_twice",
+                Replace(
+                    NODE,
+                    TIMER,
+                    f"{TIMER}\n    def __init__(self):\n        super().__init__('my_first_node')\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "callback_defined_twice",
+                Replace(NODE, STEP, f"{STEP}\n    def timer_callback(self):\n        pass\n"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "init_twice_without_counter",
+                Replace(
+                    NODE,
+                    TIMER,
+                    f"{TIMER}\n    def __init__(self):\n        super().__init__('my_first_node')\n{TIMER}",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+)

@@ -1,0 +1,97 @@
+"""Fixes of what the code does with a class instead of its object, or the other way around."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
+from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
+from grader.package.source.node import NodeSource
+
+
+def has_self(function: Function) -> bool:
+    """Return whether the first parameter of a function is self."""
+    return [given.arg for given in function.args.args[:1]] == ["self"]
+
+
+def own_object(case: Case) -> Files | None:
+    """Write self instead of the variable of another function, in all methods."""
+    node, module = case.node, case.module
+    name = str(case.finding.params.get("name", ""))
+    if node is None or module is None or not name:
+        return None
+    inside = [
+        n
+        for method in node.own_methods
+        for n in ast.walk(method)
+        if has_self(method) and isinstance(n, ast.Name) and n.id == name and module.has(n)
+    ]
+    if any(not isinstance(n.ctx, ast.Load) or module.text.code(n) != name for n in inside):
+        return None
+    return case.changed(module, *(module.text.swap(n, "self") for n in inside))
+
+
+def called_base(found: ast.ClassDef) -> ast.Call | None:
+    """Return the base of a class that is a call of a node's class."""
+    calls = [base for base in found.bases if isinstance(base, ast.Call)]
+    return next((call for call in calls if last_part(dotted(call.func)).endswith("Node")), None)
+
+
+def base(case: Case) -> Files | None:
+    """Remove the () after the base class."""
+    module = case.module
+    for found in module.classes if module is not None else ():
+        call = called_base(found)
+        if module is not None and call is not None and not call.args and not call.keywords:
+            start, end = module.text.span(call.func)[1], module.text.span(call)[1]
+            return case.changed(module, Splice(start, end, ""))
+    return None
+
+
+def own_callback(case: Case) -> Files | None:
+    """Pass the method of the node to the timer instead of that of the class."""
+    node = case.node
+    name = case.finding.params.get("name", "")
+    timers = [t for t in node.timers if dotted(t.callback or t.call) == name] if node else []
+    if node is None or len(timers) != 1 or timers[0].function is None:
+        return None
+    callback, module = timers[0].callback, node.module_of(timers[0].call)
+    if callback is None or not has_self(timers[0].function):
+        return None
+    return case.changed(module, module.text.swap(callback, f"self.{timers[0].method}"))
+
+
+def plain_node(source: NodeSource) -> ast.Call | None:
+    """Return where the entry function creates a node of no class, if nothing uses the class."""
+    if source.main is None or source.node_class is None or source.makes_node():
+        return None
+    if not any(isinstance(s, Function) for s in source.class_body):
+        return None
+    calls = source.calls_of("Node", "create_node", within=source.main)
+    return calls[0] if len(calls) == 1 else None
+
+
+def made(case: Case) -> Files | None:
+    """Create an object of the node's class instead of a plain node."""
+    node = case.node
+    call = plain_node(node) if node is not None else None
+    init = node.method("__init__") if node is not None else None
+    if node is None or call is None or init is None or node.node_class is None:
+        return None
+    if len(init.args.args) - len(init.args.defaults) > 1 or node.main not in node.module.tree.body:
+        return None
+    module = node.module_of(call)
+    return case.changed(module, module.text.swap(call, f"{node.node_class.name}()"))
+
+
+def without_lambda(case: Case) -> Files | None:
+    """Pass the callback itself to the timer instead of a lambda that returns it."""
+    node = case.node
+    found = [t.callback for t in node.timers if isinstance(t.callback, ast.Lambda)] if node else []
+    if node is None or len(found) != 1 or found[0] is None or found[0].args.args:
+        return None
+    module = node.module_of(found[0])
+    return case.changed(module, module.text.swap(found[0], module.text.code(found[0].body)))

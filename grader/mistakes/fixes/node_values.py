@@ -1,0 +1,49 @@
+"""Fixes of what a name stands for."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import splices_of
+from grader.package.edit.files import Files
+from grader.package.source.counter import starts_of
+from grader.package.source.module import Module
+
+
+def number_in(start: ast.Constant) -> str:
+    """Return the whole number that is written in quotes; "" if it is none."""
+    value = start.value if isinstance(start.value, str) else ""
+    return str(int(value)) if value.isascii() and value.isdigit() and len(value) < 10 else ""
+
+
+def number(case: Case) -> Files | None:
+    """Let the counter start with the number without quotes."""
+    node = case.node
+    starts = starts_of(node, str) if node is not None else {}
+    start = starts.get(str(case.finding.params.get("name", "")))
+    if node is None or start is None or not number_in(start):
+        return None
+    module = node.module_of(start)
+    return case.changed(module, module.text.swap(start, number_in(start)))
+
+
+def _uses(module: Module, name: str) -> list[ast.Name]:
+    return [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+
+
+def other_name(case: Case) -> Files | None:
+    """Give the variable of a function the name with `_` at its end; calls keep the old name."""
+    node, module = case.node, case.module
+    name = str(case.finding.params.get("name", ""))
+    new = f"{name}_"
+    if node is None or module is None or not name or new in module.names:
+        return None
+    uses = _uses(module, name)
+    called = [use for use in uses if getattr(module.parents.get(use), "func", None) is use]
+    own = [use for use in uses if use not in called]
+    around = {node.function_around(use) for use in own}
+    if len(around) != 1 or None in around or not any(isinstance(n.ctx, ast.Store) for n in own):
+        return None
+    splices = splices_of(module, own, new)
+    return case.changed(module, *splices) if splices else None

@@ -1,0 +1,119 @@
+"""Mistakes in what a name stands for: a number as a string, a variable with the name of a function."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import re
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import node_values
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import starts_of
+from grader.package.source.module import Module
+from grader.package.source.names import dotted
+from grader.package.source.place import function_at, statement_at
+
+LOG = "self.get_logger().info('Hello time: ' + str(self.counter_))"
+ADDED = (
+    r"can only concatenate str \(not \"(?:int|float)\"\) to str"
+    r"|unsupported operand type\(s\) for \+=?: '(?:int|float)' and 'str'"
+)
+
+
+def _start_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line that fails adds to a counter that starts with a number in quotes."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    starts = starts_of(raised.source, str)
+    for part in ast.walk(statement) if statement is not None else ():
+        start = starts.get(dotted(part))
+        if start is not None and node_values.number_in(start):
+            value = node_values.number_in(start)
+            return raised.finding("start_is_text", at=start, name=dotted(part), value=value)
+    return None
+
+
+def _hidden(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line that fails calls one of Python's functions whose name the file uses otherwise."""
+    named = match.groupdict().get("name")
+    statement = statement_at(raised.module, raised.line)
+    for call in ast.walk(statement) if statement is not None else ():
+        name = dotted(call.func) if isinstance(call, ast.Call) else ""
+        if name in dir(builtins) and named in (None, name):
+            at = _assigned(raised, name)
+            if at is not None:
+                return raised.finding("name_hides_function", at=at, name=name)
+    return None
+
+
+def _assigned(raised: Raised, name: str) -> ast.Name | None:
+    """Return where a name gets a value: in the function that fails, else in the module."""
+    module, function = raised.module, function_at(raised.module, raised.line)
+    stores = [n for n in module.nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
+    for scope in (function, None):
+        for found in stores:
+            if found.id != name or raised.source.function_around(found) is not scope:
+                continue
+            if scope is not None or not _in_class(module, found):
+                return found
+    return None
+
+
+def _in_class(module: Module, part: ast.AST) -> bool:
+    return any(isinstance(around, ast.ClassDef) for around in module.around(part))
+
+
+_node = Family("node", links.PYTHON_STRINGS)
+KINDS = (
+    _node(
+        "start_is_text",
+        "counter",
+        msg("The counter starts as a string"),
+        msg("A number in quotes is a string, and Python cannot add a string to a number."),
+        msg("Write {name} = {value}, without quotes."),
+        raised={ADDED: _start_is_text},
+        fixed_by=(node_values.number,),
+        examples=(
+            example(
+                "counter_is_text",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "name_hides_function",
+        "callback",
+        msg("A variable has the name of one of Python's own functions"),
+        msg(
+            "After {name} = … the name {name} means this value, and {name}(…) does not call "
+            "Python's function any more."
+        ),
+        msg("Give the variable another name than {name}."),
+        links.PYTHON_ERRORS,
+        raised={
+            r"TypeError: '\w{1,120}' object is not callable": _hidden,
+            r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _hidden,
+        },
+        fixed_by=(node_values.other_name,),
+        examples=(
+            example(
+                "variable_named_str",
+                Replace(
+                    NODE,
+                    LOG,
+                    "str = 'Hello time: '\n"
+                    "        self.get_logger().info(str + str(self.counter_))",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+)

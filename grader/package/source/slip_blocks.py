@@ -1,0 +1,191 @@
+"""Slips in the form of lines and blocks: brackets, colons, indentation, and texts without an end."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+
+from grader.package.edit.text import Splice, indent_of
+from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip, fault_of
+
+CLOSES = {")": "(", "]": "[", "}": "{"}
+OPENER = re.compile(rf"[ \t]*(?:{BLOCK}|async|match|case)\b")
+FUNCTION = re.compile(
+    r"[ \t]*(?P<name>[a-z_]\w{0,80})[ \t]*\((?:|(?:self|args)\b.*)\)[ \t]*:[ \t]*"
+)
+WORD = re.compile(
+    rf"[ \t]*(?P<word>(?i:{BLOCK}|import|from|return|pass|break|continue|raise|global))\b"
+)
+CLAUSE = re.compile(r"[ \t]*(?:except|finally|else|elif)\b")
+AFTER_COLON = re.compile(r"expected an indented block after .{0,60} on line (?P<line>\d{1,6})")
+TRIPLE = re.compile(r"\"\"\"|'''")
+EQUALS = re.compile(r"(?<![=!<>:+*/%-])=(?!=)")
+LONGEST_TEXT = 4  # lines of a docstring after which its end is looked for
+
+
+def _bracket(text: Broken) -> Slip | None:
+    """Return a closing bracket that closes nothing."""
+    if "unmatched" not in text.fault.text:
+        return None
+    start, end = text.code.start_of(text.number), text.code.end_of(text.number)
+    at = _unmatched(text.code.text[:end])
+    if at is None or at < start:
+        return None
+    sign = text.code.text[at]
+    new = text.changed(Splice(at, at + 1, ""))
+    if new is None:
+        return None
+    double = text.code.text[start:at].rstrip()[-1:] in CLOSES
+    shown = text.source.line(text.number).strip()
+    variant = "bracket_extra" if double else "bracket_alone"
+    return Slip("signs", variant, text.number, shown, sign, new if double else None)
+
+
+def _unmatched(code: str) -> int | None:
+    """Return the place of the first closing bracket that closes no bracket before it."""
+    waiting: list[str] = []
+    for match in re.finditer(r"[()\[\]{}]", code):
+        sign = match[0]
+        if sign not in CLOSES:
+            waiting.append(sign)
+        elif not waiting or waiting.pop() != CLOSES[sign]:
+            return match.start() if not waiting else None
+    return None
+
+
+def _colon(text: Broken) -> Slip | None:
+    """Return a colon after a line that begins no block, or a function without def."""
+    line = text.line
+    ends = len(line.rstrip())
+    if not line.rstrip().endswith(":") or OPENER.match(line):
+        return None
+    if _next_indent(text) > len(indent_of(line)):
+        match = FUNCTION.fullmatch(line)
+        at = match.start("name") if match is not None else 0
+        splice, variant = text.within(at, at, "def "), "def_missing"
+    else:
+        match = FUNCTION.match(line) or re.match("", line)
+        splice, variant = text.within(ends - 1, ends, ""), "colon_extra"
+    new = text.changed(splice) if match is not None else None
+    shown = text.source.line(text.number)
+    return text.slip("signs", variant, shown, splice, fixed=new) if new is not None else None
+
+
+def _next_indent(text: Broken) -> int:
+    """Return the width of the indentation of the next line with code; 0 if there is none."""
+    for number in range(text.number + 1, len(text.code.lines) + 1):
+        if text.code.line(number).strip():
+            return len(indent_of(text.code.line(number)))
+    return 0
+
+
+def _capital(text: Broken) -> Slip | None:
+    """Return a word of Python that is written with capital letters."""
+    match = WORD.match(text.line)
+    if match is None or match["word"].islower():
+        return None
+    splice = text.within(*match.span("word"), match["word"].lower())
+    new = text.changed(splice)
+    return text.slip("language", "capital", match["word"], splice, fixed=new) if new else None
+
+
+def _compare(text: Broken) -> Slip | None:
+    """Return one equals sign where two are needed."""
+    if "'=='" not in text.fault.text:
+        return None
+    for match in list(EQUALS.finditer(text.line))[:MOST_TRIES]:
+        splice = text.within(*match.span(), "==")
+        new = text.changed(splice)
+        if new is not None:
+            return text.slip(
+                "signs", "one_equals", text.source.line(text.number), splice, fixed=new
+            )
+    return None
+
+
+def _not_indented(text: Broken) -> Slip | None:
+    """Return the first line of a block that is not indented, or a block without a line."""
+    match = AFTER_COLON.search(text.fault.text)
+    if match is None or text.fault.kind != "indentation":
+        return None
+    head, shown = int(match["line"]), text.source.line(text.number).strip()
+    if not 0 < head < text.number:
+        return None
+    width = len(indent_of(text.source.line(head)))
+    own = len(indent_of(text.source.line(text.number)))
+    if own < width or re.match(r"[ \t]*(?:def|class|@|async|else|elif|except|finally)", text.line):
+        return Slip("signs", "block_empty", head, text.source.line(head).strip(), other=text.number)
+    alone = own == width and (_next_indent(text) > own or _ends_after(text))
+    new = text.changed(text.within(0, 0, " " * 4)) if alone else None
+    return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+def _ends_after(text: Broken) -> bool:
+    """Whether the next line with code belongs to the statement around, e.g. `except`."""
+    rest = (text.code.line(n) for n in range(text.number + 1, len(text.code.lines) + 1))
+    return CLAUSE.match(next((line for line in rest if line.strip()), "")) is not None
+
+
+def _line_above(text: Broken) -> Slip | None:
+    """Return a line that is indented less than the other lines of its block."""
+    if text.fault.kind != "indentation" or "unexpected indent" not in text.fault.text:
+        return None
+    lines = [n for n in range(1, text.number) if text.code.line(n).strip()]
+    if len(lines) < 2:
+        return None
+    before, above = lines[-2:]
+    wanted, written = indent_of(text.source.line(text.number)), indent_of(text.source.line(above))
+    like_before = indent_of(text.source.line(before)) == wanted
+    if not like_before or _reads(text, text.number, wanted, written):
+        return None
+    start = text.source.start_of(above)
+    new = text.source.spliced([Splice(start, start + len(written), wanted)])
+    if new is None or not _is_read(new):
+        return None
+    shown = text.source.line(above).strip()
+    return Slip("signs", "line_above", above, shown, "", new, other=text.number)
+
+
+def _reads(text: Broken, number: int, old: str, new: str) -> bool:
+    """Whether Python reads the file with another indentation of one line."""
+    start = text.source.start_of(number)
+    changed = text.source.spliced([Splice(start, start + len(old), new)])
+    return changed is not None and _is_read(changed)
+
+
+def _is_read(found: bytes) -> bool:
+    return fault_of(found) is None
+
+
+def _without_end(text: Broken) -> Slip | None:
+    """Return a text in three quotes that has no end, so that the code below it belongs to it."""
+    tries = 0
+    for start, end in _long_texts(text):
+        quotes = text.code.text[start : start + 3]
+        first, last = (text.code.text.count("\n", 0, at) + 1 for at in (start, end))
+        for number in range(first, min(first + LONGEST_TEXT, last)):
+            tries += 1
+            at = text.source.end_of(number)
+            inside = text.source.text[start + 3 : at].rstrip(" \t").rstrip(quotes[0])
+            new = text.source.spliced([Splice(start + 3 + len(inside), at, quotes)])
+            if new is not None and _is_read(new):
+                shown = text.source.line(first).strip()
+                return Slip("signs", "text_without_end", first, shown, quotes, new)
+        if tries > 2 * MOST_TRIES:
+            break
+    return None
+
+
+def _long_texts(text: Broken) -> Iterator[tuple[int, int]]:
+    """Yield where texts in three quotes of more than one line start and end."""
+    places = [match.start() for match in TRIPLE.finditer(text.code.text)]
+    for at in range(0, len(places), 2):
+        start = places[at]
+        end = places[at + 1] if at + 1 < len(places) else len(text.code.text)
+        if "\n" in text.code.text[start:end]:
+            yield start, end
+
+
+BLOCK_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
+    _bracket, _colon, _capital, _compare, _not_indented, _line_above, _without_end,
+)  # fmt: skip
