@@ -67,6 +67,19 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.starts_elsewhere": COUNTER,
     "node.adds_twice": COUNTER,
     "node.other_step": COUNTER,
+    "node.counter_multiplied": COUNTER,
+    "node.node_not_kept": {"name": "node", "made": "MyNode"},
+    "node.used_before_set": {"name": "node"},
+    "node.counter_global": {"name": "counter", "word": "global"},
+    "node.cleanup_early": {"name": "rclpy.shutdown()"},
+    "node.quotes_missing": {"name": "my_node"},
+    "node.self_missing": {"name": "create_timer"},
+    "node.rate_sleep": {"name": "rate.sleep"},
+    "node.log_option": {"name": "once"},
+    "node.sum_not_kept": COUNTER,
+    "node.other_language": {"name": "null"},
+    "node.value_forgotten": {"name": "%d", "written": "self.counter"},
+    "node.callback_outside": {"name": "callback"},
 }
 """What differs in the texts of one mistake."""
 

@@ -150,7 +150,7 @@ KINDS = (
         fixed_by=(node_words.kept_sum,),
         examples=(
             example(
-                "plus_plus",
+                "plus_plus_before_name",
                 Replace(NODE, "self.counter_ += 1", "++self.counter_"),
                 fails="run.output",
             ),

@@ -21,7 +21,7 @@ BACK_TO_SOLUTION = (
     *("guard_without_quotes", "step_outside_callback", "step_at_margin", "self_in_main"),
     *("main_in_class", "callback_outside_class", "create_timer_without_self"),
     *("get_logger_without_self", "counter_logged_without_self", "returns_before_log"),
-    *("returns_before_step", "returns_before_spin", "this_for_self", "plus_plus"),
+    *("returns_before_step", "returns_before_spin", "this_for_self", "plus_plus_before_name"),
     *("sum_not_kept", "compared_instead_of_set", "definition_misspelt", "logged_once"),
     *("log_throttled", "log_skips_first", "import_of_cpp_client", "module_of_rclpy_misspelt"),
     *("import_in_lower_case", "import_of_misspelt_name", "super_with_self"),
