@@ -26,7 +26,8 @@ RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
  && python3 -m venv .venv \
  && .venv/bin/pip install -q --require-hashes --only-binary :all: -r grader/requirements.txt
 COPY grader/__init__.py grader/
-COPY grader/base/__init__.py grader/base/errors.py grader/base/cache.py grader/base/
+COPY grader/base/__init__.py grader/base/errors.py grader/base/cache.py grader/base/lock.py \
+     grader/base/nearest.py grader/base/shown.py grader/base/
 COPY grader/base/i18n/__init__.py grader/base/i18n/message.py grader/base/i18n/
 COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/prefix.py grader/ros/prefix_build.py \
      grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
