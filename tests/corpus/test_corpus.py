@@ -49,9 +49,9 @@ def test_it_names_checks_of_the_assignment_once(package: Package) -> None:
     ("name", "score"),
     [
         ("empty_folder", 0),
-        ("entry_missing", 50),
+        ("entry_missing", 45),
         ("exec_bit_missing", 90),
-        ("spin_missing", 70),
+        ("spin_missing", 60),
         ("timer_missing", 83),
         ("tutorial", 100),
         ("fork_bomb", None),
