@@ -31,6 +31,7 @@ PACKAGES = ("grader", "lab")
 NOT_IMPORTED = ("__main__", "bootstrap", "probe", "ros2_command", "cluster", "cluster_worker")
 # what the tests' own commands import
 OTHERS = ("tests.recorded", "tests.batch.in_process", "tests.report.samples")
+PIPE_BYTES = 65_536  # what a pipe holds (pipe(7))
 LONGEST = 1 << 20  # bytes of a request
 
 
@@ -59,7 +60,7 @@ class Commands:
     ) -> subprocess.CompletedProcess[str]:
         """Run `python -m` with these words to its end, and return it with its output."""
         request = json.dumps({"words": list(words), "cwd": str(cwd), "env": env})
-        with _pipe(stdin) as given, _memory() as out, _memory() as err:
+        with _input(stdin) as given, _memory() as out, _memory() as err:
             streams = [given.fileno(), out.fileno(), err.fileno()]
             socket.send_fds(self._socket, [request.encode()], streams)
             self._socket.settimeout(None)
@@ -85,11 +86,17 @@ def _memory() -> io.FileIO:
     return io.FileIO(os.memfd_create("stream"), "r+")
 
 
-def _pipe(text: str) -> io.FileIO:
-    """Return a pipe that holds this text (at most 64 KB) and ends."""
+def _input(text: str) -> io.FileIO:
+    """Return a stream with this text: a pipe, or a file in memory if a pipe would not hold it."""
+    data = text.encode()
+    if len(data) > PIPE_BYTES:
+        file = _memory()
+        file.write(data)
+        file.seek(0)
+        return file
     reader, writer = os.pipe()
     with io.FileIO(writer, "w") as file:
-        file.write(text.encode())
+        file.write(data)
     return io.FileIO(reader)
 
 

@@ -5,6 +5,7 @@ The verdicts are from recorded evidence (test_another_course.py has a real one o
 
 from __future__ import annotations
 
+import ast
 import json
 import re
 import sys
@@ -65,13 +66,42 @@ def sources() -> Iterator[Path]:
             yield processes.ROOT / name
 
 
+EDITS = ("example", "Replace", "Write", "Move", "Copy", "Delete", "Nest", "Chmod", "Crlf")
+
+
+def texts_of(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield the lines of a file with their numbers.
+
+    Of the catalogue's records, which have examples with the tutorial's package, these are the
+    strings outside of the examples and of the constants that the examples use.
+    """
+    text = path.read_text(encoding="utf-8")
+    if path.parent != processes.ROOT / "grader/mistakes" or path.suffix != ".py":
+        yield from enumerate(text.splitlines(), 1)
+        return
+    waiting: list[ast.AST] = [n for n in ast.parse(text).body if not is_constant(n)]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.lineno, node.value
+        if not (isinstance(node, ast.Call) and ast.unparse(node.func) in EDITS):
+            waiting += ast.iter_child_nodes(node)
+
+
+def is_constant(node: ast.stmt) -> bool:
+    """Whether a statement gives a name to a plain string, or to an edit."""
+    value = node.value if isinstance(node, ast.Assign) else None
+    called = ast.unparse(value.func) if isinstance(value, ast.Call) else ""
+    return called in EDITS or isinstance(value, ast.Constant | ast.JoinedStr | ast.BinOp)
+
+
 def test_only_the_lessons_own_files_mention_its_parts() -> None:
     words = re.compile(OURS.pattern.partition(r"|\bmain\b")[0], re.IGNORECASE)
     found = [
         f"{path.relative_to(processes.ROOT)}:{number}: {line.strip()}"
         for path in sources()
         if path.is_file()
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        for number, line in texts_of(path)
         if words.search(line)
     ]
     assert found == []

@@ -129,7 +129,7 @@ def _content(path: Path, name: str) -> bytes:
         raise UsageError(f"there is no roster {name}{meant(nearest_path(path))}") from None
     content = read_bytes(resolved, LARGEST)
     if isinstance(content, Unread):
-        raise UsageError(f"the roster {name} is there, but {content.reason}")
+        raise UsageError(f"the roster {name} cannot be read: {content.reason}")
     if content.startswith(ZIP):
         raise UsageError(f"the roster {name} is a spreadsheet, not a CSV file", remedy=AS_CSV)
     return content

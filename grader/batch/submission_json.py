@@ -10,7 +10,7 @@ from typing import Any
 
 from grader.package.intake.model import Candidate, SourceFile, Submission
 
-TUPLES = ("notes", "hints", "node_files", "links_out")
+TUPLES = ("notes", "hints", "node_files", "links_out", "copies")
 
 
 def submission_json(submission: Submission) -> str:

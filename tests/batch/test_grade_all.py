@@ -88,7 +88,7 @@ def test_everybody_is_in_the_gradebook_with_their_points(marked: Class) -> None:
     found = {key: (row["name"], row["status"], row["final"]) for key, row in rows.items()}
     assert found == {
         "s0-solution": ("Ann Lee", "graded", "100"),
-        "s1-entry_missing": ("Bela Nagy", "graded", "50"),
+        "s1-entry_missing": ("Bela Nagy", "graded", "45"),
         "s2-text_other_capital": ("Chidi Okafor", "graded", "90"),
         "corrupt": ("Dörte Weiß", "graded", "0"),
         "absent": ("Émile Zola", "missing", ""),
@@ -113,7 +113,7 @@ def test_reports_are_in_the_same_place_as_for_one_package(marked: Class) -> None
     assert len(reports) == 4
     assert {r["submission"]["student_id"]: r["score"] for r in reports.values()} == {
         "s0-solution": 100,
-        "s1-entry_missing": 50,
+        "s1-entry_missing": 45,
         "s2-text_other_capital": 90,
         "corrupt": 0,
     }
@@ -125,7 +125,7 @@ def test_reports_are_in_the_same_place_as_for_one_package(marked: Class) -> None
 def test_the_summary_names_the_first_reasons(marked: Class) -> None:
     lines = marked.first.stdout.splitlines()
     (line,) = (line for line in lines if line.startswith("Bela Nagy"))
-    assert "50 / 100" in line
+    assert "45 / 100" in line
     assert "entry_point.mapping" in line
     assert "5 students, 4 marked (1 with every check), 1 without a submission." in lines
     assert "\x1b" not in marked.first.stdout + marked.first.stderr, "plain where it is piped"
@@ -172,18 +172,18 @@ def test_a_correction_survives_a_regrade_and_is_in_every_output(copy: Class) -> 
     assert "Marked again: 4, 4 of them with the same result." in again.stdout
     assert copy.verdicts() == 8
     row = copy.rows()["s1-entry_missing"]
-    assert (row["score"], row["final"], row["run.output"]) == ("57", "57", "7")
+    assert (row["score"], row["final"], row["run.output"]) == ("52", "52", "7")
     assert "shown in class" in row["notes"]
     for place in ("students/s1-entry_missing.html", "feedback/s1-entry_missing.html"):
         assert "shown in class" in (copy.out / place).read_text(encoding="utf-8"), place
     assert "shown in class" in (copy.out / "feedback/s1-entry_missing.md").read_text()
     assert "shown in class" in (copy.out / "junit.xml").read_text(encoding="utf-8")
-    assert "57" in (copy.out / "index.html").read_text(encoding="utf-8")
+    assert "52" in (copy.out / "index.html").read_text(encoding="utf-8")
     listed = copy.override("--list")
     assert "Bela Nagy: run.output 7 points, because: shown in class" in listed.stdout
     assert copy.override("Bela Nagy", "--check", "run.output", "--remove").returncode == 0
     copy.again()
-    assert copy.rows()["s1-entry_missing"]["final"] == "50"
+    assert copy.rows()["s1-entry_missing"]["final"] == "45"
 
 
 def test_a_group_is_marked_once_and_each_member_has_the_report(
@@ -203,7 +203,7 @@ def test_a_group_is_marked_once_and_each_member_has_the_report(
     assert "1 to mark, 0 marked before" in done.stderr
     made = Class(path, tmp_path / "worksheet.csv", tmp_path / "out", done)
     found = {row["name"]: (row["final"], row["mistakes"]) for row in made.rows().values()}
-    assert found == {person.name: ("50", "setup.no_entry") for person in class_}
+    assert found == {person.name: ("45", "setup.no_entry") for person in class_}
     reports = {
         report.parts[-3]: json.loads(report.read_text(encoding="utf-8"))["submission"]
         for report in made.out.glob("*/jazzy/report.json")

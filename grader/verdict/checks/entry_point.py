@@ -87,7 +87,7 @@ def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
 
 
 def _no_setup_py(reason: str) -> Failed:
-    cannot = say("setup.py is there, but {reason}", reason=printable_reason(reason))
+    cannot = say("setup.py cannot be read: {reason}", reason=printable_reason(reason))
     return Failed(
         "setup.missing",
         expected=say("a setup.py with the entry point"),

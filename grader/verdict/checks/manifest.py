@@ -89,7 +89,7 @@ def _read(evidence: Evidence) -> Manifest:
         reason = printable_reason(file.reason)
         raise _failed(
             "package.manifest_unreadable",
-            say("package.xml is there, but {reason}", reason=reason),
+            say("package.xml cannot be read: {reason}", reason=reason),
             None,
         )
     try:

@@ -171,7 +171,7 @@ def setup_cfg(evidence: Evidence) -> Passed:
 
 def _no_cfg(evidence: Evidence, reason: str) -> str:
     if reason:
-        return say("setup.cfg is there, but {reason}", reason=printable_reason(reason))
+        return say("setup.cfg cannot be read: {reason}", reason=printable_reason(reason))
     close = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8)
     return with_difference(say("there is no setup.cfg") + meant(close), close, "setup.cfg")
 

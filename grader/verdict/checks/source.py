@@ -46,7 +46,7 @@ def node_file(evidence: Evidence) -> Passed:
         raise Failed(
             "source.unreadable_node_file",
             expected=say("a file {path} that can be read", path=path),
-            actual=say("the file is there, but {reason}", reason=reason),
+            actual=say("the file cannot be read: {reason}", reason=reason),
             where=Where(file=path),
         )
     if not file.data.strip():
