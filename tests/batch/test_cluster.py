@@ -22,7 +22,7 @@ from grader.batch.ledger import Ledger
 from grader.batch.work import Done, Task
 from grader.ros.prefix import Ros
 from tests.batch.classes import corpus_class, count_verdicts, grade_all
-from tests.batch.pool_tasks import JOB, tasks
+from tests.batch.pool_tasks import CORPUS, JOB, tasks
 from tests.processes import ROOT, grader
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def test_a_lost_worker_costs_only_the_submission_it_was_marking(
             found.append(done)
             if len(found) == 1:
                 os.kill(first, signal.SIGKILL)
-    expected = {f"{name}-{n}": 100 if name == "solution" else 50 for n, name in enumerate(names)}
+    expected = {f"{name}-{n}": CORPUS[name].expect_score for n, name in enumerate(names)}
     assert _scores(found) == expected
 
 

@@ -12,6 +12,7 @@ import pytest
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import Limits
 from tests.batch.classes import corpus_class, grade_all
+from tests.batch.pool_tasks import CORPUS
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.report.test_hostile import forbidden_in
@@ -52,11 +53,14 @@ def test_a_class_with_hostile_students_ends_with_a_verdict_on_each(
     rows = {row["key"]: row for row in csv.DictReader(text.splitlines())}
     found = {key: (row["status"], row["final"]) for key, row in rows.items()}
     (big,) = found.keys() - {"s0-solution", "s1-entry_missing", *HOSTILE_NAME}
+    packages = {
+        "s0-solution": CORPUS["solution"],
+        "s1-entry_missing": CORPUS["entry_missing"],
+        **{package.name: package for package in HOSTILE if package.name in HOSTILE_NAME},
+    }
+    scores = {key: f"{package.expect_score:g}" for key, package in packages.items()}
     assert found == {
-        "s0-solution": ("graded", "100"),
-        "s1-entry_missing": ("graded", "50"),
-        "deaf_and_prints_dots": ("graded", "97"),
-        "setup_paints_and_ends_with_250": ("graded", "55"),
+        **{key: ("graded", score) for key, score in scores.items()},
         big: ("error", ""),
     }
     assert "could not be laid out" in rows[big]["notes"]

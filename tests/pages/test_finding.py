@@ -59,6 +59,10 @@ def test_search_finds_states_failed_checks_and_mistakes(page: Page) -> None:
     assert set(column(page, 6)) == {"run.output"}
     search(page, "setup.misspelt_module")
     assert set(column(page, 6)) == {"entry_point.mapping"}
+    search(page, "misspelt")
+    assert set(column(page, 6)) == {"entry_point.mapping"}
+    search(page, "isspelt")
+    assert column(page, 6) == []
 
 
 def test_a_search_without_matches_says_so(page: Page) -> None:

@@ -105,13 +105,14 @@ def _remove_old(folder: Folder, kept: set[str]) -> None:
 
 @dataclass(frozen=True)
 class StudentRow:
-    """A student's row; `find` holds texts that the search matches beside the visible ones."""
+    """A student's row; the search also matches `find` and the start of a word in `mistakes`."""
 
     entry: GradebookEntry
     number: str
     attempt: str
     failed: tuple[str, ...]
     find: str
+    mistakes: str
 
 
 def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> bytes:
@@ -184,11 +185,12 @@ def _row(entry: GradebookEntry, *, show_hidden: bool) -> StudentRow:
     checks = overview.shown(entry, show_hidden=show_hidden)
     mistakes = [mistake.id for check in checks for mistake in check.mistakes]
     attempt = f"{entry.attempt} of {entry.attempts}" if entry.attempts > 1 else "1"
-    unseen = (student.key, student.email, student.username, *mistakes)
+    unseen = (student.key, student.email, student.username)
     return StudentRow(
         entry=entry,
         number=_number(entry),
         attempt=attempt if entry.report else "",
         failed=tuple(check.id for check in checks if check.status == "failed"),
         find=" ".join(dict.fromkeys(one_line(part, most=120) for part in unseen if part)),
+        mistakes=" ".join(dict.fromkeys(mistakes)),
     )
