@@ -201,6 +201,7 @@ def test_grade_all_without_a_class_says_how() -> None:
     assert "make grade-all SUBMISSIONS=path/to/downloads" in output
 
 
+@pytest.mark.full
 @pytest.mark.prefix
 def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
     solution(tmp_path / "the class")

@@ -17,7 +17,7 @@ from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.batch.pool_tasks import JOB, own_workers, tasks
+from tests.batch.pool_tasks import CORPUS, JOB, own_workers, tasks
 from tests.marking import ASSIGNMENT
 from tests.processes import descendants
 
@@ -35,10 +35,12 @@ def _score(done: Done) -> float:
 
 
 def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
-    names = ["empty_folder", "solution", "entry_missing"]
+    names = ["empty_folder", "as_created", "entry_missing"]
     found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))
     scores = {done.task.student: _score(done) for done in found}
-    assert scores == {"empty_folder-0": 0, "solution-1": 100, "entry_missing-2": 45}
+    assert scores == {
+        f"{name}-{number}": CORPUS[name].expect_score for number, name in enumerate(names)
+    }
     assert {done.tries for done in found} == {1}
     assert own_workers() == []
 

@@ -89,8 +89,18 @@ HOSTILE = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", TARGETS)
-@pytest.mark.parametrize("kind", HOSTILE)
+def slow() -> list[object]:
+    """Every input with every reader; the fixes try each of the many lines, which takes a second."""
+    return [
+        pytest.param(
+            kind, name, marks=pytest.mark.full if kind == "many lines" and "fix" in name else ()
+        )
+        for kind in HOSTILE
+        for name in TARGETS
+    ]
+
+
+@pytest.mark.parametrize(("kind", "name"), slow())
 def test_input_made_to_be_slow_takes_bounded_time(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])  # (modules loaded by the first call do not count)
     found = HOSTILE[kind]

@@ -61,9 +61,9 @@ def test_all_static_mutants_fail_the_expected_checks_for_the_expected_reason(
 @pytest.mark.parametrize(
     "name",
     [
-        "spin_missing",
-        pytest.param("text_capital", marks=pytest.mark.full),
-        pytest.param("period_half", marks=pytest.mark.full),
+        pytest.param("spin_missing", marks=pytest.mark.full),
+        pytest.param("text_capital", marks=pytest.mark.long),
+        pytest.param("period_half", marks=pytest.mark.long),
     ],
 )
 def test_a_mutant_that_must_run_fails_the_expected_check(name: str, tmp_path: Path) -> None:
