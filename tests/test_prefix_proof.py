@@ -235,7 +235,7 @@ def _link(source: str, target: str) -> None:
         # as made by an earlier version in a checkout with a long path
         ("colcon", "#!/bin/sh\n'''exec' \"/no/such/.venv/bin/python\" \"$0\" \"$@\"\n' '''\n"),
         *(
-            pytest.param(program, text, marks=pytest.mark.full)
+            pytest.param(program, text, marks=pytest.mark.long)
             for program, text in (
                 ("colcon", "#!/no/such/python\n"),
                 ("colcon", "#!/bin/sh\nexec python3 -c 'import no_such_colcon'\n"),

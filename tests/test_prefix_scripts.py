@@ -88,7 +88,7 @@ def installed(folder: Path, wheel: Path) -> tuple[Path, Path]:
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, id=str(n), marks=() if n < 2 else pytest.mark.full)
+        pytest.param(name, id=str(n), marks=() if n < 2 else pytest.mark.long)
         for n, name in enumerate(FOLDERS)
     ],
 )

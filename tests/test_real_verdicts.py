@@ -78,15 +78,22 @@ def test_the_solution_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
     assert report.environment.rclpy == "9.1.2"
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_the_tutorials_own_node_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
     tutorial = next(package for package in RIGHT if package.name == "tutorial")
     report = mark(write(tutorial, tmp_path), distro="kilted")
     assert report.score == 100, summary(report)
 
 
-@pytest.mark.parametrize("name", ["solution", "text_capital", "marker_missing", "spin_missing"])
-@pytest.mark.full
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("solution", marks=pytest.mark.full),
+        pytest.param("text_capital", marks=pytest.mark.full),
+        pytest.param("marker_missing", marks=pytest.mark.long),
+        pytest.param("spin_missing", marks=pytest.mark.long),
+    ],
+)
 def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -> None:
     package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
     root = write(package, tmp_path)
@@ -98,8 +105,13 @@ def test_without_namespaces_the_verdict_is_the_same(name: str, tmp_path: Path) -
     assert report.environment.sandbox == "none"
 
 
-@pytest.mark.full  # needs root, which `make test` does not
-@pytest.mark.parametrize("name", ["solution", "period_half"])
+@pytest.mark.parametrize(  # needs root, which `make test` does not
+    "name",
+    [
+        pytest.param("solution", marks=pytest.mark.full),
+        pytest.param("period_half", marks=pytest.mark.long),
+    ],
+)
 def test_the_account_sandbox_gives_the_same_verdict(name: str, tmp_path: Path) -> None:
     package = next(p for p in (*RIGHT, *BROKEN) if p.name == name)
     root = write(package, tmp_path)

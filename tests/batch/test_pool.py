@@ -72,7 +72,7 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     stopped: list[int] = []
-    waiting = tasks(tmp_path, ["solution"] * 2)
+    waiting = tasks(tmp_path, ["as_created"] * 2)  # it takes two seconds
 
     def submitted() -> Iterator[Task]:
         yield next(waiting)
@@ -81,11 +81,11 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
         stopped.append(worker)
         yield from waiting
 
-    pool = LocalPool(JOB, 2, seconds=15)
+    pool = LocalPool(JOB, 2, seconds=30)
     found = list(pool.run(submitted(), started=_ignore))
-    assert [_score(done) for done in found] == [100, 100]
+    assert [_score(done) for done in found] == [CORPUS["as_created"].expect_score] * 2
     tries = {done.task.student: done.tries for done in found}
-    assert tries == {"solution-0": 2, "solution-1": 1}
+    assert tries == {"as_created-0": 2, "as_created-1": 1}
     with pytest.raises(ProcessLookupError):
         os.kill(stopped[0], 0)
     assert _sandbox_processes() == {}
