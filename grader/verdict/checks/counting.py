@@ -171,9 +171,10 @@ def logger(evidence: Evidence) -> Passed:
         raise Blocked(by="run.output")
     names = {node.logger for node in run.nodes}
     expected = say("log records of the node on /rosout, level INFO")
+    gone = run.ended_by_itself or bool(run.watch.missing)
     for event in events:
-        if run.ended_by_itself and event.source == "faked" and event.wall > events[-1].wall - LOST:
-            continue  # the last records of a node that ends may be lost
+        if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
+            continue  # the last records of a node that ends or is destroyed may be lost
         _judge_record(event, names, expected, line_of(evidence, event.record))
     node = run.counting_node
     name = node.logger if node is not None else min(names, default="")

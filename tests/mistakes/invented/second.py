@@ -16,7 +16,6 @@ from tests.mistakes.invented.model import (
     SPIN,
     STARTS,
     STEP,
-    STOP,
     SUPER,
     TARGET,
     TIMER,
@@ -112,10 +111,6 @@ CLASS_AND_NODE = (
          "spin takes the node object, not its name: rclpy.spin(node).", "line of spin"),
     node("node_spins_itself", SPIN, "node.spin()", STARTS,
          "A node has no spin: rclpy.spin(node).", "line of spin"),
-    Invented("main_called_without_guard", (Replace(NODE, "if __name__ == '__main__':\n    main()\n",
-                                                   "main()\n"),), STOP,
-             "main() at the margin runs at the import too, so the node starts again after Ctrl+C.",
-             "last line"),
 )  # fmt: skip
 CALLBACK = (
     node("callback_as_text", "self.timer_callback)", "'self.timer_callback')", OUTPUT,
@@ -136,7 +131,7 @@ CALLBACK = (
          OUTPUT, "set_level(WARN) hides the lines of info: remove it.", "line of set_level"),
     node("returns_the_text", LOG + f"\n        {STEP}", f"{STEP}\n        return {TEXT}", OUTPUT,
          "The callback returns the text, and nobody logs it.", "line of return"),
-    node("print_in_the_log", TEXT, f"print({TEXT})", OUTPUT,
+    node("print_in_the_log", TEXT, f"print({TEXT})", "run.logger",
          "print returns None, and the logger gets that: pass the text itself.", "line of the log"),
 )  # fmt: skip
 COUNTER = (
@@ -168,6 +163,8 @@ PACKAGE = (
            "The executable is test_node, with an underscore."),
     within(SETUP, "src_in_target", TARGET, f"src.{TARGET}", ENTRY,
            "The target begins with the package's name; src is only the workspace's folder."),
+    within(MANIFEST, "format_without_quotes", 'format="3"', "format=3", SHOWN,
+           "The value of format needs quotes."),
     within(MANIFEST, "closing_slash_missing", "</build_type>", "<build_type>", SHOWN,
            "The closing tag is </build_type>: its slash is missing."),
     within(MANIFEST, "command_behind_manifest", "</package>\n", "</package>\ncd ~/ros2_ws\n", SHOWN,
