@@ -13,7 +13,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.node_start import lines_of
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.names import last_part
+from grader.package.source.names import dotted, last_part
 
 LOGGER_OPTION = (
     r"TypeError: parameter \"(?P<name>\w{1,120})\" is not one of the recognized logging options"
@@ -91,6 +91,8 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     found = raised.finding("arguments_many", name=name)
     call = raised.source.super_init
     own = match["function"] == "Node.__init__" and call is not None
+    if own and call is not None and call.args and dotted(call.args[0]) == "self":
+        return None  # (super() passes self on its own)
     if own and call is not None and raised.line in lines_of(call):
         return replace(found, variant="super")
     return found

@@ -149,7 +149,7 @@ KINDS = (
         msg("A condition decides whether the line is logged"),
         msg("The line is logged only while the condition {name} is true."),
         msg("Remove this if, and indent the lines below it as far as the if is indented now."),
-        behind={"run.no_lines": _logs_if, "run.stops": _logs_if},
+        behind={"run.no_lines": _logs_if, "run.stops": _logs_if, "run.wrong_start": _logs_if},
         fixed_by=(lines.unwrapped,),
         examples=(
             example(
@@ -158,11 +158,13 @@ KINDS = (
                 fails="run.output",
             ),
             example(
+                "logs_after_the_first",
+                Replace(NODE, LOG, f"        if self.counter_ > 0:\n    {LOG}"),
+                fails="run.output",
+            ),
+            example(
                 "logs_never",
-                Replace(
-                    NODE, LOG, f"        if self.counter_ > 0:\n    {LOG}{STEP}        return\n"
-                ),
-                Replace(NODE, f"return\n{STEP}", "return\n"),
+                Replace(NODE, LOG + STEP, f"        if self.counter_ > 0:\n    {LOG}    {STEP}"),
                 fails="run.output",
                 blocks=SILENT,
             ),
