@@ -86,8 +86,9 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
     module, _, last = name.rpartition(".")
-    if module in MODULES and last[:1].isupper():
-        new = f"from {module} import {last}"
+    plain = raised.module.line(raised.line).startswith("import ")
+    if plain and module in MODULES and last[:1].isupper():
+        new = IMPORTS.get(last, f"from {module} import {last}")
         found = raised.finding("import_misspelt", name=f"import {name}", written=new)
         return replace(found, variant="class")
     unused = node_names.unused_import(raised.module, raised.line)

@@ -238,6 +238,19 @@ def test_a_second_definition_is_not_the_cause_if_nothing_is_lost() -> None:
     assert found.kind == "node.timer_missing"
 
 
+def test_a_class_in_a_plain_import_is_told_from_a_module_with_a_capital() -> None:
+    error = "ModuleNotFoundError: No module named 'rclpy.Node'"
+    for new, wanted in (
+        ("import rclpy.Node", "Write from rclpy.node import Node: after"),
+        ("from rclpy.Node import Node", "Write rclpy.node instead of rclpy.Node."),
+    ):
+        text = changed("from rclpy.node import Node", new)
+        found = raised(error, text, line_of(text, new))
+        assert found is not None
+        values = {**found.params, **found.words}
+        assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(wanted)
+
+
 def test_a_line_at_each_tenth_call_is_not_reported() -> None:
     text = changed(LOG, f"        if self.counter_ % 10 == 0:\n    {LOG}")
     for symptom in ("run.stops", "run.no_lines", "run.wrong_step"):
