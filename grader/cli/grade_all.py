@@ -15,7 +15,7 @@ from grader.batch.sheets import SheetOptions
 from grader.batch.systems.known import DOWNLOADS, sheet_forms
 from grader.cli import options
 
-_file = click.Path(path_type=Path, dir_okay=False, exists=True, readable=True)
+_file = options.GivenFile()
 
 
 def _sheets(command: Callable[..., int]) -> Callable[..., int]:

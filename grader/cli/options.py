@@ -2,11 +2,36 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from typing import Any
 
 import click
 
 from grader.base.i18n.message import msg
+from grader.base.nearest import meant, nearest_path
+
+
+class GivenFile(click.Path):
+    """A file that must be there; the message about a misspelt path names the one that is meant."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path, dir_okay=False, exists=True, readable=True)
+
+    def convert(
+        self,
+        value: str | os.PathLike[str],
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> Any:
+        """Return the path."""
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter as error:
+            near = nearest_path(Path(value)) if not os.path.lexists(value) else ""
+            text = f"{error.message.removesuffix('.')}{meant(near)}." if near else error.message
+            raise click.BadParameter(text, ctx=ctx, param=param) from None
+
 
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 assignment = click.option(

@@ -10,9 +10,10 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_arguments
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.node_start import lines_of
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.names import last_part
+from grader.package.source.names import dotted, last_part
 
 LOGGER_OPTION = (
     r"TypeError: parameter \"(?P<name>\w{1,120})\" is not one of the recognized logging options"
@@ -56,12 +57,45 @@ def _many(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name, function = match["name"], last_part(match["function"])
     found = raised.finding("keyword_unknown", name=name, function=function)
+    if match["function"] == "Node.__init__":
+        return replace(found, variant="super")
     return replace(found, variant="timer") if function == "create_timer" else found
 
 
 def _option(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     found = raised.finding("keyword_unknown", name=match["name"], function="info")
     return replace(found, variant="logger")
+
+
+def _rospy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A function of rospy is called, which nothing imports."""
+    used = re.search(r"\brospy\.(?P<name>\w{1,120})", raised.module.line(raised.line))
+    if match["name"] != "rospy" or used is None:
+        return None
+    name = used["name"]
+    if name in ("spin", "init_node"):
+        variant = "init_node" if name == "init_node" else "spin"
+        return replace(raised.finding("ros_1", name=name), variant=variant)
+    new = ROS_1.get(name, "")
+    found = raised.finding("ros_1", name=name, written=new)
+    return replace(found, variant="rospy" if new else "rospy_other")
+
+
+def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A call gives more arguments than the function takes."""
+    name = last_part(match["function"])
+    if match["function"].partition(".")[0] not in {"Node", *raised.source.known_classes}:
+        return None
+    if any(t.called and raised.line == t.call.lineno for t in raised.source.timers):
+        return None  # (the callback is called where it is passed)
+    found = raised.finding("arguments_many", name=name)
+    call = raised.source.super_init
+    own = match["function"] == "Node.__init__" and call is not None
+    if own and call is not None and call.args and dotted(call.args[0]) == "self":
+        return None  # (super() passes self on its own)
+    if own and call is not None and raised.line in lines_of(call):
+        return replace(found, variant="super")
+    return found
 
 
 def _ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -88,17 +122,32 @@ KINDS = (
             "init_node": msg(
                 "Delete the line with init_node: in ROS 2, super().__init__('{node_name}') gives "
                 "the node its name."
-            )
+            ),
+            "rospy": msg("Write {written} instead of rospy.{name}."),
+            "rospy_other": msg("Remove rospy.{name}: ROS 2 has no rospy."),
+            "spin": msg("Write rclpy.spin(node) instead of rospy.spin()."),
         },
         seen=r"AttributeError: module 'rclpy' has no attribute '(?P<name>loginfo)'",
-        raised={r"module 'rclpy' has no attribute '(?P<name>\w{1,120})'": _ros_1},
-        fixed_by=(node_arguments.ros_2_log, node_arguments.without_init_node),
+        raised={
+            r"module 'rclpy' has no attribute '(?P<name>\w{1,120})'": _ros_1,
+            NAME_ERROR: _rospy,
+        },
+        fixed_by=(
+            node_arguments.ros_2_log,
+            node_arguments.ros_2_timer,
+            node_arguments.without_init_node,
+        ),
         examples=(
             example(
                 "loginfo_of_ros_1",
                 Replace(NODE, "self.get_logger().info", "rclpy.loginfo"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "timer_of_rospy",
+                Replace(NODE, "self.create_timer(1.0,", "rospy.Timer(rospy.Duration(1.0),"),
+                fails="run.starts",
             ),
             example(
                 "init_node_of_ros_1",
@@ -135,6 +184,29 @@ KINDS = (
         ),
     ),
     _node(
+        "arguments_many",
+        "callback",
+        msg("A call has too many arguments"),
+        msg("{name} takes fewer arguments than this call gives it. Python passes self on its own."),
+        msg("Remove what is too much from the () of {name}."),
+        links.PYTHON_ERRORS,
+        fixes={"super": msg("Write super().__init__('{node_name}').")},
+        raised={
+            (
+                r"TypeError: (?P<function>\w{1,120}\.\w{1,120})\(\) takes [1-9] positional "
+                r"arguments? but \d{1,2} were given"
+            ): _many_given
+        },
+        fixed_by=(node_arguments.only_name,),
+        examples=(
+            example(
+                "two_names_for_node",
+                Replace(NODE, "('my_first_node')", "('my_first_node', 'robot')"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "keyword_unknown",
         "callback",
         msg("A call names a parameter that the function does not have"),
@@ -144,10 +216,20 @@ KINDS = (
         fixes={
             "timer": msg("Write create_timer({period}, self.{callback})"),
             "logger": msg("Remove {name}=…: the logger does not have this option."),
+            "super": msg("Write super().__init__('{node_name}')."),
         },
         raised={UNEXPECTED: _keyword, LOGGER_OPTION: _option},
-        fixed_by=(node_arguments.without_names, node_arguments.without_option),
+        fixed_by=(
+            node_arguments.without_names,
+            node_arguments.without_option,
+            node_arguments.only_name,
+        ),
         examples=(
+            example(
+                "keyword_of_node",
+                Replace(NODE, "('my_first_node')", "(name='my_first_node')"),
+                fails="run.starts",
+            ),
             example(
                 "keyword_of_timer",
                 Replace(

@@ -8,9 +8,17 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import CFG, SETUP, example
 from grader.mistakes.fixes import setup_py, syntax
-from grader.mistakes.kind import Kind, Parts
-from grader.mistakes.slips import LANGUAGE, OTHER_LANGUAGE, PASTED, PASTED_WHYS, SIGNS, WEB
-from grader.package.edit.tree import Replace
+from grader.mistakes.kind import Kind, Parts, Variants
+from grader.mistakes.slips import (
+    DOCUMENTS,
+    LANGUAGE,
+    OTHER_LANGUAGE,
+    PASTED,
+    PASTED_WHYS,
+    SIGNS,
+    WEB,
+)
+from grader.package.edit.tree import Replace, Write
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -33,7 +41,7 @@ CONFIG = msg(
 )
 
 
-def _build(slug: str, title: str, fix: str, why: str = WHY, **parts: Unpack[Parts]) -> Kind:
+def _build(slug: str, title: str, fix: str, why: str = WHY, **parts: Unpack[Variants]) -> Kind:
     return Kind(
         id=f"build.{slug}",
         stage="build",
@@ -98,7 +106,11 @@ KINDS = (
                 "Fix that line of setup.py, then build again. Often a comma, a "
                 "quote or a bracket is missing in the line above."
             ),
+            "key": msg(
+                "Write quotes around {name}: '{name}'. A name without quotes is a variable."
+            ),
             **PASTED,
+            **DOCUMENTS,
             **LANGUAGE,
             **SIGNS,
         },
@@ -107,6 +119,7 @@ KINDS = (
             syntax.setup_py,
             setup_py.setuptools,
             setup_py.comma,
+            setup_py.key,
             setup_py.names,
         ),
         examples=(
@@ -114,6 +127,12 @@ KINDS = (
                 "comma_between_tuples_missing",
                 Replace(SETUP, "['resource/' + package_name]),", "['resource/' + package_name])"),
                 fails="build.colcon",
+            ),
+            example(
+                "group_without_quotes",
+                Replace(SETUP, "'console_scripts'", "console_scripts"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
             ),
             example(
                 "setup_syntax_error",
@@ -266,11 +285,30 @@ KINDS = (
             "the only place where ros2 run looks. It must reach the call of setup(): a "
             "sys.exit() before or in that call ends it without a message."
         ),
+        fixes={
+            "node": msg(
+                "The code of a node is in setup.py. Move it to {path}, and write setup.py again as "
+                "ros2 pkg create makes it."
+            ),
+            "missing": msg(
+                "setup.py does not call setup(…). Compare the file with the one that ros2 pkg "
+                "create makes."
+            ),
+        },
         examples=(
             example(
                 "setup_exits",
                 Replace(SETUP, "\nsetup(\n", "\nimport sys\nsys.exit(0)\nsetup(\n"),
                 fails="build.colcon",
+            ),
+            example(
+                "node_in_setup",
+                Write(
+                    SETUP,
+                    "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
             ),
             example(
                 "setup_never_called",

@@ -13,9 +13,11 @@ from grader.mistakes.kind import Family
 from grader.mistakes.node_start import SLEEPS
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
 
+DECORATORS = ("staticmethod", "classmethod", "property")
 ONLY_SELF = msg("The timer passes no argument to your callback except self.")
 
 
@@ -28,7 +30,25 @@ def _parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     method = raised.source.methods.get(match["function"])
     if method is None or method is not raised.source.callback:
         return None
+    if match["name"] == "self" and _decorator(method):
+        return None
     return raised.finding("callback_parameter", at=method, name=match["name"])
+
+
+def _decorator(method: Function) -> ast.expr | None:
+    """Return the decorator that takes self away from a method, or calls it."""
+    found = [d for d in method.decorator_list if dotted(d) in DECORATORS]
+    return found[0] if found else None
+
+
+def _decorated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    names = {timer.method for timer in raised.source.timers}
+    for name, method in raised.source.methods.items():
+        found = _decorator(method)
+        if found is not None and name in names:
+            return raised.finding("callback_decorated", at=found, name=dotted(found))
+    return None
 
 
 def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
@@ -89,6 +109,32 @@ KINDS = (
             example(
                 "callback_without_self",
                 Replace(NODE, "def timer_callback(self)", "def timer_callback()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "callback_decorated",
+        "callback",
+        msg("A decorator changes what the callback is"),
+        msg(
+            "A timer needs a plain method. @staticmethod and @classmethod take self away from it, "
+            "and @property calls it where only its name is meant."
+        ),
+        msg("Delete the line @{name} above the callback."),
+        links.PYTHON_CLASSES,
+        raised={
+            "missing 1 required positional argument: 'self'|object is not callable": _decorated,
+            "'arg_name'|is not a callable object|type object '": _decorated,
+        },
+        fixed_by=(node_timer.plain_method,),
+        examples=(
+            example(
+                "callback_is_static",
+                Replace(
+                    NODE, "    def timer_callback", "    @staticmethod\n    def timer_callback"
+                ),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -23,10 +23,13 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import function_at
 
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
 STEP = "        self.counter_ += 1\n"
+NEEDED = ("create_timer", "__init__", *LOG_METHODS)
+"""What a method must call, or else no line comes."""
 CALLED_ON_CLASS = (
     r"TypeError: (?P<method>(?:\w{1,120}\.)?\w{1,120})\(\) missing 1 required positional "
     r"argument: 'self'"
@@ -95,12 +98,24 @@ def _uses(function: Function) -> set[str]:
     return called | {name for node in ast.walk(function) for name in targets_of(node)}
 
 
+def _lost(source: NodeSource, replaced: list[ast.FunctionDef]) -> set[str]:
+    """Return what only the replaced definitions do of all that makes a line: timer, log, counter."""
+    others = [m for m in source.own_methods if m not in replaced]
+    kept = {name for m in others for name in _uses(m)}
+    read = {dotted(n) for m in others for n in ast.walk(m) if isinstance(n, ast.Attribute)}
+    lost: set[str] = set()
+    for method in replaced:
+        last = next(m for m in reversed(others) if m.name == method.name)
+        lost |= {name for name in _uses(method) - _uses(last) if name in read or name not in kept}
+    return {name for name in lost if name in NEEDED or (name.startswith("self.") and name in read)}
+
+
 def _replaced(suspect: Suspect) -> RecognisedMistake | None:
     """A second definition of a method lacks what the first one does."""
     source = suspect.source
     for name in dict.fromkeys(method.name for method in source.own_methods):
         found = _definitions(source.own_methods, name)
-        if len(found) > 1 and any(_uses(first) - _uses(found[-1]) for first in found[:-1]):
+        if len(found) > 1 and _lost(source, found[:-1]):
             return suspect.finding("method_twice", found[-1], name=name, line=found[-2].lineno)
     return None
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_count, node_log, node_words
+from grader.mistakes.fixes import lines, node_count, node_log, node_words
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
@@ -145,6 +145,18 @@ def _without_number(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("text_without_number", _place_of_text(suspect))
 
 
+def _tuple(suspect: Suspect) -> RecognisedMistake | None:
+    """The line is a tuple of the text and the number."""
+    if not re.fullmatch(r"\((['\"]).*\1, ?-?\d+\)", suspect.text):
+        return None
+    callback = suspect.source.callback
+    for node in ast.walk(callback) if callback is not None else ():
+        value = getattr(node, "value", None)
+        if isinstance(node, ast.Assign) and isinstance(value, ast.Tuple):
+            return suspect.finding("text_is_tuple", node)
+    return suspect.finding("text_is_tuple", _place_of_text(suspect))
+
+
 def _number_format(suspect: Suspect) -> RecognisedMistake | None:
     head, tail = suspect.output.text.split("{n}")
     number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
@@ -171,6 +183,35 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("counter_reset", node, name=counter.name, value=value)
             return replace(found, variant="" if "." in counter.name else "local")
     return None
+
+
+def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition of the callback under which the counter starts again."""
+    counter = _counter(suspect)
+    for node in counter.set if counter is not None else ():
+        around = suspect.source.module_of(node).parents.get(node)
+        if counter is None or not isinstance(around, ast.If) or around.orelse:
+            continue
+        if isinstance(node.value, ast.Constant):
+            found = suspect.finding("counter_reset", node, name=counter.name)
+            return replace(found, variant="if")
+    return None
+
+
+def _in_text(suspect: Suspect) -> RecognisedMistake | None:
+    """The line shows the counter's name: the name is part of the string."""
+    counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
+    if "." not in counter or counter not in suspect.text:
+        return None
+    place = _place_of_text(suspect)
+    row = suspect.source.module_at(place.file).line(place.line)
+    if f"{{{counter}}}" in suspect.text and f"{{{{{counter}}}}}" not in row:
+        return None
+    found = suspect.finding("counter_in_text", place, name=counter)
+    doubled = f"{{{{{counter}}}}}" in row
+    return replace(
+        found, variant="doubled" if doubled else "round" if "f'" in row or 'f"' in row else ""
+    )
 
 
 def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
@@ -339,6 +380,41 @@ KINDS = (
         ),
     ),
     _node(
+        "counter_in_text",
+        "text",
+        msg("The text contains the name of the counter"),
+        msg("What is between the quotes is shown as it is: {name} is only text there."),
+        msg("Write the text as {f_string}"),
+        links.PYTHON_STRINGS,
+        whys={
+            "doubled": msg("In an f-string, {{{{ is one shown brace: two braces hold no value."),
+            "round": msg(
+                "In an f-string, a value is in braces. Round brackets and what is in them are "
+                "shown as they are."
+            ),
+        },
+        behind={"run.wrong_text": _in_text},
+        fixed_by=(node_log.in_braces, node_log.text),
+        examples=(
+            example(
+                "braces_doubled",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "f'Hello time: {{self.counter_}}'",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "round_brackets",
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: (self.counter_)'"
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
         "f_prefix",
         "text",
         msg("The f before the string is missing"),
@@ -376,6 +452,27 @@ KINDS = (
             example(
                 "format_forgotten",
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {}'"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_is_tuple",
+        "text",
+        msg("The text and the number are joined with a comma"),
+        msg("A comma makes a tuple of two values. Only print() shows them side by side."),
+        msg("Join the text and the number: {sum}"),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _tuple},
+        examples=(
+            example(
+                "message_is_tuple",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "message = 'Hello time: ', self.counter_\n"
+                    "        self.get_logger().info(str(message))",
+                ),
                 fails="run.output",
             ),
         ),
@@ -456,16 +553,18 @@ KINDS = (
             "local": msg(
                 "{name} is a variable of the callback: each call creates it again, with the value "
                 "{value}. Only an attribute (self.…) keeps its value from one call to the next."
-            )
+            ),
+            "if": msg("Each time the condition above this line is true, {name} starts again."),
         },
         fixes={
             "local": msg(
                 "Write self.{name} = {value} in __init__ instead of this line, and self.{name} "
                 "in the callback."
-            )
+            ),
+            "if": msg("Remove this line and its if: the counter never starts again."),
         },
-        behind={"run.constant_counter": _reset},
-        fixed_by=(node_count.kept,),
+        behind={"run.constant_counter": _reset, "run.wrong_step": _reset_if},
+        fixed_by=(node_count.kept, lines.deleted),
         examples=(
             example(
                 "counter_reset",
@@ -476,6 +575,17 @@ KINDS = (
                         "self.counter_ = 0\n"
                         "        self.get_logger().info('Hello time: ' + str(self.counter_))"
                     ),
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counter_starts_again",
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.counter_ += 1\n"
+                    "        if self.counter_ == 5:\n"
+                    "            self.counter_ = 0",
                 ),
                 fails="run.output",
             ),

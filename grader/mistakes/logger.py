@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
@@ -27,6 +28,10 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
     if callback is None or source.logs(callback) or source.prints(callback):
         return None
+    for node in ast.walk(callback):
+        target = node.targets[0] if isinstance(node, ast.Assign) else None
+        if target is not None and dotted(target).endswith("get_logger().info"):
+            return replace(suspect.finding("log_missing", target), variant="assigned")
     return suspect.finding("log_missing", callback)
 
 
@@ -51,6 +56,10 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
     callback = suspect.source.callback
     prints = suspect.source.prints(callback) if callback is not None else []
     prints = prints or [call for call, name in suspect.source.calls if name == "print"]
+    for call in suspect.source.own_logs:
+        for given in call.args:
+            if isinstance(given, ast.Call) and dotted(given.func) == "print":
+                return replace(suspect.finding("print_used", given), variant="inside")
     return suspect.finding("print_used", prints[0]) if prints else None
 
 
@@ -134,8 +143,21 @@ KINDS = (
         msg("The timer calls the callback, but only what the callback logs is seen."),
         msg("Write self.get_logger().info(…) in the callback."),
         links.LOGGING,
+        whys={"assigned": msg("= replaces the method info by the text, and calls nothing.")},
+        fixes={"assigned": msg("Remove the = after info: the text stands in its ().")},
         behind={"run.no_lines": _missing},
+        fixed_by=(node_log.called,),
         examples=(
+            example(
+                "log_assigned",
+                Replace(
+                    NODE,
+                    ".info('Hello time: ' + str(self.counter_))",
+                    ".info = ('Hello time: ' + str(self.counter_))",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "log_line_forgotten",
                 Replace(
@@ -260,14 +282,31 @@ KINDS = (
         ),
         msg("Write self.get_logger().info(…) instead of print(…)."),
         links.LOGGING,
+        whys={
+            "inside": msg(
+                "print() writes the text to this terminal and returns None, so the logger gets "
+                "None instead of the text."
+            )
+        },
+        fixes={"inside": msg("Remove print( and its ): give the text itself to the logger.")},
         behind={"run.print_not_logger": _printed},
         fixed_by=(
+            node_log.without_print,
             node_log.logger,
             node_log.only_logged,
         ),
         examples=(
             example(
                 "printed", Replace(NODE, "self.get_logger().info", "print"), fails="run.logger"
+            ),
+            example(
+                "print_in_log",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "print('Hello time: ' + str(self.counter_))",
+                ),
+                fails="run.logger",
             ),
         ),
     ),

@@ -14,7 +14,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_names, node_timer, rename
+from grader.mistakes.fixes import lines, node_life, node_names, node_timer, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.node_start import IMPORTS, RCLPY
 from grader.mistakes.order import spun_names
@@ -29,7 +29,9 @@ from grader.mistakes.recognised import (
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS
+from grader.package.source.place import statement_at
 
 ATTRIBUTE = (
     r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
@@ -61,7 +63,20 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match):
         return None
     name, close = match["name"], _close_attribute(raised, match["name"])
+    for node in raised.source.own_nodes:
+        if (
+            isinstance(node, ast.AnnAssign)
+            and dotted(node.target) == f"self.{name}"
+            and not node.value
+        ):
+            value = raised.module.text.code(node)
+            found = raised.finding(
+                "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
+            )
+            return replace(found, variant="annotated", words={**found.words, "attribute": name})
     found = raised.finding("attribute_not_set", name=name, close=close)
+    if not close and _is_object(raised, name):
+        return replace(found, variant="object")
     start = node_names.start_of_other_name(raised.source, close)
     if start is None:
         return found
@@ -69,12 +84,44 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return replace(found, variant="start")
 
 
+def _assigned(raised: Raised, node: ast.AnnAssign) -> str:
+    value = node.annotation.value if isinstance(node.annotation, ast.Constant) else None
+    start = value if isinstance(value, int) else raised.assignment.output.start
+    return f"{dotted(node.target)} = {start}"
+
+
+def _is_object(raised: Raised, name: str) -> bool:
+    """Whether the code uses something of the attribute: a method or another attribute."""
+    parents = raised.module.parents
+    uses = [n for n in raised.module.nodes if dotted(n) == f"self.{name}"]
+    return any(isinstance(parents.get(use), ast.Attribute) for use in uses)
+
+
 def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
+    statement = statement_at(raised.module, raised.line)
+    if isinstance(statement, ast.Expr) and dotted(statement.value) == name:
+        return replace(raised.finding("name_unknown", name=name), variant="alone")
+    if any(dotted(timer.period or timer.call) == name for timer in raised.source.timers):
+        period = repr(raised.assignment.output.period)
+        found = raised.finding("name_unknown", name=name, written=period)
+        return replace(found, variant="period")
+    if (own := _class_for(raised, name)) is not None:
+        return raised.finding("name_unknown", name=name, close=own)
     variables = raised.source.node_variables
     if name in spun_names(raised.source) and len(variables) == 1:
         return raised.finding("name_unknown", name=name, close=min(variables))
     return raised.finding("name_unknown", name=name, close=nearest(name, _known(raised, name), 0.7))
+
+
+def _class_for(raised: Raised, name: str) -> str | None:
+    """Return the node's class if the unknown name stands where a node is created."""
+    source, statement = raised.source, statement_at(raised.module, raised.line)
+    value = statement.value if isinstance(statement, ast.Assign | ast.Expr) else None
+    made = isinstance(value, ast.Call) and dotted(value.func) == name and not value.args
+    if not made or source.node_class is None or source.makes_node() or not name[:1].isupper():
+        return None
+    return source.node_class.name if len(source.family) == 1 else None
 
 
 def _known(raised: Raised, name: str) -> set[str]:
@@ -100,9 +147,43 @@ def _is_called(around: ast.AST | None, use: ast.Name) -> bool:
 
 
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    known = _of_rclpy(raised, match)
+    if known is not None:
+        return known
     suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
     close = suggested[1] if suggested else ""
     return raised.finding("attribute_unknown", name=match["name"], close=close)
+
+
+def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    function = last_part(match["function"])
+    found = raised.finding("argument_missing", name=match["name"], function=match["function"])
+    own = {n.name for n in raised.source.all_nodes if isinstance(n, Function)}
+    if match["function"] == "spin":
+        return replace(found, variant="spin")
+    foreign = match["function"].partition(".")[0] not in raised.source.known_classes
+    return replace(found, variant="own") if function in own and not foreign else found
+
+
+def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A function of rclpy is called on the node, or __init__ on super() by half its name."""
+    name = match["name"]
+    if match["type"] == "super" and "init" in name:
+        code = re.search(r"super\(\)\.(\w{1,60})", raised.module.line(raised.line))
+        found = raised.finding(
+            "attribute_unknown", name=code[1] if code else name, written="__init__"
+        )
+        return replace(found, variant="written")
+    if match["type"] not in raised.source.known_classes or name not in ("spin", "spin_once"):
+        return None
+    for call, called in raised.source.calls:
+        before, _, method = called.rpartition(".")
+        if method == name and before and before != "rclpy":
+            written = f"{called}()"
+            new = f"rclpy.{name}({before})"
+            found = raised.finding("attribute_unknown", at=call, name=written, written=new)
+            return replace(found, variant="written")
+    return None
 
 
 def _constant_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -152,11 +233,38 @@ KINDS = (
         fixes={
             "start": msg(
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
+            ),
+            "annotated": msg("Write {written} instead of {name}."),
+            "object": msg(
+                "Delete this line if it belongs to another example. If the node needs it, create "
+                "self.{name} in __init__ first."
+            ),
+        },
+        whys={
+            "annotated": msg(
+                "A colon after a name only states a type. A value is assigned with =, so "
+                "self.{attribute} does not exist yet."
             )
         },
         raised={OWN_ATTRIBUTE: _not_set},
-        fixed_by=(node_names.close_attribute, node_names.counter),
+        fixed_by=(lines.written, node_names.close_attribute, node_names.counter),
         examples=(
+            example(
+                "counter_with_colon",
+                Replace(NODE, "self.counter_ = 0", "self.counter_: 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "publisher_of_another_example",
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.publisher_.publish(msg)\n        self.counter_ += 1",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "counter_not_set",
                 Replace(NODE, "        self.counter_ = 0\n", ""),
@@ -191,10 +299,32 @@ KINDS = (
         msg("Write the name exactly as it is defined, or define it first."),
         links.PYTHON_ERRORS,
         close=msg("Write {close} instead of {name}, or define {name} first."),
+        fixes={
+            "alone": msg(
+                "Delete this line if it was typed by accident: it contains only {name}, which "
+                "nothing defines."
+            ),
+            "period": msg("Write the period in seconds instead of {name}: {written}"),
+        },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},
-        fixed_by=(rename.variable,),
+        fixed_by=(lines.written, rename.variable, lines.deleted_name),
         examples=(
+            example(
+                "period_not_defined",
+                Replace(NODE, "create_timer(1.0,", "create_timer(timer_period,"),
+                fails="run.starts",
+            ),
+            example(
+                "letter_alone",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        s"),
+                fails="run.starts",
+            ),
+            example(
+                "class_of_another_example",
+                Replace(NODE, "node = MyFirstNode()", "node = MinimalPublisher()"),
+                fails="run.starts",
+            ),
             example(
                 "name_error_in_callback",
                 Replace(
@@ -250,16 +380,19 @@ KINDS = (
         "callback",
         msg("A call has too few arguments"),
         msg("A parameter without a default needs a value in each call."),
-        msg(
-            "Pass a value for {name} where {function} is called, or remove the parameter from "
-            "your own function."
-        ),
+        msg("Write a value for {name} in the () of {function} on this line."),
         links.PYTHON_ERRORS,
-        raised={
-            r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": always(
-                "argument_missing"
-            )
+        fixes={
+            "own": msg(
+                "Pass a value for {name} where {function} is called, or remove the parameter from "
+                "your own function."
+            ),
+            "spin": msg("Write rclpy.spin(node): spin needs the node that was created."),
         },
+        raised={
+            r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _argument
+        },
+        fixed_by=(node_life.spin,),
         examples=(
             example(
                 "init_wants_more",
@@ -282,8 +415,22 @@ KINDS = (
         msg("Compare the name on that line with the documentation or with your own class."),
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
+        fixes={"written": msg("Write {written} instead of {name}.")},
         seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
         r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
         raised={ATTRIBUTE: _unknown},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "node_spins_itself",
+                Replace(NODE, "rclpy.spin(node)", "node.spin()"),
+                fails="run.starts",
+            ),
+            example(
+                "init_of_super_half",
+                Replace(NODE, "super().__init__(", "super().__init("),
+                fails="run.starts",
+            ),
+        ),
     ),
 )

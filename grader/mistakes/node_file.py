@@ -20,7 +20,15 @@ from grader.mistakes.example import (
 from grader.mistakes.fixes import first_line, layout, syntax
 from grader.mistakes.kind import Kind, Parts
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
-from grader.mistakes.slips import LANGUAGE, OTHER_LANGUAGE, PASTED, PASTED_WHYS, SIGNS, WEB
+from grader.mistakes.slips import (
+    DOCUMENTS,
+    LANGUAGE,
+    OTHER_LANGUAGE,
+    PASTED,
+    PASTED_WHYS,
+    SIGNS,
+    WEB,
+)
 from grader.package.edit.tree import Chmod, Crlf, Delete, Move, Replace, Write
 from grader.package.source.pasted import labels_in
 
@@ -59,9 +67,9 @@ def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     return RecognisedMistake(
         kind="source.pasted",
-        params={"what": "label"},
+        params={"what": label.variant},
         words={"found": label.found},
-        variant="label",
+        variant=label.variant,
         where=raised.where,
     )
 
@@ -85,7 +93,10 @@ KINDS = (
         title=msg("The node's file is missing"),
         why=PLACE,
         fix=msg("Create the file {path} and write the node in it."),
-        fixes={"built": BUILT},
+        fixes={
+            "built": BUILT,
+            "notebook": msg("Write the code of the notebook's cells into a new file {path}."),
+        },
         link=links.FIRST_NODE,
         fixed_by=(
             layout.node_file,
@@ -269,7 +280,7 @@ KINDS = (
         why=WEB,
         whys=PASTED_WHYS,
         fix=msg("Remove what does not belong to the code, or type that line again."),
-        fixes=PASTED,
+        fixes={**PASTED, **DOCUMENTS},
         link=links.PYTHON_SYNTAX,
         raised={NAME_ERROR: _label},
         fixed_by=(syntax.node, first_line.shebang),

@@ -11,7 +11,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import node_life, node_names, node_scope, rename
+from grader.mistakes.fixes import lines, node_life, node_names, node_objects, node_scope, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
@@ -85,6 +85,12 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
+    module, _, last = name.rpartition(".")
+    plain = raised.module.line(raised.line).startswith("import ")
+    if plain and module in MODULES and last[:1].isupper():
+        new = IMPORTS.get(last, f"from {module} import {last}")
+        found = raised.finding("import_misspelt", name=f"import {name}", written=new)
+        return replace(found, variant="class")
     unused = node_names.unused_import(raised.module, raised.line)
     close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
     if head in OTHER_PACKAGES:
@@ -106,7 +112,13 @@ def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     name = match["name"]
     if name not in IMPORTS or name in raised.module.imports:
         return None
-    return raised.finding("import_missing", name=name, statement=IMPORTS[name])
+    found = raised.finding("import_missing", name=name, statement=IMPORTS[name])
+    imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
+    for node in imports if name == "Node" else ():
+        if node.module == "rclpy" and [alias.name for alias in node.names] == ["node"]:
+            found = raised.finding("import_missing", at=node, name=name, statement=IMPORTS[name])
+            return replace(found, variant="module")
+    return found
 
 
 def _close_function(raised: Raised) -> str:
@@ -157,7 +169,12 @@ def _inits(raised: Raised) -> list[ast.Call]:
 
 def _init_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
-    return None if _inits(raised) else raised.finding("init_missing")
+    if _inits(raised):
+        return None
+    for node in raised.source.all_nodes:
+        if isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.init":
+            return replace(raised.finding("init_missing", at=node), variant="not_called")
+    return raised.finding("init_missing")
 
 
 def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -188,10 +205,25 @@ def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     methods = raised.source.methods
-    near = nearest("__init__", methods, cutoff=0.7)
-    if "__init__" in methods or not near:
+    if "__init__" in methods:
         return None
-    return raised.finding("init_underscores", at=methods[near], name=near)
+    inside = [m.name for m in methods.values() if _calls_super(m)]
+    near = inside[0] if len(inside) == 1 else nearest("__init__", methods, cutoff=0.7)
+    return raised.finding("init_underscores", at=methods[near], name=near) if near else None
+
+
+def _calls_super(method: ast.AST) -> bool:
+    return any(name == "super().__init__" for _, name in calls_in(method))
+
+
+def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Return that no name is passed; through the class, the first argument is self."""
+    del match
+    found, call = raised.finding("super_without_name"), raised.source.super_init
+    if call is None or raised.line not in lines_of(call) or not call.args:
+        return found
+    on_class = dotted(call.func).endswith("Node.__init__")
+    return replace(found, variant="on_class") if on_class else found
 
 
 def _init_no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -328,12 +360,18 @@ KINDS = (
         links.PYTHON_ERRORS,
         close=CLOSE,
         fixes={
-            "unused": msg("Delete this line: {name} is not installed here, and no line uses it.")
+            "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
+            "class": msg("Write {written}: after a plain import, only modules can be named."),
         },
         seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
-        fixed_by=(node_names.without_unused, node_names.rclpy, rename.imported),
+        fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
         examples=(
+            example(
+                "import_of_class_in_one",
+                Replace(NODE, "from rclpy.node import Node", "import rclpy.node.Node"),
+                fails="run.starts",
+            ),
             example(
                 "import_of_other_lesson",
                 Replace(
@@ -401,8 +439,15 @@ KINDS = (
         msg("A name is used without being imported"),
         msg("Python knows only names that the file imports or defines."),
         msg("Add the import at the top of the file: {statement}"),
+        fixes={
+            "module": msg("Write {statement} on this line: it imports the module, not the class.")
+        },
         raised={NAME_ERROR: _not_imported},
-        fixed_by=(node_life.node_import, node_names.missing_import),
+        fixed_by=(
+            node_objects.class_import,
+            node_life.node_import,
+            node_names.missing_import,
+        ),
         examples=(
             example(
                 "import_of_module_missing",
@@ -561,10 +606,16 @@ KINDS = (
         NODES_MADE,
         msg("Write rclpy.init(args=args) as the first line of {function}."),
         links.RCLPY,
+        fixes={"not_called": msg("Write () after rclpy.init: without them it is not called.")},
         seen=r"NotInitializedException",
         raised={NOT_INITIALIZED: _init_missing},
-        fixed_by=(node_life.rclpy_init,),
+        fixed_by=(node_life.called_init, node_life.rclpy_init),
         examples=(
+            example(
+                "rclpy_init_not_called",
+                Replace(NODE, "rclpy.init(args=args)", "rclpy.init"),
+                fails="run.starts",
+            ),
             example(
                 "rclpy_init_missing",
                 Replace(NODE, "    rclpy.init(args=args)\n", ""),
@@ -689,7 +740,7 @@ KINDS = (
     _node(
         "init_underscores",
         "class",
-        msg("__init__ is not written with two underscores"),
+        msg("The class has no __init__, but a method that looks like it"),
         msg(
             "Python calls __init__, with two underscores on both sides, when an object is "
             "created. A method with another name is not called, so Node gets no name."
@@ -810,13 +861,24 @@ KINDS = (
     _node(
         "super_without_name",
         "class",
-        msg("super().__init__() is called without a name"),
+        msg("No name is passed to the __init__ of Node"),
         msg("A node needs a name: ros2 node list and the log show it."),
         SUPER,
         seen=r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
-        raised={NO_NODE_NAME: always("super_without_name")},
-        fixed_by=(node_life.name,),
+        whys={
+            "on_class": msg(
+                "Node.__init__ is called on the class. There the first argument is self, so your "
+                "string is taken for self, and the name is missing. super() passes self on its own."
+            )
+        },
+        raised={NO_NODE_NAME: _without_name},
+        fixed_by=(node_life.own_init, node_life.name),
         examples=(
+            example(
+                "init_of_node_without_self",
+                Replace(NODE, "super().__init__(", "Node.__init__("),
+                fails="run.starts",
+            ),
             example(
                 "super_without_name",
                 Replace(NODE, "__init__('my_first_node')", "__init__()"),

@@ -21,7 +21,10 @@ WORDS = {
     ),
     "this": "self",
 }
-PRINTS = ("printf", "println", "puts", "echo", "console", "cout", "std", "System", "Console")
+PRINTS = (
+    *("printf", "println", "puts", "echo", "console", "cout", "std", "System", "Console"),
+    *("RCLCPP_INFO", "RCLCPP_DEBUG", "RCLCPP_WARN", "RCLCPP_ERROR", "ROS_INFO", "ROS_INFO_STREAM"),
+)
 METHODS = {
     **dict.fromkeys(("toString", "to_string", "ToString", "str"), "str(…)"),
     **dict.fromkeys(("length", "size", "Length"), "len(…)"),

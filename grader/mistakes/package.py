@@ -131,6 +131,8 @@ KINDS = (
             "ampersand": msg("Write &amp; instead of &."),
             "before": msg("Delete what is before the first < of the file."),
             "after": msg("Delete what is after the last > of the file."),
+            "bare": msg("Write quotes around the value: {wanted}"),
+            "comment": msg("Write --> where the comment ends."),
         },
         fixed_by=(manifest.well_formed,),
         examples=(
@@ -140,6 +142,18 @@ KINDS = (
                 fails="package.manifest",
                 blocks=UNBUILT,
                 note="expat names the line of </package>",
+            ),
+            example(
+                "format_without_quotes",
+                Replace(MANIFEST, 'format="3"', "format=3"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "comment_without_end",
+                Replace(MANIFEST, "  <depend>", "  <!-- TODO: licence\n  <depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
             ),
             example(
                 "license_opened_twice",
@@ -220,7 +234,8 @@ KINDS = (
         "manifest_rules",
         msg("package.xml breaks a rule of its format"),
         msg("Correct what the message names, so that colcon accepts the file."),
-        fixed_by=(manifest.version,),
+        fixes={"version": msg("Write three numbers with points between them, such as 1.0.0.")},
+        fixed_by=(manifest.version, manifest.three_numbers),
     ),
     Kind(
         id="package.name_mismatch",
@@ -543,10 +558,20 @@ KINDS = (
             "setuptools reads this file in every build and stops at a line that it cannot read."
         ),
         fix=msg("Fix that line: a line is either [section] or key=value."),
+        fixes={
+            "section": msg("Write [{other}] on that line: setup.cfg needs both sections."),
+            "twice": msg("Delete the second one: each name appears only once."),
+        },
         link=links.SETUP_CFG,
         seen=r"configparser\.\w{1,60}Error|File contains no section headers",
         fixed_by=(setup_cfg.syntax,),
         examples=(
+            example(
+                "setup_cfg_section_twice",
+                Replace(CFG, "[install]", "[develop]"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
             example(
                 "setup_cfg_not_ini",
                 Replace(CFG, "[develop]", "[develop"),

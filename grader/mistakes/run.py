@@ -12,7 +12,7 @@ from grader.package.edit.tree import Replace
 SPIN = msg(
     "rclpy.spin(node) keeps the node running: it waits, and calls your callbacks when they are due."
 )
-COUNT = msg("The counter is set once, in __init__, and increases by {step} in each callback.")
+COUNT = msg("The counter is set once, before the first callback, and each callback adds {step}.")
 RECORD = msg(
     "A log record has a level, a time and the node's name, and goes to /rosout, where other "
     "programs can read it. print() only writes text to this terminal."
@@ -237,7 +237,7 @@ KINDS = (
         "counter",
         msg("The number never changes"),
         COUNT,
-        msg("Add {counter} += {step} to the callback, and set it to {start} only in __init__."),
+        msg("Let each callback run {counter} += {step} once, and set it to {start} only before."),
         fixed_by=(node_count.step,),
     ),
     _run(
@@ -245,7 +245,7 @@ KINDS = (
         "counter",
         msg("The count starts at a different number"),
         COUNT,
-        msg("Set the counter to {start} in __init__, and increase it after logging."),
+        msg("Set the counter to {start} before the first callback, and increase it after logging."),
         fixed_by=(node_count.start,),
     ),
     _run(
@@ -264,18 +264,18 @@ KINDS = (
         "timer",
         msg("No line comes"),
         msg(
-            "The timer's callback logs the lines: create_timer({period}, self.{callback}) in "
-            "__init__, with the callback's name and no () after it."
+            "The timer's callback logs the lines. create_timer gets the period and the callback's "
+            "name, with no () after it."
         ),
-        msg("Create the timer in __init__ and log in its callback."),
+        msg("Check that a timer is created before rclpy.spin, and that its callback logs."),
     ),
     _run(
         "by_hand",
         "timer",
         msg("A line comes before any time has passed"),
         msg(
-            "The timer calls the callback when it is due. Your own call (self.{callback}() in "
-            "__init__) is one too many."
+            "The timer calls the callback when it is due. Your own call of {callback} before that "
+            "is one too many."
         ),
         msg("Remove that call. Pass the callback's name to create_timer, which calls it."),
         fixed_by=(

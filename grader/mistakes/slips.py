@@ -19,7 +19,17 @@ OTHER_LANGUAGE = msg(
     "Other languages have signs and words that Python does not know. Python stops at the first of "
     "them."
 )
-PASTED_WHYS = {"sign": KEYBOARD}
+TYPED = msg(
+    "What was typed for another program is now a line of this file. Python reads each line."
+)
+NO_CODE = msg("Python reads the whole file, and stops at the first line that is not Python code.")
+PASTED_WHYS = {
+    "sign": KEYBOARD,
+    **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
+    **dict.fromkeys(
+        ("page", "markup", "notebook", "word", "conflict", "numbers", "prose"), NO_CODE
+    ),
+}
 PASTED = {
     "quotes": msg("Type the quotes of that line again: ' or \" on the keyboard."),
     "blank": msg("Delete the spaces of that line and type them again."),
@@ -30,6 +40,25 @@ PASTED = {
         "Remove {found} from the start of the lines: it is the prompt of Python, not code."
     ),
     "command": msg("Delete that line: it is a command for the terminal, not code."),
+    "heredoc": msg("Delete the line '{found}': it ends a command of the shell, and is not code."),
+    "editor": msg("Delete the line '{found}': it is a command for the editor, not code."),
+    "prose": msg("Delete that line: it is a sentence and not code."),
+    "numbers": msg("Remove the line numbers from the start of the lines: they are not code."),
+}
+DOCUMENTS = {
+    "page": msg(
+        "This file is a web page, not the code that the page shows. Copy only the code into the "
+        "file (on GitHub: the button Raw)."
+    ),
+    "markup": msg("This file contains XML, as package.xml does. Write the Python code into it."),
+    "notebook": msg(
+        "This file is a notebook. Write the code of its cells into the file, as plain text."
+    ),
+    "word": msg("This file was saved as a document with formats. Save it again as plain text."),
+    "conflict": msg(
+        "git could not join two versions of these lines. Keep one version, and delete the other "
+        "one and the lines with <<<<<<<, ======= and >>>>>>> (to line {line})."
+    ),
 }
 LANGUAGE = {
     "increment": msg("Python has no ++ and no --. Write: {wanted}"),
@@ -44,6 +73,8 @@ LANGUAGE = {
     "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
     "function": msg("A function begins with def in Python. Write: {wanted}"),
     "new": msg("Python has no new: to make an object, call its class. Write: {wanted}"),
+    "import": msg("In Python, from is before import. Write: {wanted}"),
+    "base": msg("The base class is in round brackets after the name. Write: {wanted}"),
     "member": msg("Python has a dot between an object and its part. Write: {wanted}"),
     "except": msg("Python has try: and except …: for errors, and raise instead of throw."),
     "choice": msg("Python has no ? : for a choice. Write: a if condition else b"),
@@ -60,6 +91,14 @@ SIGNS = {
         "In a call, write name=value: '=' between the two, and no quotes around the name."
     ),
     "quote": msg("Add the missing quote: a text begins and ends with the same quote, on one line."),
+    "brace": msg("The brace in the f-string has no end. Write: {wanted}"),
+    "brace_alone": msg("Remove the }} that closes no brace, or write the {{ before the value."),
+    "brace_wrong": msg("In an f-string, each value is between {{ and }}. Correct the braces."),
+    "global": msg("Delete that line: an attribute (self.…) needs no declaration."),
+    "clause_alone": msg(
+        "This line needs a line with {wanted}: above it, in the same column. The lines between the "
+        "two are indented by 4 spaces."
+    ),
     "bracket_extra": msg("Remove one {wanted}: the line closes more brackets than are open."),
     "bracket_alone": msg(
         "No bracket is open that this {wanted} closes: remove it, or write the bracket that it "
@@ -69,6 +108,8 @@ SIGNS = {
         "Remove the colon at the end of that line: only lines that begin a block, such as def, if "
         "or try, end with one."
     ),
+    "def_brackets": msg("A function has brackets after its name. Write: {wanted}"),
+    "two_statements": msg("Write each statement on a line of its own: {wanted}"),
     "def_missing": msg("A function begins with def. Write: {wanted}"),
     "one_equals": msg("One = assigns a value; two compare. Write: {wanted}"),
     "not_indented": msg(
@@ -87,7 +128,11 @@ SIGNS = {
         "ends."
     ),
 }
-KINDS = {"pasted": "source.pasted", "language": "source.other_language"}
+KINDS = {
+    "pasted": "source.pasted",
+    "document": "source.pasted",
+    "language": "source.other_language",
+}
 """The mistakes of the node's file by the cause of a slip; the others are syntax errors."""
 
 
@@ -101,7 +146,7 @@ def words_of(slip: Slip | Pasted) -> dict[str, str]:
 def description(slip: Slip | Pasted) -> Message:
     """Return what was found at the place of a slip."""
     found = shown(slip.found)
-    if isinstance(slip, Slip) and slip.cause == "signs":
+    if isinstance(slip, Slip) and slip.cause in ("signs", "document"):
         return say("in: {code}", code=found)
     if isinstance(slip, Slip) and slip.cause == "language":
         return say("this is not Python: {found}", found=found)
@@ -113,5 +158,9 @@ def description(slip: Slip | Pasted) -> Message:
         "label": say("a line of a web page: {found}", found=found),
         "prompt": say("the prompt of Python: {found}", found=found),
         "command": say("a command for the terminal: {found}", found=found),
+        "heredoc": say("the end of a command of the shell: {found}", found=found),
+        "editor": say("a command for the editor: {found}", found=found),
+        "prose": say("a sentence: {found}", found=found),
+        "numbers": say("a line number: {found}", found=found),
     }
     return texts[slip.variant]

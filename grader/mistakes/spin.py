@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -43,9 +44,34 @@ def _not_called(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _executors(suspect: Suspect) -> set[str]:
+    """Return the variables of executors."""
+    made = [n for n in suspect.source.all_nodes if isinstance(n, ast.Assign)]
+    return {
+        dotted(target)
+        for node in made
+        if isinstance(node.value, ast.Call) and dotted(node.value.func).endswith("Executor")
+        for target in node.targets
+    }
+
+
+def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a spin that only `python3 file.py` reaches: outside of every function."""
+    source = suspect.source
+    spins = source.calls_of("spin")
+    if not spins or any(source.function_around(call) is not None for call in spins):
+        return None
+    return replace(suspect.finding("spin_missing", spins[0]), variant="guard")
+
+
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if _spins(suspect):
-        return None
+        return _under_guard(suspect)
+    for call, name in suspect.source.calls:
+        before, _, method = name.rpartition(".")
+        if method == "add_node" and before in _executors(suspect):
+            found = suspect.finding("spin_missing", call, name=before)
+            return replace(found, variant="executor")
     return suspect.finding("spin_missing", suspect.place_of_function)
 
 
@@ -277,13 +303,51 @@ KINDS = (
     _node(
         "spin_missing",
         "spin",
-        msg("rclpy.spin is not called"),
+        msg("Nothing in the program spins the node"),
         SPIN,
         msg("Call rclpy.spin(node) in {function}, after creating the node."),
         links.EXECUTORS,
-        behind={"run.exits_at_once": _missing, "run.never_spins": _nowhere},
-        fixed_by=(node_life.spin,),
+        whys={
+            "guard": msg(
+                "ros2 run calls only {function}. Lines outside of it, such as those below if "
+                "__name__ == '__main__':, run only if you start the file itself."
+            ),
+            "executor": msg(
+                "add_node only gives the node to the executor. {name}.spin() waits and calls the "
+                "callbacks when they are due."
+            ),
+        },
+        fixes={
+            "guard": msg("Move the call of rclpy.spin into {function}, after creating the node."),
+            "executor": msg("Write {name}.spin() below this line."),
+        },
+        behind={
+            "run.exits_at_once": _missing,
+            "run.no_node": _under_guard,
+            "run.never_spins": _nowhere,
+        },
+        fixed_by=(node_life.executor, node_life.spin),
         examples=(
+            example(
+                "executor_not_spun",
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "executor = SingleThreadedExecutor()\n        executor.add_node(node)",
+                ),
+                Replace(
+                    NODE,
+                    "from rclpy.node",
+                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "spin_below_guard",
+                Replace(NODE, SPINS, "    return node\n"),
+                Replace(NODE, "    main()\n", "    rclpy.spin(main())\n"),
+                fails="run.starts",
+            ),
             example(
                 "spin_missing",
                 Replace(NODE, "        rclpy.spin(node)\n", "        pass\n"),

@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import node_count, node_scope, node_timer
+from grader.mistakes.fixes import lines, node_count, node_scope, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import (
     NAME_ERROR,
@@ -41,6 +41,36 @@ def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     called = [timer for timer in raised.source.timers if timer.called]
     return raised.finding("callback_called", at=called[0].call) if called else None
+
+
+def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback is called with arguments where the timer is created."""
+    for timer in raised.source.timers:
+        if timer.called and timer.method == match["name"] and raised.line == timer.call.lineno:
+            return raised.finding("callback_called", at=timer.call)
+    return None
+
+
+def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    for timer in raised.source.timers:
+        if timer.period is None or raised.line not in (None, timer.call.lineno):
+            continue
+        code = raised.source.module_of(timer.call).text.code(timer.period)
+        period = repr(raised.assignment.output.period)
+        return raised.finding("period_negative", at=timer.call, name=code, written=period)
+    return None
+
+
+def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a text of the class that contains the line of the timer."""
+    if suspect.source.timers:
+        return None
+    for node in suspect.source.own_nodes:
+        value = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(value, ast.Constant) and "self.create_timer(" in str(value.value):
+            return suspect.finding("timer_in_quotes", value)
+    return None
 
 
 def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
@@ -266,7 +296,10 @@ KINDS = (
         msg("Remove the () after the callback's name: create_timer({period}, self.{callback})"),
         seen=r"TypeError: 'NoneType' object is not callable"
         r"|UnboundLocalError: .{0,60}'arg_name'",
-        raised={"'NoneType' object is not callable|'arg_name'|is not a callable object": _called},
+        raised={
+            "'NoneType' object is not callable|'arg_name'|is not a callable object": _called,
+            r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) takes": _called_with,
+        },
         behind={"run.by_hand": _calls_back_at_once},
         fixed_by=(node_timer.callback,),
         examples=(
@@ -277,6 +310,11 @@ KINDS = (
                 also={"run.period": "node.callback_called"},
                 blocks=("run.interrupt",),
                 note="one line at once, then 'NoneType' object is not callable",
+            ),
+            example(
+                "callback_called_with_self",
+                Replace(NODE, "self.timer_callback)", "self.timer_callback(self))"),
+                fails="run.starts",
             ),
         ),
     ),
@@ -396,6 +434,39 @@ KINDS = (
         fixed_by=(node_timer.arguments,),
         examples=(
             example("period_missing", Replace(NODE, "(1.0, self", "(self"), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "period_negative",
+        "timer",
+        msg("The period is negative"),
+        msg("The period is the time from one call of the callback to the next, in seconds."),
+        msg("Write {written} instead of {name}."),
+        raised={"timer period must be non-negative": _negative},
+        fixed_by=(lines.written,),
+        examples=(
+            example("period_negative", Replace(NODE, "(1.0,", "(-1.0,"), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "timer_in_quotes",
+        "timer",
+        msg("The line that creates the timer is in quotes"),
+        msg("Lines between three quotes are a text for the reader. Python does not run them."),
+        msg("Remove the three quotes before and after the line with create_timer."),
+        behind={"run.no_lines": _in_quotes},
+        fixed_by=(node_timer.without_quotes,),
+        examples=(
+            example(
+                "timer_in_three_quotes",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)",
+                    '        """\n        self.create_timer(1.0, self.timer_callback)\n        """',
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
         ),
     ),
     _node(

@@ -70,7 +70,7 @@ def line_of(text: str, part: str) -> int:
 @pytest.mark.parametrize(
     ("symptom", "old", "new", "wanted", "at"),
     [
-        ("run.exits_at_once", "executor.spin()", "pass", "spin_missing", "def main"),
+        ("run.exits_at_once", "executor.spin()", "pass", "spin_missing", "executor.add_node"),
         ("run.exits_at_once", "executor.spin()", "executor.spin_once()", "spin_once", "spin_once"),
         ("run.exits_at_once", "executor.spin()", "executor.spin", "spin_not_called",
          "executor.spin"),

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
+from grader.run.observer import Event
+from grader.verdict.checks.counting import _first_wrong
 from grader.verdict.diagnose import diagnose
 from tests.mistakes.test_diagnose import RIGHT, TRACEBACK, evidence, failed
 from tests.mistakes.test_from_source import look, raised
@@ -224,3 +226,39 @@ def test_of_two_names_of_the_callback_the_misspelt_one_is_corrected() -> None:
         assert (found.params["name"], found.params["close"]) == ("timer_callbak", "timer_callback")
         assert found.where is not None
         assert found.where.line == line_of(text, "timer_callbak")
+
+
+def test_a_second_definition_is_not_the_cause_if_nothing_is_lost() -> None:
+    log = LOG.strip()
+    first = f"    def timer_callback(self):\n        {log}\n        self.last = 1\n\n"
+    text = RIGHT.replace("    def timer_callback", f"{first}    def timer_callback", 1)
+    text = text.replace("        self.create_timer(1.0, self.timer_callback)\n", "")
+    found = look("run.no_lines", text)
+    assert found is not None
+    assert found.kind == "node.timer_missing"
+
+
+def test_a_class_in_a_plain_import_is_told_from_a_module_with_a_capital() -> None:
+    error = "ModuleNotFoundError: No module named 'rclpy.Node'"
+    for new, wanted in (
+        ("import rclpy.Node", "Write from rclpy.node import Node: after"),
+        ("from rclpy.Node import Node", "Write rclpy.node instead of rclpy.Node."),
+    ):
+        text = changed("from rclpy.node import Node", new)
+        found = raised(error, text, line_of(text, new))
+        assert found is not None
+        values = {**found.params, **found.words}
+        assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(wanted)
+
+
+def test_a_line_at_each_tenth_call_is_not_reported() -> None:
+    text = changed(LOG, f"        if self.counter_ % 10 == 0:\n    {LOG}")
+    for symptom in ("run.stops", "run.no_lines", "run.wrong_step"):
+        assert look(symptom, text) is None
+
+
+def test_the_lines_around_the_wrong_step_are_shown() -> None:
+    numbers = [0, 1, 2, 3, 4, 0, 1]
+    events = [Event(f"n: {n}", wall=n, virtual=n, source="logger", n=n) for n in numbers]
+    assert _first_wrong(events, 1) == 3
+    assert _first_wrong(events[:5], 1) == 0

@@ -30,7 +30,19 @@ PASTED = [
     (">>> if 1:\n...     a = 1\n", "prompt", 1, "if 1:\n    a = 1\n"),
     ("a = 1\ncd ~/ros2_ws && colcon build\nb = 2\n", "command", 2, "a = 1\nb = 2\n"),
     ("jane@pc:~/ros2_ws$ ros2 run a b\na = 1\n", "command", 1, "a = 1\n"),
+    ("a = 1\n:wq\n", "editor", 2, "a = 1\n"),
+    ("a = (1)\n  :q!\n", "editor", 2, "a = (1)\n"),
+    ("1 import sys\n2 a = 1\n", "numbers", 1, "import sys\na = 1\n"),
+    ("1: import sys\n2:\n3: if a:\n4:     b = 1\n", "numbers", 1, "import sys\n\nif a:\n    b = 1\n"),
+    ("Here is the corrected code:\na = 1\n", "prose", 1, "a = 1\n"),
 ]  # fmt: skip
+DOCUMENTS = [
+    ("\n<!DOCTYPE html>\n<html>\n", "page", 2, ""),
+    ("<?xml version='1.0'?>\n<package>\n", "markup", 1, ""),
+    ('{"cells": [\n', "notebook", 1, ""),
+    ("{\\rtf1 a\n", "word", 1, ""),
+    ("a = 1\n<<<<<<< HEAD\nb = 1\n=======\nb = 2\n>>>>>>> main\n", "conflict", 2, ""),
+]
 LANGUAGE = [
     ("a = 0\na++\n", "increment", 2, "a = 0\na += 1\n"),
     ("a = 0\na.b--;\n", "increment", 2, "a = 0\na.b -= 1\n"),
@@ -52,6 +64,11 @@ LANGUAGE = [
     ("try:\n    pass\ncatch (a):\n    pass\n", "except", 3, ""),
     ("a = b ? 1 : 2\n", "choice", 1, ""),
     ("a = `x`\n", "backtick", 1, ""),
+    ("import a from b.c\n", "import", 1, "from b.c import a\n"),
+    ("class A[B]:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
+    ("class A<B>:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
+    ("class A extends B:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
+    ("class A : public B:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
     ("Import sys\n", "capital", 1, "import sys\n"),
     ("If a:\n    pass\n", "capital", 1, "if a:\n    pass\n"),
     ("define f(a):\n    pass\n", "function", 1, "def f(a):\n    pass\n"),
@@ -73,6 +90,18 @@ SIGNS = [
     ("a = f(b(1)))\n", "bracket_extra", 1, "a = f(b(1))\n"),
     ("a = [f(\n    1,\n)]]\n", "bracket_extra", 3, "a = [f(\n    1,\n)]\n"),
     ("a = b + c)\n", "bracket_alone", 1, ""),
+    ("a = f'b {c'\n", "brace", 1, "a = f'b {c}'\n"),
+    ("a = f'b c}'\n", "brace_alone", 1, ""),
+    ("def f(self):\n    global self.a\n    b = 1\n", "global", 2, "def f(self):\n    b = 1\n"),
+    ("def f():\n    a = 1\nexcept KeyError:\n    pass\n", "clause_alone", 3, ""),
+    ("def f:\n    pass\n", "def_brackets", 1, "def f():\n    pass\n"),
+    (
+        "class A:\n    def f:\n        pass\n",
+        "def_brackets",
+        2,
+        "class A:\n    def f(self):\n        pass\n",
+    ),
+    ("if a:\n    f(1) b = 2\n", "two_statements", 2, "if a:\n    f(1)\n    b = 2\n"),
     ("f(1):\na = 1\n", "colon_extra", 1, "f(1)\na = 1\n"),
     (
         "def f(self):\n    self.a = 1:  # one\n",
@@ -130,6 +159,7 @@ CODE = ["a = 1\n", "b = 4 // 2\n", "c = a < b > a\n", "'''\nPython\n// a++\n'''\
     ("text", "variant", "line", "fixed", "cause"),
     [
         *((*case, "pasted") for case in PASTED),
+        *((*case, "document") for case in DOCUMENTS),
         *((*case, "language") for case in LANGUAGE),
         *((*case, "signs") for case in SIGNS),
     ],
@@ -183,6 +213,7 @@ def test_a_label_that_python_takes_for_a_name_is_found() -> None:
 @pytest.mark.parametrize(
     "piece",
     ["\u201c", "'", '"""', "\\", "```\n", ">>> ", "a++ ", "// ", "if {\n", "}\n", ",,", "(", "<br ", "&&",
+     "<<<<<<< a\n", "1 a\n", "A b c d ", "f'{a", "def f:\n", "a b = ", "class A[", "import a ",
      "[ \t", "'a' = ", "b: 1,\n", "\u00a0", "/*", "if " + " " * 200 + "{"],
 )  # fmt: skip
 def test_a_hostile_file_is_searched_in_linear_time(piece: str) -> None:

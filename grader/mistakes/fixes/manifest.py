@@ -189,6 +189,16 @@ def version(case: Case) -> Files | None:
     return _put(case, tag.end, tag.end, new)
 
 
+def three_numbers(case: Case) -> Files | None:
+    """Write a version of one or two numbers with three."""
+    found, line = case.files.data(FILE), case.finding.line
+    match = re.search(rb"<version>\s*(\d+(?:\.\d+)?)\s*</version>", found or b"")
+    if found is None or match is None or line is None or found.count(b"<version") != 1:
+        return None
+    zeros = b".0" * (2 - match[1].count(b"."))
+    return _put(case, match.end(1), match.end(1), zeros)
+
+
 def well_formed(case: Case) -> Files | None:
     """Close a tag, correct its name or its quotes, or remove what is around the XML."""
     found = case.files.data(FILE)

@@ -98,6 +98,40 @@ def ros_2_log(case: Case) -> Files | None:
     return case.changed(module, *splices)
 
 
+def ros_2_timer(case: Case) -> Files | None:
+    """Create the node's timer instead of the one of ROS 1."""
+    node, module = case.node, case.module
+    calls = node.calls_of("Timer") if node is not None else []
+    if node is None or module is None or len(calls) != 1 or dotted(calls[0].func) != "rospy.Timer":
+        return None
+    function, given = node.function_around(calls[0]), calls[0].args
+    method = function is not None and function in node.own_methods and has_self(function)
+    period = given[0].args if given and isinstance(given[0], ast.Call) else []
+    if not method or len(given) != 2 or len(period) != 1:
+        return None
+    if dotted(given[0]) != "rospy.Duration()":
+        return None
+    return case.changed(
+        module,
+        module.text.swap(calls[0].func, "self.create_timer"),
+        module.text.swap(given[0], module.text.code(period[0])),
+    )
+
+
+def only_name(case: Case) -> Files | None:
+    """Pass only the node's name to super().__init__()."""
+    node = case.node
+    call = node.super_init if node is not None else None
+    if node is None or call is None or dotted(call.func) != "super().__init__":
+        return None
+    module = node.module_of(call)
+    end = module.text.span(call)[1] - 1
+    return case.changed(
+        module,
+        Splice(module.text.span(call.func)[1] + 1, end, repr(case.assignment.node_name)),
+    )
+
+
 def without_init_node(case: Case) -> Files | None:
     """Delete the line that calls init_node."""
     node, module = case.node, case.module

@@ -70,9 +70,8 @@ def constructor(case: Case) -> Files | None:
     node = case.node
     if node is None or node.method("__init__") is not None:
         return None
-    near = ("_init_", "__init_", "_init__", "init", "__int__", "__inti__", "__ini__")
-    found = [m for m in node.own_methods if m.name in near]
-    if len(found) != 1 or not node.calls_of("__init__", within=found[0]):
+    found = [m for m in node.own_methods if node.calls_of("__init__", within=m)]
+    if len(found) != 1:
         return None
     text = node.module.text
     at = text.at(found[0].lineno, found[0].col_offset) + len("def ")
@@ -153,8 +152,12 @@ def main_arguments(case: Case) -> Files | None:
     args = main.args.args
     if len(args) != 1 or main.args.posonlyargs or main.args.kwonlyargs or args[0].annotation:
         return None
-    module = node.module_of(main)
-    at = module.text.at(args[0].lineno, args[0].col_offset) + len(args[0].arg)
+    module, name = node.module_of(main), args[0].arg
+    start = module.text.at(args[0].lineno, args[0].col_offset)
+    used = {n.id for n in ast.walk(main) if isinstance(n, ast.Name)}
+    if name == "self" and name not in used:  # (a function outside of the class has no self)
+        return case.changed(module, Splice(start, start + len(name), "args=None"))
+    at = start + len(name)
     return case.changed(module, Splice(at, at, "=None"))
 
 
@@ -191,6 +194,43 @@ def _is_text(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
+def executor(case: Case) -> Files | None:
+    """Spin the executor below the line that gives it the node."""
+    module, name = case.module, str(case.finding.params.get("name", ""))
+    calls = [n for n in module.nodes if isinstance(n, ast.Call)] if module is not None else []
+    added = [call for call in calls if dotted(call.func) == f"{name}.add_node"]
+    if module is None or not name or len(added) != 1:
+        return None
+    line = added[0].lineno
+    if module.line(line) != module.text.code(added[0]):
+        return None
+    row = f"{indent_of(module.text.line(line))}{name}.spin()"
+    return case.changed(module, module.text.before(line + 1, row))
+
+
+def called_init(case: Case) -> Files | None:
+    """Add the () to an rclpy.init that is only named."""
+    module = case.module
+    found = [n for n in module.nodes if isinstance(n, ast.Expr)] if module is not None else []
+    named = [n for n in found if dotted(n.value) == "rclpy.init"]
+    if module is None or case.node is None or len(named) != 1:
+        return None
+    main = case.node.main
+    takes = main is not None and [a.arg for a in main.args.args] == ["args"]
+    new = f"rclpy.init({'args=args' if takes else ''})"
+    return case.changed(module, module.text.swap(named[0], new))
+
+
+def own_init(case: Case) -> Files | None:
+    """Call __init__ of the base class through super()."""
+    node = case.node
+    call = node.super_init if node is not None else None
+    if node is None or call is None or not dotted(call.func).endswith("Node.__init__"):
+        return None
+    module = node.module_of(call)
+    return case.changed(module, module.text.swap(call.func, "super().__init__"))
+
+
 def spin(case: Case) -> Files | None:
     """Spin the node that main creates: with a real call, and forever instead of once."""
     node = case.node
@@ -211,6 +251,7 @@ def spin(case: Case) -> Files | None:
         return case.changed(module, _spin_added(module, main, made[0], f"rclpy.spin({target.id})"))
     wrong = [
         f"rclpy.spin_once({target.id})",
+        f"{target.id}.spin()",
         "rclpy.spin",
         "rclpy.spin()",
         f"rclpy.spin({dotted(made[0].value).removesuffix('()')})",

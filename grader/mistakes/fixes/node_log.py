@@ -89,6 +89,53 @@ def logger(case: Case) -> Files | None:
     return case.changed(node.module, node.module.text.swap(prints[0].func, f"{logger}.info"))
 
 
+def called(case: Case) -> Files | None:
+    """Call the logger's method instead of replacing it."""
+    module, line = case.module, case.finding.line
+    found = [
+        n
+        for n in (module.nodes if module is not None else ())
+        if isinstance(n, ast.Assign) and n.lineno == line
+    ]
+    if module is None or len(found) != 1 or len(found[0].targets) != 1:
+        return None
+    target, value = found[0].targets[0], found[0].value
+    if not dotted(target).endswith("get_logger().info"):
+        return None
+    end = module.text.span(found[0])[1]
+    code = module.text.code(value)
+    new = Splice(module.text.span(target)[1], end, f"({code})")
+    return case.changed(module, new)
+
+
+def without_print(case: Case) -> Files | None:
+    """Give the logger the text instead of what print() returns."""
+    node = case.node
+    call = node.log_call if node else None
+    given = call.args[0] if call is not None else None
+    if node is None or not isinstance(given, ast.Call) or dotted(given.func) != "print":
+        return None
+    if len(given.args) != 1 or given.keywords:
+        return None
+    module = node.module_of(given)
+    return case.changed(module, module.text.swap(given, module.text.code(given.args[0])))
+
+
+def in_braces(case: Case) -> Files | None:
+    """Put the name of the counter in one pair of braces in the f-string."""
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    call = node.log_call if node else None
+    if node is None or call is None or not name or not isinstance(call.args[0], ast.JoinedStr):
+        return None
+    module = node.module_of(call)
+    code = module.text.code(call.args[0])
+    for written in (f"{{{{{name}}}}}", f"({name})", f"[{name}]"):
+        if code.count(name) == 1 and code.count(written) == 1:
+            new = code.replace(written, f"{{{name}}}")
+            return case.changed(module, module.text.swap(call.args[0], new))
+    return None
+
+
 def level(case: Case) -> Files | None:
     """Log at level INFO."""
     node = case.node

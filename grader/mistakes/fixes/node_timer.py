@@ -193,6 +193,31 @@ def made(case: Case) -> Files | None:
     return case.changed(node.module, text.before((last.end_lineno or last.lineno) + 1, row))
 
 
+def without_quotes(case: Case) -> Files | None:
+    """Remove the lines with three quotes around the line that creates the timer."""
+    module, line = case.module, case.finding.line
+    found = [
+        n
+        for n in (module.nodes if module is not None else ())
+        if isinstance(n, ast.Expr) and n.lineno == line and isinstance(n.value, ast.Constant)
+    ]
+    if module is None or len(found) != 1:
+        return None
+    ends = (found[0].lineno, found[0].end_lineno or found[0].lineno)
+    if ends[0] == ends[1] or any(module.line(n) not in ('"""', "'''") for n in ends):
+        return None
+    return case.changed(module, *(module.text.without(n) for n in ends))
+
+
+def plain_method(case: Case) -> Files | None:
+    """Delete the decorator of the finding's line."""
+    module, line = case.module, case.finding.line
+    name = case.finding.params.get("name", "")
+    if module is None or line is None or module.line(line) != f"@{name}":
+        return None
+    return case.changed(module, module.text.without(line))
+
+
 def cancelled(case: Case) -> Files | None:
     """Remove .cancel() after the creation of the timer."""
     node = case.node

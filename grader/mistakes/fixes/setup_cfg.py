@@ -97,11 +97,23 @@ def syntax(case: Case) -> Files | None:
     if text.mark:
         return case.with_data(FILE, found[len(text.mark) :])
     line = text.line(case.finding.line or 0)
+    if line.strip() in ("[develop]", "[install]"):
+        return _other_section(case, text, line)
     match = re.fullmatch(r"(\[?)([A-Za-z_.]{1,40})(\]?)\s*", line)
     if match is None or bool(match[1]) == bool(match[3]) or match[2] not in KEYS:
         return None
     start = text.start_of(case.finding.line or 0)
     new = text.spliced([Splice(start, start + len(line), f"[{match[2]}]")])
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _other_section(case: Case, text: SourceText, line: str) -> Files | None:
+    """Give the second of two equal headings the name of the missing section."""
+    other = {"[develop]": "[install]", "[install]": "[develop]"}[line.strip()]
+    if other in text.text:
+        return None
+    start = text.start_of(case.finding.line or 0)
+    new = text.spliced([Splice(start, start + len(line), other)])
     return case.with_data(FILE, new) if new and _is_read(new) else None
 
 

@@ -54,6 +54,17 @@ def comma(case: Case) -> Files | None:
     return case.with_data(FILE, new) if new is not None and can_parse(new) else None
 
 
+def key(case: Case) -> Files | None:
+    """Write quotes around the key of a dict."""
+    parsed, name = case.parsed(FILE), str(case.finding.params.get("name", ""))
+    dicts = [n for n in ast.walk(parsed[1]) if isinstance(n, ast.Dict)] if parsed else []
+    keys = [k for d in dicts for k in d.keys if isinstance(k, ast.Name) and k.id == name]
+    if parsed is None or len(keys) != 1:
+        return None
+    q = parsed[0].quote
+    return case.with_data(FILE, parsed[0].spliced([parsed[0].swap(keys[0], f"{q}{name}{q}")]))
+
+
 def packages(case: Case) -> Files | None:
     """Let find_packages find the package, if setup() lists a folder that does not exist."""
     setup = read_setup_call(case)

@@ -89,3 +89,8 @@ def is_tool_folder(place: Place, folder: str) -> bool:
 def is_tool_file(name: str) -> bool:
     """Whether a file belongs to a tool, an editor or the system."""
     return name in FILES or name.startswith("._") or name.endswith(ENDINGS)
+
+
+def is_only_copy(name: str, beside: Set[str]) -> bool:
+    """Whether an editor's backup of a Python file has no original beside it."""
+    return name.endswith(".py~") and name[:-1] not in beside

@@ -7,7 +7,13 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 
 from grader.base.i18n.message import say
-from grader.package.intake.artefacts import COLCON, is_colcon_artefact, is_tool_file, is_tool_folder
+from grader.package.intake.artefacts import (
+    COLCON,
+    is_colcon_artefact,
+    is_only_copy,
+    is_tool_file,
+    is_tool_folder,
+)
 from grader.package.intake.left_out import LeftOut
 from grader.package.intake.links import follow
 from grader.package.intake.place import Entry, Place
@@ -147,7 +153,7 @@ def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
         if entry.kind == "folder" and (name in artefacts or is_tool_folder(tree.place, entry.path)):
             tree.left_out.add(MADE_BY_TOOLS, f"{entry.path}/")
             tree.made += [entry.path] if name in ("build", "install") else []
-        elif entry.kind != "folder" and is_tool_file(name):
+        elif entry.kind != "folder" and is_tool_file(name) and not is_only_copy(name, found.keys()):
             tree.left_out.add(MADE_BY_TOOLS, entry.path)
         else:
             tree.entries[entry.path] = entry

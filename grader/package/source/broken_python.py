@@ -8,7 +8,7 @@ from typing import Literal
 from grader.package.edit.text import SourceText, Splice
 from grader.package.source.python import PythonFault, parse_python
 
-Cause = Literal["pasted", "language", "signs"]
+Cause = Literal["pasted", "document", "language", "signs"]
 LONGEST = 500
 """Characters of a line that is examined: some patterns take quadratic time."""
 MOST_TRIES = 8

@@ -24,10 +24,11 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after",
+    "after", "bare", "comment",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
 TYPOGRAPHIC = re.compile(rb"\xe2\x80[\x98-\x9f]")  # U+2018 to U+201F in UTF-8
+BARE = re.compile(rb"\s(?P<name>[\w:.-]{1,60})=(?P<value>[^\s\"'<>=]{1,200})")
 ENTITY = re.compile(rb"&(#?\w{1,30});")
 
 
@@ -173,6 +174,10 @@ def _end_of_file(reader: _Reader, at: int) -> XmlFault | None:
 
 def _invalid(reader: _Reader, at: int) -> XmlFault | None:
     found = reader.found
+    head = found.rfind(b"<!--", 0, at + 4)
+    if head >= 0 and b"-->" not in found[head:]:
+        end = reader.line_end(head)
+        return reader.fault("comment", "!--", head, (end, end, b" -->"))
     start = found.rfind(b"<", 0, max(at, 1))
     if start >= 0 and at - start > 1 and b">" not in found[start:at]:
         return _in_tag(reader, start, at)
@@ -191,6 +196,12 @@ def _in_tag(reader: _Reader, start: int, at: int) -> XmlFault:
     if TYPOGRAPHIC.match(found, at):
         quotes = [(m.start(), m.end(), b'"') for m in TYPOGRAPHIC.finditer(found, at, end)]
         return reader.fault("quotes", tag.lstrip("<"), at, *quotes)
+    bare = BARE.search(found, start, end)
+    if bare is not None:
+        value = b'"' + bare["value"] + b'"'
+        wanted = (bare["name"] + b"=" + value).decode("utf-8", "replace")
+        change = [(bare.start("value"), bare.end("value"), value)]
+        return reader.fault("bare", tag.lstrip("<"), start, *change, wanted=wanted)
     change = [(end, end, b">")] if name and end == name.end() else []
     return reader.fault("unfinished", tag.lstrip("<"), start, *change)
 

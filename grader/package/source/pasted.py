@@ -17,9 +17,13 @@ from grader.package.source.python import PythonFault, parse_python
 LABELS = (
     *("Python", "python", "Python3", "python3", "py", "Bash", "bash", "sh", "Shell", "shell"),
     *("Console", "console", "Terminal", "terminal", "XML", "xml", "HTML", "html", "INI", "ini"),
-    *("Copy", "copy", "Copy code", "Copied!", "Code", "code", "Text", "text", "Plain text", "EOF"),
+    *("Copy", "copy", "Copy code", "Copied!", "Code", "code", "Text", "text", "Plain text"),
 )
-"""What a page writes above a box of code, or on its buttons; EOF ends a here-document."""
+"""What a page writes above a box of code, or on its buttons."""
+ENDS = ("EOF", "EOT", "END")
+"""The words that end a here-document of the shell."""
+EDITOR = r":(?:wq?|qa?|x|wqa)!?|ZZ|\^[XCSOZ]"
+"""What is typed to leave an editor."""
 COMMANDS = (
     *("cd", "source", "ros2", "colcon", "chmod", "sudo", "mkdir", "touch", "nano", "gedit", "code"),
     *("export", "cat", "python3"),
@@ -41,6 +45,8 @@ OPEN = re.compile(
     rf"""
       (?P<line>^(?:
           (?P<label>(?:{"|".join(map(re.escape, LABELS))}):?{END})
+        | (?P<heredoc>(?:{"|".join(ENDS)}){END})
+        | (?P<editor>[ \t]{{0,20}}(?:{EDITOR}){END})
         | (?P<fence>[ \t]{{0,20}}(?:```|~~~)[ \t]{{0,9}}[\w+-]{{0,20}}{END})
         | (?P<command>(?:{"|".join(COMMANDS)})[ ]{{1,9}}(?:-\w|[\w~./$<>])[^\r\n=(]{{0,400}}{END})
         | (?P<shell>(?:[\w.-]{{1,40}}@[\w.-]{{1,60}}:[^\r\n$\#]{{0,200}})?\$[ ][^\r\n]{{0,400}}{END})
@@ -58,6 +64,8 @@ OPEN = re.compile(
 )
 KINDS = (
     "label",
+    "heredoc",
+    "editor",
     "fence",
     "command",
     "shell",
@@ -69,7 +77,7 @@ KINDS = (
     "sign",
 )
 VARIANTS = {"shell": "command", "entity": "tag", "nothing": "blank", "fence": "label"}
-WHOLE_LINES = frozenset({"label", "command"})
+WHOLE_LINES = frozenset({"label", "command", "heredoc", "editor"})
 INSIDE = {
     quotes: re.compile(rf"(?:[^\\\r\n{quotes}]|\\(?:\r\n|.))*", re.DOTALL)
     for quotes in ("'", '"', SINGLE + "'", DOUBLE + '"')
@@ -81,8 +89,8 @@ INSIDE = {
 class Pasted:
     """Something that does not belong into the code: its variant, its line, and the change.
 
-    `variant` is `quotes`, `blank`, `sign`, `tag`, `label`, `prompt` or `command`; `found` is what
-    is written there.
+    `variant` is `quotes`, `blank`, `sign`, `tag`, `label`, `heredoc`, `editor`, `prompt` or
+    `command`; `found` is what is written there.
     """
 
     variant: str
@@ -112,7 +120,7 @@ def labels_in(found: bytes) -> list[Pasted]:
     source = read_source(found)
     if source is None:
         return []
-    labels = [p for p in pasted_in(source) if p.variant == "label"]
+    labels = [p for p in pasted_in(source) if p.variant in ("label", "heredoc", "editor")]
     try:
         tree = parse_python(found).tree if labels else ast.Module([], [])
     except PythonFault:

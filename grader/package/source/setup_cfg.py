@@ -13,10 +13,14 @@ MOST_BYTES = 100_000
 class SetupCfgFault(Exception):  # noqa: N818 - a fault in the student's file, not an error
     """Why setuptools cannot read a setup.cfg, and on which line."""
 
-    def __init__(self, text: str, line: int | None = None) -> None:
+    def __init__(
+        self, text: str, line: int | None = None, variant: str = "", other: str = ""
+    ) -> None:
         super().__init__(text)
         self.text = text
         self.line = line
+        self.variant = variant
+        self.other = other
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,15 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
         raise SetupCfgFault(reason, error.lineno) from None
     except (configparser.DuplicateOptionError, configparser.DuplicateSectionError) as error:
         twice = getattr(error, "option", None) or f"[{error.section}]"
-        raise SetupCfgFault(say("{twice} appears twice", twice=twice), error.lineno) from None
+        section = getattr(error, "option", None) is None
+        other = {"develop": "install", "install": "develop"}.get(error.section, "")
+        missing = section and other and f"[{other}]" not in text
+        raise SetupCfgFault(
+            say("{twice} appears twice", twice=twice),
+            error.lineno,
+            "section" if missing else "twice",
+            other,
+        ) from None
     except configparser.ParsingError as error:
         line = error.errors[0][0] if error.errors else None
         raise SetupCfgFault(say("a line that is neither a [section] nor key=value"), line) from None

@@ -186,6 +186,59 @@ def _long_texts(text: Broken) -> Iterator[tuple[int, int]]:
             yield start, end
 
 
+HEADS = {"except": "try", "finally": "try", "elif": "if", "else": "if"}
+
+
+def _clause(text: Broken) -> Slip | None:
+    """Return an except, finally, elif or else that belongs to no block above it."""
+    match = CLAUSE.match(text.line)
+    if match is None or text.fault.text not in ("invalid syntax", "SyntaxError: invalid syntax"):
+        return None
+    word = match[0].strip()
+    width = len(indent_of(text.line))
+    for number in range(text.number - 1, 0, -1):
+        row = text.code.line(number)
+        if row.strip() and len(indent_of(row)) < width:
+            break
+        if len(indent_of(row)) == width and re.match(
+            rf"[ \t]*(?:{HEADS[word]}|for|while|if|elif|except)\b", row
+        ):
+            return None
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "clause_alone", text.number, shown, HEADS[word])
+
+
+NO_BRACKETS = re.compile(r"(?P<head>[ \t]*def[ \t]+\w+)[ \t]*:")
+
+
+def _def_brackets(text: Broken) -> Slip | None:
+    """Return a function without brackets after its name."""
+    match = NO_BRACKETS.match(text.line)
+    if match is None:
+        return None
+    given = "(self)" if indent_of(text.line) else "()"
+    at = match.end("head")
+    splice = text.within(at, at, given)
+    new = text.changed(splice)
+    written = text.source.line(text.number)
+    return text.slip("signs", "def_brackets", written, splice, fixed=new) if new else None
+
+
+def two_statements(text: Broken) -> Slip | None:
+    """Return two statements on one line."""
+    indent = indent_of(text.line)
+    for match in list(
+        re.finditer(r"(?<=[)\w'\"])[ \t]+(?=[A-Za-z_][\w.]*[ \t]*[(=+-])", text.line)
+    ):
+        splice = text.within(*match.span(), text.source.newline + indent)
+        new = text.changed(splice)
+        if new is not None and _is_read(new):
+            shown = text.source.line(text.number).strip()
+            second = text.source.line(text.number)[match.end() :].strip()
+            return Slip("signs", "two_statements", text.number, shown, second, new)
+    return None
+
+
 BLOCK_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _bracket, _colon, _capital, _compare, _not_indented, _line_above, _without_end,
+    _bracket, _def_brackets, _clause, _colon, _capital, _compare, _not_indented, _line_above, _without_end,
 )  # fmt: skip

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from grader.package.edit.text import SourceText, Splice, read_source
 from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip, fault_of
 from grader.package.source.code_only import code_only
-from grader.package.source.pasted import cleaned, pasted_in
-from grader.package.source.slip_blocks import BLOCK_LOOKS
+from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
+from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 
 TYPES = (
     "int|float|double|bool|boolean|string|String|var|let|const|auto|char|long|size_t|std::string"
@@ -33,7 +33,72 @@ def slip_of(found: bytes) -> Slip | None:
         return None
     code = SourceText(code_only(source.text), source.encoding)
     text = Broken(source, code, fault, fault.line)
-    return _pasted(text) or next(filter(None, (look(text) for look in LOOKS)), None)
+    return (
+        _document(text) or _pasted(text) or next(filter(None, (look(text) for look in LOOKS)), None)
+    )
+
+
+DOCUMENTS = {
+    "page": re.compile(r"\s*<(?:!doctype\s+html|html|head)\b", re.I),
+    "markup": re.compile(r"\s*<\?xml\b|\s*<package\b"),
+    "notebook": re.compile(r"\s*\{\s*\"cells\"\s*:"),
+    "word": re.compile(r"\{\\rtf"),
+}
+"""How files begin that are no Python at all."""
+
+
+def _document(text: Broken) -> Slip | None:
+    """Return a file of another kind under the name of a Python file."""
+    for variant, pattern in DOCUMENTS.items():
+        match = pattern.match(text.source.text)
+        if match is not None:
+            line = _line_at(text.source, match.end())
+            return Slip("document", variant, line, text.source.line(line).strip())
+    return None
+
+
+CONFLICT = re.compile(r"^(?:<{7}|={7}|>{7})(?: |$)")
+
+
+def _conflict(text: Broken) -> Slip | None:
+    """Return the first mark that git wrote where two versions of the file differ."""
+    marks = [n for n, _ in enumerate(text.source.lines, 1) if CONFLICT.match(text.source.line(n))]
+    if len(marks) < 2 or text.number not in marks:
+        return None
+    last = str(marks[min(2, len(marks) - 1)])
+    return Slip("document", "conflict", marks[0], text.source.line(marks[0]), "", other=int(last))
+
+
+PROSE = re.compile(r"[A-Z][a-z']{0,30}(?:,? [\w'`-]{1,40}){3,40}[.:!]?")
+
+
+def _prose(text: Broken) -> Slip | None:
+    """Return a sentence at the margin that is no code."""
+    written = text.source.line(text.number).rstrip()
+    if PROSE.fullmatch(written) is None:
+        return None
+    new = text.source.spliced([text.source.without(text.number)])
+    return Slip("pasted", "prose", text.number, written, fixed=new)
+
+
+NUMBERED = re.compile(r"[ \t]*\d{1,4}(?:[.:|]|[ \t])[ \t]?(?=[A-Za-z_#@ \t'\"]|$)")
+
+
+def _numbers(text: Broken) -> Slip | None:
+    """Return line numbers that were pasted with the code."""
+    at = [n for n, _ in enumerate(text.source.lines, 1) if NUMBERED.match(text.code.line(n))]
+    if text.number not in at:
+        return None
+    splices = []
+    for number in at:
+        match = NUMBERED.match(text.source.line(number))
+        start = text.source.start_of(number)
+        splices.append(Splice(start, start + (match.end() if match else 0), ""))
+    new = text.changed(*splices)
+    if new is None:
+        return None
+    match = NUMBERED.match(text.line)
+    return Slip("pasted", "numbers", text.number, (match[0] if match else "").strip(), fixed=new)
 
 
 def _pasted(text: Broken) -> Slip | None:
@@ -43,7 +108,7 @@ def _pasted(text: Broken) -> Slip | None:
     if new is None:
         return None
     after = fault_of(new)
-    gone = sum(p.variant in ("label", "command") and p.line <= text.number for p in found)
+    gone = sum(p.variant in WHOLE_LINES and p.line <= text.number for p in found)
     if after is not None and (after.line is None or after.line <= text.number - gone):
         return None
     at = next((p for p in found if p.line == text.number), found[0])
@@ -91,6 +156,12 @@ RULES = (
     _rule("function", r"^(?P<start>[ \t]*)(?:(?:public|private|static|async)[ \t]+)?"
           r"(?:function|func|fn|fun|void|sub|define|defn)[ \t]+(?=\w+[ \t]*\()", r"\g<start>def "),
     _rule("new", r"\bnew[ \t]+(?=[A-Za-z_][\w.]*[ \t]*\()", ""),
+    _rule("import", r"^(?P<start>[ \t]*)import[ \t]+(?P<what>[\w, \t*]+?)[ \t]+from[ \t]+(?P<module>[\w.]+)",
+          r"\g<start>from \g<module> import \g<what>"),
+    _rule("base", r"^(?P<start>[ \t]*class[ \t]+\w+)[ \t]*(?:\[(?P<in>[\w., ]*)\]|<(?P<less>[\w., ]*)>)",
+          r"\g<start>(\g<in>\g<less>)"),
+    _rule("base", r"^(?P<start>[ \t]*class[ \t]+\w+)[ \t]*(?:extends[ \t]+|:[ \t]*(?:public[ \t]+)?)(?P<base>\w[\w.]*)[ \t]*:?[ \t]*$",
+          r"\g<start>(\g<base>):"),
     _rule("member", r"(?<=\w)[ \t]*->[ \t]*(?=[A-Za-z_])", "."),
     _rule("member", r"(?<=[)\]])[ \t]*->[ \t]*(?=[A-Za-z_])", ".", certain=False),
     _rule("member", r"(?<=\w)::(?=[A-Za-z_])", ".", certain=False),
@@ -254,6 +325,30 @@ def _quotes(text: Broken) -> Slip | None:
     return text.slip("signs", "quote", written)
 
 
+def _brace(text: Broken) -> Slip | None:
+    """Return an f-string with a brace that is not closed."""
+    written = text.source.line(text.number)
+    if "f-string" not in text.fault.text and "'{' was never closed" not in text.fault.text:
+        return None
+    for match in list(re.finditer(r"f(['\"])[^'\"]*\{[\w.]+(?=\1)", written))[:MOST_TRIES]:
+        splice = text.within(match.end(), match.end(), "}")
+        new = text.changed(splice)
+        if new is not None:
+            return text.slip("signs", "brace", written, splice, fixed=new)
+    single = "single '}'" in text.fault.text
+    return text.slip("signs", "brace_alone" if single else "brace_wrong", written)
+
+
+def _global(text: Broken) -> Slip | None:
+    """Return a declaration of an attribute, which needs none."""
+    match = re.fullmatch(r"[ \t]*(?:global|nonlocal)[ \t]+self\.\w+[ \t]*", text.line)
+    if match is None:
+        return None
+    new = text.changed(text.source.without(text.number))
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "global", text.number, shown, "", new)
+
+
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _braces, _comment, _commas, _quotes, _keys, *BLOCK_LOOKS, _other_sign,
+    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _quotes, _keys, *BLOCK_LOOKS, _other_sign, two_statements,
 )  # fmt: skip

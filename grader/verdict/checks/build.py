@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from typing import TYPE_CHECKING
 
@@ -9,10 +10,14 @@ from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.mistakes.fixes.setup_py import called_value
 from grader.mistakes.slips import description, words_of
+from grader.package.source.module import parse_module
+from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
+from grader.package.source.python import PythonFault
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.declare import BUILD, check
+from grader.verdict.checks.parsed import node_path
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -137,6 +142,8 @@ def _broken(evidence: Evidence) -> Failed:
             expected=expected,
             actual=say("setup.py ended before it called setup()"),
             where=where,
+            variant=_never_called(_setup_py(evidence)),
+            words={"path": node_path(evidence)},
         )
     if error:
         return _raised(evidence, expected, error, where)
@@ -147,7 +154,7 @@ def _broken(evidence: Evidence) -> Failed:
             "setup.not_packaged",
             expected=expected,
             actual=say("setup.py names a folder that is not in the package: {folder}", folder=name),
-            where=Where(file="setup.py"),
+            where=Where(file="setup.py", line=_line_of(_setup_py(evidence), "packages=")),
             params={"folder": name},
         )
     ended = say("colcon ended with status {status}", status=str(build.status))
@@ -159,10 +166,53 @@ def _broken(evidence: Evidence) -> Failed:
     )
 
 
+def _line_of(found: bytes, text: str) -> int | None:
+    """Return the only line of a file that has a text."""
+    rows = found.decode("utf-8", "replace").replace(" ", "").splitlines()
+    lines = [n for n, row in enumerate(rows, 1) if text in row]
+    return lines[0] if len(lines) == 1 else None
+
+
+def _never_called(found: bytes) -> str:
+    """Return why setup() was not called: nothing calls it, or the file is a node's; "" if it exits."""
+    try:
+        module = parse_module("setup.py", found)
+    except (PythonFault, RecursionError, MemoryError):
+        return ""
+    called = {dotted(n.func) for n in module.nodes if isinstance(n, ast.Call)}
+    if called & {"setup", "setuptools.setup"}:
+        return ""
+    return "node" if module.uses_ros else "missing"
+
+
+def _unquoted(found: bytes, error: str) -> ast.Name | None:
+    """Return the key of a dict that lacks its quotes, if that is why setup.py stops."""
+    match = re.search(r"NameError: name '(\w{1,80})' is not defined", error)
+    try:
+        module = parse_module("setup.py", found)
+    except (PythonFault, RecursionError, MemoryError):
+        return None
+    for node in module.nodes:
+        for key in node.keys if isinstance(node, ast.Dict) else ():
+            if match is not None and isinstance(key, ast.Name) and key.id == match[1]:
+                return key
+    return None
+
+
 def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     """Return the error with which setup.py stopped, or the missing comma that it comes from."""
     found = called_value(_setup_py(evidence)) if NOT_CALLABLE.match(error) else None
     line = str(found.end_lineno) if found is not None else ""
+    key = _unquoted(_setup_py(evidence), error)
+    if key is not None:
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("setup.py stopped with {error}", error=error),
+            where=Where(file="setup.py", line=key.lineno),
+            variant="key",
+            params={"error": error, "name": key.id},
+        )
     return Failed(
         "build.setup_error",
         expected=expected,

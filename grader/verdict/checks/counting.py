@@ -38,7 +38,8 @@ def output(evidence: Evidence) -> Passed:
         if evidence.has_failed("run.spins") and not run.resource:
             raise Blocked(by="run.spins")
         raise resource(evidence, expected) if run.resource else _silent(evidence, expected)
-    shown = ", ".join(event.text[:80] for event in events[:4])
+    first = _first_wrong(events, wanted.step)
+    shown = ", ".join(event.text[:80] for event in events[first : first + 4])
     numbers = [event.n for event in events if event.n is not None]
     if not numbers:
         raise Failed(
@@ -66,6 +67,15 @@ def output(evidence: Evidence) -> Passed:
         )
     lines = say("{count} lines: {shown}, …", count=len(numbers), shown=shown)
     return Passed(actual=lines, advice=advice)
+
+
+def _first_wrong(events: list[Event], step: int) -> int:
+    """Return the index of the line before the first one that does not follow it; 0 if all do."""
+    for at, (before, after) in enumerate(zip(events, events[1:])):
+        if before.n is None or after.n is None or after.n - before.n == step:
+            continue
+        return max(0, at - 1)
+    return 0
 
 
 def _silent(evidence: Evidence, expected: str) -> Failed:
@@ -161,9 +171,10 @@ def logger(evidence: Evidence) -> Passed:
         raise Blocked(by="run.output")
     names = {node.logger for node in run.nodes}
     expected = say("log records of the node on /rosout, level INFO")
+    gone = run.ended_by_itself or bool(run.watch.missing)
     for event in events:
-        if run.ended_by_itself and event.source == "faked" and event.wall > events[-1].wall - LOST:
-            continue  # the last records of a node that ends may be lost
+        if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
+            continue  # the last records of a node that ends or is destroyed may be lost
         _judge_record(event, names, expected, line_of(evidence, event.record))
     node = run.counting_node
     name = node.logger if node is not None else min(names, default="")

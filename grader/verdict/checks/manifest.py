@@ -138,6 +138,8 @@ def _described(fault: XmlFault) -> Message:
         "ampersand": say("there is a bare &"),
         "before": say("there is something before the first tag"),
         "after": say("there is something after the last tag"),
+        "bare": say("<{tag} …> has a value without quotes", **words),
+        "comment": say("a comment that begins with <!-- has no end"),
     }
     return texts[fault.variant]
 
@@ -161,6 +163,7 @@ def _check_rules(manifest: Manifest) -> None:
             "package.manifest_rules",
             shown_long(manifest.fault),
             _line_of_fault(manifest),
+            variant="version" if "version conventions" in manifest.fault else "",
             params={"error": shown_long(manifest.fault)},
         )
 
@@ -191,6 +194,8 @@ def _line_of_fault(manifest: Manifest) -> int | None:
     """Return the line of the tag that catkin_pkg's message names, if any."""
     for element in manifest.elements:
         tag = element.tag
+        if tag == "version" and "version conventions" in manifest.fault:
+            return element.line
         if any(f"{mark}{tag}{mark}" in manifest.fault for mark in "\"'") or (
             f"following tags: {tag}" in manifest.fault
         ):

@@ -79,7 +79,8 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
     package = evidence.assignment.package
     others = [name for name in names_in(evidence, "resource") if name != package]
     variant, actual = "", say("there is no file {path}", path=path)
-    close = nearest(package, others) or (others[0] if len(others) == 1 else "")
+    lone = [n for n in others if "." not in n] if len(others) == 1 else []
+    close = nearest(package, others) or "".join(lone)
     if evidence.submission.file(path) is not None:
         variant, actual = "folder", say("{path} is a folder", path=path)
     elif close:
@@ -161,6 +162,8 @@ def setup_cfg(evidence: Evidence) -> Passed:
             expected=expected,
             actual=say("setup.cfg cannot be parsed: {text}", text=printable_reason(fault.text)),
             where=Where(file="setup.cfg", line=fault.line),
+            variant=fault.variant,
+            words={"other": fault.other},
         ) from None
     advice = [
         *_setting(cfg, "develop", "script_dir", wanted, expected),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
@@ -15,7 +16,7 @@ from grader.package.source.broken_python import Slip
 from grader.package.source.module import parse_module
 from grader.package.source.node import MOST_BYTES
 from grader.package.source.node_class import derives_from_node
-from grader.package.source.pasted import Pasted, pasted_in
+from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
@@ -122,6 +123,15 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
     close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
     close = close or nearest(name, beside, cutoff=0.75)
+    if close.endswith(".ipynb"):
+        return Failed(
+            "source.no_node_file",
+            expected=expected,
+            actual=say("there is {path}", path=f"{inner}/{shown(close)}"),
+            where=Where(file=f"{inner}/{shown(close)}"),
+            variant="notebook",
+            words={"path": path, "copy": ""},
+        )
     if close:
         there = f"{inner}/{shown(close)}"
         return Failed(
@@ -130,7 +140,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             actual=with_difference(say("there is {path}", path=there), close, name),
             where=Where(file=there),
             params={"name": shown(close)},
-            words={"there": there, "path": path},
+            words={"there": shlex.quote(there), "path": path},
         )
     files = ", ".join(shown(n) for n in beside[:4]) or say("no file of yours yet")
     actual = say("{inner}/ contains {files}", inner=inner, files=files)
@@ -185,7 +195,7 @@ def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
         actual=joined(text, description(slip), by=", "),
         where=Where(file=path, line=slip.line),
         variant=slip.variant,
-        params={"what": slip.variant} if slip.cause == "pasted" else params,
+        params={"what": slip.variant} if slip.cause in ("pasted", "document") else params,
         words=words_of(slip),
     )
 
@@ -286,7 +296,7 @@ def _above_shebang(data: bytes, line: int) -> Pasted | None:
     """Return what was pasted on line 1, if nothing else is above a line."""
     source = read_source(data)
     found = [p for p in pasted_in(source) if p.line < line] if source is not None else []
-    lines = {p.line: p for p in found if p.variant in ("label", "command")}
+    lines = {p.line: p for p in found if p.variant in WHOLE_LINES}
     if source is None or 1 not in lines:
         return None
     others = [n for n in range(1, line) if n not in lines and source.line(n).strip()]

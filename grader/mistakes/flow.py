@@ -1,0 +1,270 @@
+"""Mistakes in what a callback does when: loops, conditions, and calls that end the node."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.fixes import lines
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.place import function_at, statement_at
+
+ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
+LEVELS = ("set_level", "set_logger_level")
+LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+STEP = "        self.counter_ += 1\n"
+
+
+def _blocks(suspect: Suspect) -> Iterator[ast.stmt]:
+    callback = suspect.source.callback
+    for node in ast.walk(callback) if callback is not None else ():
+        if isinstance(node, ast.For | ast.While | ast.If):
+            yield node
+
+
+def _loops(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop of the callback that logs in each round."""
+    for block in _blocks(suspect):
+        if isinstance(block, ast.For | ast.While) and suspect.source.logs(block):
+            word = "for" if isinstance(block, ast.For) else "while"
+            return suspect.finding("loop_in_callback", block, name=word)
+    return None
+
+
+def _chooses(block: ast.If) -> bool:
+    """Whether a condition has an else, or is true at each n-th call: that can be meant."""
+    nth = any(isinstance(n, ast.Mod) for n in ast.walk(block.test))
+    return bool(block.orelse) or nth
+
+
+def _logs_if(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition that decides whether the callback logs."""
+    source, callback = suspect.source, suspect.source.callback
+    for block in _blocks(suspect):
+        logs = source.logs(block)
+        if not isinstance(block, ast.If) or _chooses(block) or callback is None:
+            continue
+        if logs and len(logs) == len(source.logs(callback)):
+            return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
+    return None
+
+
+def _counts_if(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition that decides whether the callback counts."""
+    callback, logged = suspect.source.callback, logged_counter(suspect.source)
+    if callback is None or logged is None:
+        return None
+    changed = [n for n in ast.walk(callback) if logged[1] in targets_of(n)]
+    for block in _blocks(suspect):
+        if not isinstance(block, ast.If) or _chooses(block):
+            continue
+        inside = list(ast.walk(block))
+        if changed and all(change in inside for change in changed):
+            return suspect.finding(
+                "count_if", block, name=logged[1], text=ast.unparse(block.test)[:60]
+            )
+    return None
+
+
+def _inner(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a function in the callback that logs, and that nothing calls."""
+    source, callback = suspect.source, suspect.source.callback
+    used = {n.id for n in source.all_nodes if isinstance(n, ast.Name)}
+    for node in ast.walk(callback) if callback is not None else ():
+        inner = isinstance(node, ast.FunctionDef) and node is not callback
+        unused = inner and isinstance(node, ast.FunctionDef) and node.name not in used
+        if unused and isinstance(node, ast.FunctionDef) and source.logs(node):
+            return suspect.finding("inner_not_called", node, name=node.name)
+    return None
+
+
+def _ends(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call in the callback that ends the node."""
+    callback = suspect.source.callback
+    for call, name in calls_in(callback) if callback is not None else ():
+        if name in ENDS or last_part(name) == "destroy_node":
+            return suspect.finding("ends_in_callback", call, name=f"{name}()")
+    return None
+
+
+def _level(suspect: Suspect) -> RecognisedMistake | None:
+    for call, name in suspect.source.calls:
+        given = ast.unparse(call.args[-1]) if call.args else ""
+        hides = re.search(r"\b(?:WARN|WARNING|ERROR|FATAL)\b", given)
+        if last_part(name) in LEVELS and hides:
+            return suspect.finding("level_set", call, name=last_part(name), level=hides[0])
+    return None
+
+
+def _placeholder(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    statement = statement_at(raised.module, raised.line)
+    function = function_at(raised.module, raised.line)
+    if not isinstance(statement, ast.Raise) or function is None or statement.exc is None:
+        return None
+    if not dotted(statement.exc).startswith("NotImplementedError"):
+        return None
+    found = raised.finding("placeholder", at=statement, name=function.name)
+    alone = [s for s in function.body if s is not statement and not _is_text(s)]
+    return found if alone else replace(found, variant="alone")
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "loop_in_callback",
+        "timer",
+        msg("A loop in the callback logs several lines at once"),
+        msg(
+            "The timer calls the callback again and again. A loop in the callback does all its "
+            "rounds in one call, at the same time."
+        ),
+        msg("Remove this {name}, and indent its lines as far as the {name} is indented now."),
+        behind={"run.twice": _loops},
+        fixed_by=(lines.unwrapped,),
+        examples=(
+            example(
+                "loop_logs_ten",
+                Replace(NODE, LOG + STEP, f"        for i in range(10):\n    {LOG}    {STEP}"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "log_if",
+        "callback",
+        msg("A condition decides whether the line is logged"),
+        msg("The line is logged only while the condition {name} is true."),
+        msg("Remove this if, and indent the lines below it as far as the if is indented now."),
+        behind={"run.no_lines": _logs_if, "run.stops": _logs_if, "run.wrong_start": _logs_if},
+        fixed_by=(lines.unwrapped,),
+        examples=(
+            example(
+                "logs_until_five",
+                Replace(NODE, LOG, f"        if self.counter_ < 5:\n    {LOG}"),
+                fails="run.output",
+            ),
+            example(
+                "logs_after_the_first",
+                Replace(NODE, LOG, f"        if self.counter_ > 0:\n    {LOG}"),
+                fails="run.output",
+            ),
+            example(
+                "logs_never",
+                Replace(NODE, LOG + STEP, f"        if self.counter_ > 0:\n    {LOG}    {STEP}"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "count_if",
+        "counter",
+        msg("A condition decides whether the counter changes"),
+        msg("The counter changes only while the condition {text} is true."),
+        msg("Remove this if, and indent the lines below it as far as the if is indented now."),
+        behind={"run.constant_counter": _counts_if, "run.wrong_step": _counts_if},
+        fixed_by=(lines.unwrapped,),
+        examples=(
+            example(
+                "counts_never",
+                Replace(NODE, STEP, f"        if self.counter_ > 0:\n    {STEP}"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "inner_not_called",
+        "callback",
+        msg("A function in the callback is not called"),
+        msg("def only defines {name}. Its lines run when something calls {name}()."),
+        msg("Remove the line def {name}, and indent its lines as far as the def is indented now."),
+        behind={"run.no_lines": _inner},
+        examples=(
+            example(
+                "inner_function",
+                Replace(NODE, LOG + STEP, f"        def say_hello():\n    {LOG}    {STEP}"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "ends_in_callback",
+        "callback",
+        msg("The callback ends the node"),
+        msg("{name} ends the node. In the callback it runs after the first line already."),
+        msg("Remove this line from the callback: a node ends with Ctrl+C."),
+        links.EXECUTORS,
+        behind={
+            "run.ended_early": _ends,
+            "run.stops": _ends,
+            "run.no_lines": _ends,
+            "run.exits_at_once": _ends,
+        },
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "shutdown_in_callback",
+                Replace(NODE, STEP, f"{STEP}        rclpy.shutdown()\n"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "level_set",
+        "logger",
+        msg("The logger is set to a level that hides the lines"),
+        msg("After {name}, the logger shows only records of the level {level} and above."),
+        msg("Remove the line with {name}."),
+        links.LOGGING,
+        behind={"run.no_lines": _level},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "level_set_to_warn",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n"
+                    "        self.get_logger().set_level(rclpy.logging.LoggingSeverity.WARN)",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "placeholder",
+        "callback",
+        msg("A method still has the line that stands for its code"),
+        msg("raise NotImplementedError ends the program where the code is still to be written."),
+        msg("Delete this line: the lines of {name} are below it or above it."),
+        links.PYTHON_ERRORS,
+        fixes={"alone": msg("Write the lines of {name} instead of this line.")},
+        raised={"NotImplementedError": _placeholder},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "not_implemented",
+                Replace(NODE, LOG, f"        raise NotImplementedError\n{LOG}"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+)

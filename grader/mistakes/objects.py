@@ -1,0 +1,435 @@
+"""Mistakes in what stands at a place: a module for a class, a text for a node, a name of Node's."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import lines, node_objects
+from grader.mistakes.kind import Family
+from grader.mistakes.node_start import lines_of
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
+from grader.package.source.names import called_name, dotted, last_part, own_name
+from grader.package.source.place import statement_at
+
+NO_BASE = (
+    r"TypeError: (?:module|str|int)\(\) takes at most|metaclass conflict"
+    r"|module 'rclpy(?:\.node)?' has no attribute '[Nn]ode'"
+)
+NO_SETTER = r"property '(?P<name>\w{1,120})' of '\w{1,120}' object has no setter|can't set attribute '(?P<old>\w{1,120})'"
+OWN_METHOD = r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) (?:takes|missing|got)"
+NOT_A_NODE = r"'(?P<type>\w{1,120})' object has no attribute '(?:executor|handle|context)'"
+OWN_IMPORT = r"cannot import name '(?P<name>\w{1,120})' from partially initialized module '(?P<module>[\w.]{1,200})'"
+OPERATOR = r"unsupported operand type\(s\) for (?P<name>[-&|^/%]|//): '(?:str|int|float)' and '(?:str|int|float)'"
+NOT_A_NUMBER = (
+    r"can only concatenate (?:tuple|list) \(not \"int\"\)"
+    r"|unsupported operand type\(s\) for [+-]=?: '(?!str)\w{1,120}' and '(?:int|float)'"
+)
+ANY_NAME = r"incompatible constructor arguments|node_name|TypeError"
+
+
+def _no_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The base in the line of a class is a module."""
+    del match
+    for found in raised.module.classes:
+        for base in found.bases:
+            name = dotted(base)
+            if raised.line not in (found.lineno, base.lineno) or not _is_module(raised, name):
+                continue
+            mistake = raised.finding("base_not_class", at=base, name=name, written="Node")
+            known = "Node" in raised.module.imports
+            return replace(mistake, variant="imported" if known else "")
+    return None
+
+
+def _own_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A class names itself as its base."""
+    for found in raised.module.classes:
+        for base in found.bases:
+            if dotted(base) == found.name == match["name"] and raised.line == found.lineno:
+                mistake = raised.finding("base_not_class", at=base, name=found.name, written="Node")
+                return replace(mistake, variant="itself")
+    return None
+
+
+def _is_module(raised: Raised, name: str) -> bool:
+    modules = {"rclpy", "rclpy.node", "rclpy.Node"}
+    for node in raised.module.nodes:
+        if isinstance(node, ast.ImportFrom) and node.module == "rclpy":
+            modules |= {a.asname or a.name for a in node.names if a.name.islower()}
+    return name in modules
+
+
+def _not_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call of spin that fails gets something that is no node."""
+    del match
+    variables = sorted(raised.source.node_variables)
+    for call, name in raised.source.calls:
+        if last_part(name) not in ("spin", "spin_once") or raised.line not in lines_of(call):
+            continue
+        given = call.args[0] if call.args else None
+        if given is None or dotted(given) in variables:
+            continue
+        code = raised.module.text.code(given)
+        node = variables[0] if len(variables) == 1 else "node"
+        return raised.finding("spin_of_other", at=call, name=code, written=node)
+    return None
+
+
+def _name_not_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call of super().__init__ that fails gets something that is no text."""
+    call = raised.source.super_init
+    if call is None or raised.line not in lines_of(call) or not call.args:
+        return None
+    given = call.args[0]
+    text = isinstance(given, ast.Constant | ast.JoinedStr | ast.BinOp | ast.Call)
+    typed = "incompatible constructor" in match.string
+    if dotted(given) == "self" or (text and not typed) or len(call.args) > 1 or not typed:
+        return None
+    code = raised.module.text.code(given)
+    new = repr(raised.assignment.node_name)
+    return raised.finding("name_not_text", at=call, name=code, written=new)
+
+
+def _callback_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A timer gets the name of its callback in quotes."""
+    del match
+    for timer in raised.source.timers:
+        given = timer.callback
+        if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
+            continue
+        name = given.value.removesuffix("()").removeprefix("self.")
+        if name not in raised.source.methods:
+            continue
+        code = raised.source.module_of(given).text.code(given)
+        return raised.finding("callback_text", at=timer.call, name=code, written=f"self.{name}")
+    return None
+
+
+def _operator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A text and something else are joined with another sign than +."""
+    statement = statement_at(raised.module, raised.line)
+    for part in ast.walk(statement) if statement is not None else ():
+        if isinstance(part, ast.BinOp) and _is_text(part.left):
+            return raised.finding("text_operator", at=part, name=match["name"], written="+")
+    return None
+
+
+def _is_text(part: ast.expr) -> bool:
+    return isinstance(part, ast.Constant) and isinstance(part.value, str)
+
+
+def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class sets an attribute, or has a method, with the name of one of Node's."""
+    given = match.groupdict()
+    name = given.get("name") or given.get("old") or "get_logger"
+    method = raised.source.methods.get(name)
+    if method is not None:
+        if name not in node_objects.METHODS:
+            return None
+        found = raised.finding("name_taken", at=method, name=name)
+        return replace(found, variant="method")
+    for part in raised.source.own_nodes:
+        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+        if stored and isinstance(part, ast.Attribute) and own_name(part) == name:
+            return raised.finding("name_taken", at=part, name=name, written=f"{name}_")
+    return None
+
+
+def _own_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    statement = statement_at(raised.module, raised.line)
+    if not isinstance(statement, ast.ImportFrom):
+        return None
+    own = raised.module.path.removesuffix(".py").replace("/", ".")
+    if match["module"] != own or last_part(statement.module or "") != last_part(own):
+        return None
+    return raised.finding("import_own", at=statement, name=match["name"])
+
+
+def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    statement = statement_at(raised.module, raised.line)
+    target = statement.targets[0] if isinstance(statement, ast.Assign) else None
+    names = [dotted(e) for e in target.elts] if isinstance(target, ast.Tuple) else []
+    if target is None or len(names) != 2 or names[0] != "self" or "." in names[1]:
+        return None
+    code = raised.module.text.code(target)
+    return raised.finding("comma_for_dot", at=target, name=code, written=f"self.{names[1]}")
+
+
+def _not_a_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line that fails adds to an attribute that __init__ sets to something else."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    init = raised.source.method("__init__")
+    for part in ast.walk(statement) if statement is not None else ():
+        name = dotted(part)
+        if not name.startswith("self.") or name.count(".") != 1:
+            continue
+        set_here = [n for n in ast.walk(init) if isinstance(n, ast.Assign)] if init else []
+        starts = [n for n in set_here if name in targets_of(n)]
+        if starts:
+            return _start_of(raised, name, starts[-1])
+    return None
+
+
+def _start_of(raised: Raised, name: str, start: ast.Assign) -> RecognisedMistake | None:
+    value = start.value
+    if isinstance(value, ast.Call):
+        other = "timer_" if called_name(value) == "create_timer" else f"{last_part(name)}_other"
+        found = raised.finding("counter_not_number", at=start, name=name, written=f"self.{other}")
+        return replace(found, variant="overwritten")
+    if isinstance(value, ast.Constant) and type(value.value) in (int, float):
+        return None
+    code = raised.source.module_of(value).text.code(value)
+    number = str(raised.assignment.output.start)
+    params = {"name": code, "written": number, "attribute": name}
+    found = raised.finding("counter_not_number", at=start, params=params)
+    return replace(found, variant="comma" if isinstance(value, ast.Tuple) else "")
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+INSTEAD = msg("Write {written} instead of {name}.")
+KINDS = (
+    _node(
+        "base_not_class",
+        "class",
+        msg("The class inherits from something that is not a class"),
+        msg(
+            "The brackets of a class line contain the name of the base class. {name} is not a "
+            "class: the class Node is in the module rclpy.node."
+        ),
+        msg(
+            "Write {written} instead of {name}, and import it at the top of the file: from "
+            "rclpy.node import Node"
+        ),
+        links.NODES,
+        whys={
+            "itself": msg(
+                "The brackets of a class line contain the name of the base class. {name} is the "
+                "class that this line begins, so it does not exist yet."
+            )
+        },
+        fixes={
+            "imported": INSTEAD,
+            "itself": msg("Write {written} instead of {name} in the brackets."),
+        },
+        raised={NO_BASE: _no_base, NAME_ERROR: _own_base},
+        fixed_by=(node_objects.base,),
+        examples=(
+            example(
+                "base_is_module",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy import node"),
+                Replace(NODE, "(Node)", "(node)"),
+                fails="run.starts",
+            ),
+            example("base_is_itself", Replace(NODE, "(Node)", "(MyFirstNode)"), fails="run.starts"),
+            example("base_is_package", Replace(NODE, "(Node)", "(rclpy)"), fails="run.starts"),
+            example(
+                "base_of_rclpy",
+                Replace(NODE, "from rclpy.node import Node\n", ""),
+                Replace(NODE, "(Node)", "(rclpy.Node)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "spin_of_other",
+        "spin",
+        msg("rclpy.spin gets something that is not the node"),
+        msg("spin needs the node that was created, not its name."),
+        INSTEAD,
+        links.EXECUTORS,
+        raised={NOT_A_NODE: _not_spun},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "spin_of_name",
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin('my_first_node')"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "name_not_text",
+        "class",
+        msg("The node's name is not a string"),
+        msg("super().__init__() takes the node's name as a string, in quotes."),
+        msg("Write super().__init__('{node_name}')."),
+        links.NODES,
+        raised={"incompatible constructor arguments": _name_not_text},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "class_for_node_name",
+                Replace(NODE, "('my_first_node')", "(MyFirstNode)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_text",
+        "timer",
+        msg("create_timer gets the callback's name as a string"),
+        msg("The timer calls what create_timer gets, and a string cannot be called."),
+        msg("Write {written} instead of {name}: the callback itself, without quotes."),
+        links.FIRST_NODE,
+        raised={"'str' object is not callable": _callback_text},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "callback_in_quotes",
+                Replace(NODE, "self.timer_callback)", "'self.timer_callback')"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "text_operator",
+        "text",
+        msg("Two texts are joined with a sign other than +"),
+        msg("In Python, + joins strings. The sign {name} does not work with a string."),
+        INSTEAD,
+        links.PYTHON_STRINGS,
+        raised={OPERATOR: _operator},
+        fixed_by=(node_objects.plus,),
+        examples=(
+            example(
+                "ampersand_for_plus",
+                Replace(NODE, "'Hello time: ' +", "'Hello time: ' &"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "name_taken",
+        "class",
+        msg("A name that Node uses gets another meaning"),
+        msg(
+            "Your class inherits {name} from Node. If you define {name} again, your own replaces "
+            "the one of Node, which the node needs."
+        ),
+        msg("Give the attribute another name, for example self.{name}_ instead of self.{name}."),
+        fixes={
+            "method": msg(
+                "Give your method another name than {name}, also where the timer gets it: for "
+                "example timer_callback."
+            )
+        },
+        raised={
+            NO_SETTER: _taken,
+            OWN_METHOD: _taken,
+            "'RcutilsLogger' object is not callable": _taken,
+        },
+        fixed_by=(node_objects.other_attribute, node_objects.other_method),
+        examples=(
+            example(
+                "attribute_timers",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.timers = []"),
+                fails="run.starts",
+            ),
+            example(
+                "callback_is_create_timer",
+                Replace(NODE, "def timer_callback", "def create_timer"),
+                Replace(NODE, "self.timer_callback)", "self.create_timer)"),
+                fails="run.starts",
+            ),
+            example(
+                "logger_for_get_logger",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.get_logger = self.get_logger()",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "import_own",
+        "start",
+        msg("The file imports itself"),
+        msg(
+            "This import names the file that it is in. Python has not read the rest of the file "
+            "yet, so {name} does not exist at this line."
+        ),
+        msg("Delete this import: the file defines {name} itself."),
+        links.PYTHON_ERRORS,
+        raised={OWN_IMPORT: _own_import},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "import_of_itself",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\n"
+                    "from my_robot_controller.my_first_node import MyFirstNode\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "comma_for_dot",
+        "counter",
+        msg("There is a comma between self and the name"),
+        msg("self.name is an attribute of the node. With a comma these are two names."),
+        INSTEAD,
+        raised={"cannot unpack non-iterable": _comma},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "comma_after_self",
+                Replace(NODE, "self.counter_ = 0", "self,counter_ = 0"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "counter_not_number",
+        "counter",
+        msg("The counter does not start as a number"),
+        msg("Python can only add a number to a number."),
+        msg("Write {written} instead of {name}: {attribute} must start as a number."),
+        whys={"comma": msg("A comma after a value makes a tuple, and not a number.")},
+        fixes={
+            "comma": msg("Remove the comma: write {attribute} = {written}"),
+            "overwritten": msg(
+                "This line overwrites the number in {name}. Write {written} on the left of this "
+                "line instead of {name}."
+            ),
+        },
+        raised={NOT_A_NUMBER: _not_a_number},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "counter_is_tuple",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0,"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_is_none",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = None"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "timer_in_counter",
+                Replace(NODE, "self.create_timer", "self.counter_ = self.create_timer"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+)
