@@ -243,7 +243,10 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
         Write(CFG, f"  [develp]\nscript_dir=$base/lib/{INNER}\n[install]\n"
                    f"install_scripts=$base/lib/{INNER}\n"),
     ),
-    "a setup.cfg with a setting twice": (Replace(CFG, "[install]", "[develop]"),),
+    "a setup.cfg with a setting twice": (
+        Write(CFG, f"[develop]\nscript_dir=$base/lib/{INNER}\n[develop]\nscript_dir=$base/bin\n"
+                   f"[install]\ninstall_scripts=$base/lib/{INNER}\n"),
+    ),
 }  # fmt: skip
 
 
