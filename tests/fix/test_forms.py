@@ -243,7 +243,9 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
         Write(CFG, f"  [develp]\nscript_dir=$base/lib/{INNER}\n[install]\n"
                    f"install_scripts=$base/lib/{INNER}\n"),
     ),
-    "a setup.cfg with a setting twice": (Replace(CFG, "[install]", "[develop]"),),
+    "a setup.cfg with a setting twice": (
+        Replace(CFG, "[install]\ninstall_scripts", "[develop]\nscript_dir"),
+    ),
 }  # fmt: skip
 
 
