@@ -92,7 +92,7 @@ validate:  ## Test an assignment with its solution and mutants (ASSIGNMENT=id KE
 
 test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests
-	@$(MAKE) --no-print-directory lint
+	@$(MAKE) --no-print-directory --jobs=2 lint rewritten
 	@$(PYTEST) -m "not full and not docker and not long" $${PYTEST_ARGS}
 
 test-all:  ## Run all tests (as root: installs and starts Docker if it is missing)
@@ -115,6 +115,12 @@ recordings:  ## Record the evidence of the tests' packages anew (a quarter of an
 	@$(BOOTSTRAP) --tests
 	@rm -rf tests/recordings/evidence
 	@GRADER_TESTS_EVIDENCE=record $(PYTEST) $(RECORDED)
+
+# pytest's own compiled form of the tests, once beside mypy instead of once in each test process
+.PHONY: rewritten
+rewritten:
+	@PYTHONDONTWRITEBYTECODE= .venv/bin/python -m pytest -qq --collect-only -p no:xdist > /dev/null || \
+	  { .venv/bin/python -m pytest -qq --collect-only -p no:xdist >&2; exit 1; }
 
 lint:
 	@.venv/bin/python -m ruff check .

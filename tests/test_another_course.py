@@ -76,6 +76,7 @@ def package(tmp_path: Path) -> Path:
     return write_solution(tmp_path)
 
 
+@pytest.mark.full
 def test_its_own_package_gets_full_marks(course: Path, package: Path, tmp_path: Path) -> None:
     done = processes.run(
         processes.grader("grade", package, "--assignment", course, "--out", tmp_path / "o")

@@ -164,6 +164,7 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
 SETUP = "install/local_setup.bash"
 
 
+@pytest.mark.full
 @pytest.mark.prefix
 def test_a_node_that_ignores_signals_and_prints_dots_has_a_quick_verdict(tmp_path: Path) -> None:
     package = next(package for package in HOSTILE if package.name == "deaf_and_prints_dots")

@@ -92,7 +92,7 @@ def test_an_unavailable_distro_has_status_3(tmp_path: Path) -> None:
 def test_the_report_is_written_to_the_given_folder(tmp_path: Path) -> None:
     package = solution(tmp_path)
     done = processes.run(
-        processes.grader("grade", package, "--name", "Ann Lee", "--out", tmp_path / "o"),
+        processes.replaying("grade", package, "--name", "Ann Lee", "--out", tmp_path / "o"),
         forked=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -45,7 +45,18 @@ def run(*words: str | Path, **env: str) -> subprocess.CompletedProcess[bytes]:
 
 
 @pytest.mark.prefix
-@pytest.mark.parametrize("locale", LOCALES)
+@pytest.mark.parametrize(
+    "locale",
+    [
+        "Korean",
+        pytest.param("ASCII only", marks=pytest.mark.full),
+        *(
+            pytest.param(name, marks=pytest.mark.long)
+            for name in LOCALES
+            if name not in ("Korean", "ASCII only")
+        ),
+    ],
+)
 def test_a_correct_package_gets_full_marks_in_every_locale(locale: str, tmp_path: Path) -> None:
     package = solution(tmp_path / "숙제 für Zoë")
     done = run("-m", "grader", "grade", package, "--out", tmp_path / "out", **LOCALES[locale])
@@ -57,7 +68,13 @@ def test_a_correct_package_gets_full_marks_in_every_locale(locale: str, tmp_path
 
 @pytest.mark.parametrize("locale", LOCALES)
 @pytest.mark.parametrize(
-    "words", [ENTRY, ("-m", "lab.guide", "all"), ("-m", "grader", "check", "--help")], ids=" ".join
+    "words",
+    [
+        ENTRY,
+        pytest.param(("-m", "lab.guide", "all"), marks=pytest.mark.full),
+        pytest.param(("-m", "grader", "check", "--help"), marks=pytest.mark.full),
+    ],
+    ids=" ".join,
 )
 def test_texts_are_readable_in_every_locale(locale: str, words: tuple[str, ...]) -> None:
     done = run(*words, **LOCALES[locale])

@@ -168,7 +168,7 @@ def test_the_course_and_the_language_are_in_the_environment(given: Given, tmp_pa
     assert environment == {**words, "LANG": "ko_KR.UTF-8", "LC_ALL": ""}
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     package = weather.write_package(tmp_path, Replace(weather.SETUP, weather.ENTRY, ""))
@@ -177,7 +177,7 @@ def test_another_courses_lesson_can_be_used_through_make(tmp_path: Path) -> None
     assert weather.ENTRY in shown
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_package_can_be_fixed_through_make(tmp_path: Path) -> None:
     package = solution(tmp_path)
     (package / "setup.cfg").unlink()
@@ -201,6 +201,7 @@ def test_grade_all_without_a_class_says_how() -> None:
     assert "make grade-all SUBMISSIONS=path/to/downloads" in output
 
 
+@pytest.mark.full
 @pytest.mark.prefix
 def test_a_class_can_be_marked_through_make(tmp_path: Path) -> None:
     solution(tmp_path / "the class")
@@ -235,7 +236,7 @@ def copy_checkout(folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_an_incomplete_environment_is_made_again(tmp_path: Path) -> None:
     """A set-up that was killed half-way has no stamp, so it does not count as complete."""
     checkout = copy_checkout(tmp_path / "checkout")
@@ -328,7 +329,7 @@ def test_without_a_network_the_first_run_says_only_that(tmp_path: Path) -> None:
     assert not (tmp_path / "checkout/.venv/stamp").exists()
 
 
-@pytest.mark.full  # it makes an environment and a prefix
+@pytest.mark.long  # it makes an environment and a prefix
 @pytest.mark.prefix
 def test_a_bare_machine_can_mark_in_a_checkout_with_a_path_too_long_for_a_shebang(
     tmp_path: Path,

@@ -227,7 +227,7 @@ def test_a_full_disk_is_reported_with_its_fix(tmp_path: Path) -> None:
     assert list(tmp_path.glob(".a.making-*")) == []
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_the_real_prefix_survives_a_kill_and_two_makers(tmp_path: Path) -> None:
     """From the network, as on a new machine: killed while unpacking, then made by two at once."""
     env = {**os.environ, "GRADER_CACHE": str(tmp_path), "PYTHONUNBUFFERED": "1"}

@@ -234,10 +234,15 @@ def _link(source: str, target: str) -> None:
     [
         # as made by an earlier version in a checkout with a long path
         ("colcon", "#!/bin/sh\n'''exec' \"/no/such/.venv/bin/python\" \"$0\" \"$@\"\n' '''\n"),
-        ("colcon", "#!/no/such/python\n"),
-        ("colcon", "#!/bin/sh\nexec python3 -c 'import no_such_colcon'\n"),
-        ("ros2", "#!/no/such/python\n"),
-        ("python3", "#!/bin/sh\nexit 126\n"),
+        *(
+            pytest.param(program, text, marks=pytest.mark.long)
+            for program, text in (
+                ("colcon", "#!/no/such/python\n"),
+                ("colcon", "#!/bin/sh\nexec python3 -c 'import no_such_colcon'\n"),
+                ("ros2", "#!/no/such/python\n"),
+                ("python3", "#!/bin/sh\nexit 126\n"),
+            )
+        ),
     ],
 )
 def test_a_broken_program_of_the_prefix_is_a_surroundings_error(

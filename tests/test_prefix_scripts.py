@@ -85,7 +85,13 @@ def installed(folder: Path, wheel: Path) -> tuple[Path, Path]:
     return folder / "prefix", python
 
 
-@pytest.mark.parametrize("name", FOLDERS, ids=range(len(FOLDERS)))
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, id=str(n), marks=() if n < 2 else pytest.mark.long)
+        for n, name in enumerate(FOLDERS)
+    ],
+)
 def test_programs_written_by_pip_run_wherever_the_prefix_is(
     name: str, tmp_path: Path, wheel: Path
 ) -> None:

@@ -42,6 +42,7 @@ def bash(prefix: Path, workspace: Path, script: str) -> str:
     return done.stdout + done.stderr
 
 
+@pytest.mark.full
 def test_the_command_runs_under_the_python_of_colcon(overlay: Path, jazzy_prefix: Path) -> None:
     script = overlay / "install/ros2_teaching_lab/lib/ros2_teaching_lab/grader"
     assert script.read_text().splitlines()[0] == f"#!{sys.executable}"
@@ -51,6 +52,7 @@ def test_the_command_runs_under_the_python_of_colcon(overlay: Path, jazzy_prefix
     assert grader.__version__ in output
 
 
+@pytest.mark.full
 def test_run_time_data_files_are_installed(overlay: Path, jazzy_prefix: Path) -> None:
     """The installed copy, not this checkout, marks the solution, including its data files."""
     share = overlay / "install/ros2_teaching_lab/share/ros2_teaching_lab"
@@ -97,10 +99,13 @@ def test_the_lock_files_list_everything_that_is_needed() -> None:
     done = processes.run([sys.executable, "-m", "pip", "check"])
     assert done.returncode == 0, done.stdout
     for lock in ("grader/requirements.txt", "tests/requirements.txt"):
-        first, *hashes = bootstrap.requirement("pip", str(processes.ROOT / lock)).splitlines()
-        assert first.startswith("pip==")
-        assert hashes
-        assert all(line.strip().startswith("--hash=sha256:") for line in hashes)
+        listed = bootstrap.requirements(str(processes.ROOT / lock))
+        names = [package.partition("==")[0] for package in listed]
+        assert {"pip", "click", "rich"} <= set(names)
+        for first, *hashes in (package.splitlines() for package in listed):
+            assert "==" in first
+            assert hashes
+            assert all(line.strip().startswith("--hash=sha256:") for line in hashes), first
 
 
 def test_grader_never_imports_lab() -> None:

@@ -15,7 +15,7 @@ from tests import recorded
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
-from tests.marking import ASSIGNMENT, mark, taken_in
+from tests.marking import ASSIGNMENT, assert_full_marks, mark, taken_in
 
 PACKAGES = {package.name: package for package in (*RIGHT, *BROKEN)}
 # every kind of evidence: a count, no build, no run, no spinning, lines before the clock starts
@@ -51,17 +51,41 @@ def test_a_number_that_json_does_not_have_is_refused() -> None:
         canonical_json({"seconds": float("nan")})
 
 
-@pytest.mark.prefix
-@pytest.mark.parametrize("name", ["solution", pytest.param("period_half", marks=pytest.mark.full)])
-def test_a_replay_has_the_report_of_the_real_verdict(name: str, tmp_path: Path) -> None:
-    kept: list[Recording] = []
-    root = write(PACKAGES[name], tmp_path)
-    real = mark(root, recordings=kept)
-    again = replay(Recording.from_bytes(kept[0].to_bytes()), taken_in(root), ASSIGNMENT)
+def assert_replayed(real: Report, kept: Recording, root: Path) -> None:
+    again = replay(Recording.from_bytes(kept.to_bytes()), taken_in(root), ASSIGNMENT)
     assert without_times(again) == without_times(real)
     assert again.observed == real.observed
     assert again.evidence == real.evidence
     assert again.environment == real.environment
+
+
+@pytest.mark.prefix
+def test_the_solution_gets_full_marks_for_exact_times_and_so_does_its_replay(
+    tmp_path: Path,
+) -> None:
+    kept: list[Recording] = []
+    root = write(PACKAGES["solution"], tmp_path)
+    real = mark(root, recordings=kept)
+    assert_full_marks(PACKAGES["solution"], real)
+    ticks = real.observed.ticks
+    assert [tick.virtual for tick in ticks] == [float(k) for k in range(1, 11)]
+    assert [tick.n for tick in ticks] == list(range(10))
+    stamps = [tick.wall for tick in ticks]
+    assert None not in stamps
+    assert stamps == sorted(stamps, key=lambda stamp: stamp or 0)
+    assert real.observed.command == (
+        "ros2 run my_robot_controller test_node --ros-args -p use_sim_time:=true"
+    )
+    assert real.observed.nodes == ["/my_first_node"]
+    assert_replayed(real, kept[0], root)
+
+
+@pytest.mark.full
+@pytest.mark.prefix
+def test_a_failing_verdict_and_its_replay_are_the_same(tmp_path: Path) -> None:
+    kept: list[Recording] = []
+    root = write(PACKAGES["period_half"], tmp_path)
+    assert_replayed(mark(root, recordings=kept), kept[0], root)
 
 
 def test_a_recording_of_another_submission_is_refused(tmp_path: Path) -> None:

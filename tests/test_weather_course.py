@@ -113,7 +113,7 @@ def kinds() -> list[object]:
 
 @pytest.mark.parametrize("kind", kinds())
 def test_an_entry_of_the_catalogue_is_filled_by_the_lesson(kind: Kind, tmp_path: Path) -> None:
-    words = {**placeholder_values(weather.assignment(tmp_path)), "distro": "kilted"}
+    words = {**placeholder_values(weather.assignment()), "distro": "kilted"}
     templates = [kind.title, kind.why, kind.fix, *kind.whys.values(), *kind.fixes.values()]
     for lang in LANGUAGES:
         for template in templates:
@@ -275,7 +275,7 @@ def test_a_mistake_is_explained_with_the_lessons_texts(
     name: str, lang: str, tmp_path: Path
 ) -> None:
     mistake = MISTAKES[name]
-    result = result_of(mistake, weather.assignment(tmp_path), tmp_path, lang)
+    result = result_of(mistake, weather.assignment(), tmp_path, lang)
     assert result.mistakes[0].id == mistake.named
     output = texts(result)
     assert mistake.says in output
@@ -287,7 +287,7 @@ def test_a_mistake_is_explained_with_the_lessons_texts(
 
 def test_the_right_package_passes_every_run_check(tmp_path: Path) -> None:
     """This shows that the constructed runs above fail because of the mistake only."""
-    wanted = weather.assignment(tmp_path)
+    wanted = weather.assignment()
     run = counted("Reading {n}")
     evidence = Evidence(wanted, weather.taken(tmp_path), build=lambda: BUILT, run=lambda: run)
     only = ("package.manifest", "entry_point.mapping", "run.starts", "run.output")

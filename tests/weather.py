@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from grader.course.assignment import Assignment
 from grader.course.load import load_assignment
@@ -170,9 +172,11 @@ def write_package(folder: Path, *edits: Edit) -> Path:
     return root
 
 
-def assignment(folder: Path) -> Assignment:
+@cache
+def assignment() -> Assignment:
     """Return the course's assignment."""
-    return load_assignment(write_course(folder) / "readings" / "assignment.yaml")
+    with TemporaryDirectory() as folder:
+        return load_assignment(write_course(Path(folder)) / "readings" / "assignment.yaml")
 
 
 def taken(folder: Path, *edits: Edit) -> Submission:

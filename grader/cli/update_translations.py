@@ -14,6 +14,7 @@ import io
 import json
 from collections.abc import Collection, Iterator, Mapping
 from datetime import datetime, timezone
+from functools import cache
 from pathlib import Path
 
 import click
@@ -30,7 +31,7 @@ from grader.verdict.checks.all import CHECKS
 
 FOLDERS = ("grader", "lab")  # (the lab has no .po files of its own)
 KEYWORDS = {"say": None, "msg": None}
-PLURAL_KEYWORDS = {"say_plural": (1, 2)}
+WITH_PLURALS = {**KEYWORDS, "say_plural": (1, 2)}
 TEMPLATE = "jinja2.ext:babel_extract"
 MARKS = "from grader.base.i18n.message import "
 CLICK_PLACE = "grader/cli/localized.py"
@@ -41,9 +42,9 @@ MADE = datetime(
 
 def templates() -> Iterator[tuple[str, str]]:
     """Yield every text that is marked for translation, and its file."""
-    for path in _sources():
-        for _, found, _, _ in extract_from_file("python", path, keywords=KEYWORDS):
-            yield str(found), _place(path)
+    for found, place in _marked():
+        if isinstance(found, str):
+            yield found, place
     strict = {"silent": "false"}  # (a template that cannot be parsed is an error)
     for path in sorted((CHECKOUT / "grader/publish/pages/templates").glob("*.j2")):
         for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
@@ -54,13 +55,22 @@ def templates() -> Iterator[tuple[str, str]]:
 
 def plurals() -> Iterator[tuple[tuple[str, str], str]]:
     """Yield every text with a plural form (its texts for 1 and for other counts), and its file."""
-    for path in _sources():
-        for _, found, _, _ in extract_from_file("python", path, keywords=PLURAL_KEYWORDS):
-            assert isinstance(found, tuple)
+    for found, place in _marked():
+        if not isinstance(found, str):
             one, many = found
-            yield (one, many), _place(path)
+            yield (one, many), place
     for pair in CLICK_PLURALS:
         yield pair, CLICK_PLACE
+
+
+@cache
+def _marked() -> list[tuple[str | tuple[str, ...], str]]:
+    """Return the texts that the sources mark (those for 1 and for other counts), and their file."""
+    return [
+        (found, _place(path))
+        for path in _sources()
+        for _, found, _, _ in extract_from_file("python", path, keywords=WITH_PLURALS)
+    ]
 
 
 def _sources() -> Iterator[Path]:

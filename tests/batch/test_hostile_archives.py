@@ -20,7 +20,6 @@ from grader.package.intake.archive_limits import ArchiveLimits
 
 from .archives import (
     NODE_PATH,
-    add_file,
     everything_below,
     hand_in,
     notes,
@@ -199,14 +198,18 @@ def test_a_nested_bomb_is_detected(tmp_path: Path) -> None:
     assert mistake in ("package.archive_bomb", "package.archive_too_large")
 
 
-def test_an_archive_with_too_many_files_is_not_read(tmp_path: Path) -> None:
+def test_a_tar_with_too_many_files_is_not_read(tmp_path: Path) -> None:
     limits = ArchiveLimits()
     stream = io.BytesIO()
-    with tarfile.open(fileobj=stream, mode="w:gz") as archive:
+    with tarfile.open(fileobj=stream, mode="w:gz", compresslevel=1) as archive:
         for n in range(limits.members + 1):
-            add_file(archive, f"{n}")
+            archive.addfile(tarfile.TarInfo(f"{n}"))
     assert bomb(tmp_path, stream.getvalue(), "jane.tgz") == "package.archive_too_large"
-    names = {f"{n}": b"" for n in range(limits.members + 1)}
+
+
+@pytest.mark.full
+def test_a_zip_with_too_many_files_is_not_read(tmp_path: Path) -> None:
+    names = {f"{n}": b"" for n in range(ArchiveLimits().members + 1)}
     assert bomb(tmp_path, zipped(names), "jane.zip") == "package.archive_too_large"
 
 

@@ -17,7 +17,7 @@ from grader.batch.work import Done, Task
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros.prefix import Ros
-from tests.batch.pool_tasks import JOB, own_workers, tasks
+from tests.batch.pool_tasks import CORPUS, JOB, own_workers, tasks
 from tests.marking import ASSIGNMENT
 from tests.processes import descendants
 
@@ -35,10 +35,12 @@ def _score(done: Done) -> float:
 
 
 def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
-    names = ["empty_folder", "solution", "entry_missing"]
+    names = ["empty_folder", "as_created", "entry_missing"]
     found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))
     scores = {done.task.student: _score(done) for done in found}
-    assert scores == {"empty_folder-0": 0, "solution-1": 100, "entry_missing-2": 45}
+    assert scores == {
+        f"{name}-{number}": CORPUS[name].expect_score for number, name in enumerate(names)
+    }
     assert {done.tries for done in found} == {1}
     assert own_workers() == []
 
@@ -70,7 +72,7 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:
     stopped: list[int] = []
-    waiting = tasks(tmp_path, ["solution"] * 2)
+    waiting = tasks(tmp_path, ["as_created"] * 2)  # it takes two seconds
 
     def submitted() -> Iterator[Task]:
         yield next(waiting)
@@ -79,11 +81,11 @@ def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
         stopped.append(worker)
         yield from waiting
 
-    pool = LocalPool(JOB, 2, seconds=15)
+    pool = LocalPool(JOB, 2, seconds=30)
     found = list(pool.run(submitted(), started=_ignore))
-    assert [_score(done) for done in found] == [100, 100]
+    assert [_score(done) for done in found] == [CORPUS["as_created"].expect_score] * 2
     tries = {done.task.student: done.tries for done in found}
-    assert tries == {"solution-0": 2, "solution-1": 1}
+    assert tries == {"as_created-0": 2, "as_created-1": 1}
     with pytest.raises(ProcessLookupError):
         os.kill(stopped[0], 0)
     assert _sandbox_processes() == {}

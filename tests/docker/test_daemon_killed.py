@@ -19,7 +19,7 @@ from grader.ros import images
 from grader.sandbox import orphans
 from tests import engine, processes
 
-pytestmark = [pytest.mark.docker, pytest.mark.full]
+pytestmark = [pytest.mark.docker, pytest.mark.long]
 NAME = f"{engine.REPOSITORY}:grade-jazzy-wheels"
 SOLUTION = processes.ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 START_SECONDS = 60.0

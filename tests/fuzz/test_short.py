@@ -89,8 +89,21 @@ HOSTILE = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", TARGETS)
-@pytest.mark.parametrize("kind", HOSTILE)
+def slow(*marks: pytest.MarkDecorator) -> list[object]:
+    """Every input with every reader: the first mark, and the last one for the slowest.
+
+    The fixes try each of the many lines, which takes seconds.
+    """
+    return [
+        pytest.param(
+            kind, name, marks=marks[-1] if kind == "many lines" and "fix" in name else marks[:-1]
+        )
+        for kind in HOSTILE
+        for name in TARGETS
+    ]
+
+
+@pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.full))
 def test_input_made_to_be_slow_takes_bounded_time(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])  # (modules loaded by the first call do not count)
     found = HOSTILE[kind]
@@ -99,9 +112,7 @@ def test_input_made_to_be_slow_takes_bounded_time(kind: str, name: str) -> None:
     assert time.process_time() - begin < SECONDS
 
 
-@pytest.mark.full
-@pytest.mark.parametrize("name", TARGETS)
-@pytest.mark.parametrize("kind", HOSTILE)
+@pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.full, pytest.mark.long))
 def test_input_made_to_be_large_needs_little_memory(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])
     tracemalloc.start()

@@ -136,7 +136,7 @@ def test_a_grader_that_cannot_start_says_it_is_not_the_students_fault(autograder
     assert "not your package" not in output
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_the_archives_setup_installs_all_that_it_needs(autograder: Path) -> None:
     """`setup.sh` makes the locked environment from the archive alone, without the tests' part."""
     (autograder / "source/.venv").unlink()

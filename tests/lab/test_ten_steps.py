@@ -40,7 +40,7 @@ def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
         assert lab.leave() == 0
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_an_ordinary_user_can_do_the_steps_and_owns_the_files(ros_jazzy: Ros) -> None:
     with open_to_all() as folder:
         workspace = folder / "ros2_ws"

@@ -89,6 +89,7 @@ def test_a_node_is_listed(graph: Graph) -> None:
     assert graph.ros2("node list") == (0, "/my_first_node\n", "")
 
 
+@pytest.mark.full
 def test_nodes_are_sorted_and_have_their_namespace(graph: Graph) -> None:
     graph.start("b")
     graph.start("a", "/lab")
@@ -129,6 +130,7 @@ def test_topics_are_listed(graph: Graph) -> None:
     )
 
 
+@pytest.mark.full
 def test_topics_in_detail(graph: Graph) -> None:
     graph.start("talker")
     answer = until(lambda: graph.ros2("topic list -v --include-hidden-topics"), "chatter")

@@ -76,7 +76,7 @@ def test_its_node_is_run(course: Path, keys: Path) -> None:
     assert row["mistakes"] == {"run.output": "run.wrong_text"}
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_an_f_string_has_mutants_of_its_own(course: Path, keys: Path) -> None:
     matrix = matrix_of(course, keys, "--only", "f lost*")
     (row,) = matrix["rows"]

@@ -61,9 +61,9 @@ def test_all_static_mutants_fail_the_expected_checks_for_the_expected_reason(
 @pytest.mark.parametrize(
     "name",
     [
-        "spin_missing",
-        pytest.param("text_capital", marks=pytest.mark.full),
-        pytest.param("period_half", marks=pytest.mark.full),
+        pytest.param("spin_missing", marks=pytest.mark.full),
+        pytest.param("text_capital", marks=pytest.mark.long),
+        pytest.param("period_half", marks=pytest.mark.long),
     ],
 )
 def test_a_mutant_that_must_run_fails_the_expected_check(name: str, tmp_path: Path) -> None:
@@ -104,7 +104,7 @@ def test_another_mistake_than_the_named_one_is_reported(tmp_path: Path) -> None:
     assert "mine: the first mistake is source.not_executable, not source.crlf" in shown
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_solution_without_full_marks_is_reported(tmp_path: Path) -> None:
     mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
     found = keys(tmp_path, CHECKED + mode)
@@ -116,7 +116,7 @@ def test_a_solution_without_full_marks_is_reported(tmp_path: Path) -> None:
     assert "the solution does not get full marks: package.setup_cfg" in shown
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_mutant_declared_right_must_get_full_marks(tmp_path: Path) -> None:
     text = "schema: 1\nequivalent:\n  - {mutant: drop rclpy.spin(node), why: I thought so}\n"
     found = keys(tmp_path, text)
@@ -164,7 +164,7 @@ def test_ctrl_c_ends_validate_and_all_its_processes() -> None:
     assert set(processes.descendants()) <= before
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_each_mutant_of_the_node_fails_or_is_explained(tmp_path: Path) -> None:
     """The whole matrix takes minutes and is part of `make bench`."""
     file = tmp_path / "m.json"

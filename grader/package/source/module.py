@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from grader.package.edit.text import SourceText, Splice, read_source
+from grader.package.source.kept import keep_small
 from grader.package.source.python import can_parse, parse_python
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -91,6 +92,7 @@ class Module:
         return new if new is not None and can_parse(new) else None
 
 
+@keep_small
 def parse_module(path: str, found: bytes) -> Module:
     """Parse a file; PythonFault if Python cannot read it."""
     parsed = parse_python(found)

@@ -11,6 +11,7 @@ import warnings
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
+from grader.package.source.kept import keep_small
 
 SHEBANG = "#!/usr/bin/env python3"
 """The first line that the course asks for."""
@@ -46,7 +47,25 @@ class PythonFile:
 
 
 def parse_python(found: bytes) -> PythonFile:
-    """Parse a file's bytes; PythonFault if this interpreter's version of Python cannot."""
+    """Parse a file's bytes; PythonFault if this interpreter's version of Python cannot.
+
+    The tree is shared: nobody may change it.
+    """
+    result = _parsed(found)
+    if isinstance(result, PythonFault):
+        raise result.with_traceback(None)
+    return result
+
+
+@keep_small
+def _parsed(found: bytes) -> PythonFile | PythonFault:
+    try:
+        return _parse(found)
+    except PythonFault as fault:
+        return fault
+
+
+def _parse(found: bytes) -> PythonFile:
     if len(found) > MOST_BYTES:
         raise PythonFault("size", say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
     text = decode(found)

@@ -6,6 +6,7 @@ import ast
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
+from grader.package.source.kept import keep_small
 from grader.package.source.python import PythonFault, PythonFile, parse_python
 from grader.package.source.values import Computed, Evaluator, Table, Text, Value
 
@@ -44,6 +45,7 @@ class SetupPy:
         return found if isinstance(found, Text) else None
 
 
+@keep_small
 def read_setup_py(found: bytes) -> SetupPy:
     """Read a setup.py; PythonFault if Python cannot read it."""
     file = parse_python(found)
