@@ -7,10 +7,10 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.entry_function import SLEEPS
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
-from grader.mistakes.node_start import SLEEPS
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function

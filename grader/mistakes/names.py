@@ -15,8 +15,8 @@ from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_life, node_names, node_timer, rename
+from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
-from grader.mistakes.node_start import IMPORTS, RCLPY
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import (
     NAME_ERROR,

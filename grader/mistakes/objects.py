@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_objects
 from grader.mistakes.kind import Family
-from grader.mistakes.node_start import lines_of
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of

@@ -244,8 +244,7 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
                    f"install_scripts=$base/lib/{INNER}\n"),
     ),
     "a setup.cfg with a setting twice": (
-        Write(CFG, f"[develop]\nscript_dir=$base/lib/{INNER}\n[develop]\nscript_dir=$base/bin\n"
-                   f"[install]\ninstall_scripts=$base/lib/{INNER}\n"),
+        Replace(CFG, "[install]\ninstall_scripts", "[develop]\nscript_dir"),
     ),
 }  # fmt: skip
 

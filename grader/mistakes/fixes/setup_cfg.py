@@ -108,9 +108,10 @@ def syntax(case: Case) -> Files | None:
 
 
 def _other_section(case: Case, text: SourceText, line: str) -> Files | None:
-    """Give the second of two equal headings the name of the missing section."""
+    """Give the second of two equal headings the name of the missing section, whose key is below."""
     other = {"[develop]": "[install]", "[install]": "[develop]"}[line.strip()]
-    if other in text.text:
+    below = text.line((case.finding.line or 0) + 1).replace("-", "_")
+    if other in text.text or not below.startswith(KEYS[other.strip("[]")]):
         return None
     start = text.start_of(case.finding.line or 0)
     new = text.spliced([Splice(start, start + len(line), other)])

@@ -1,0 +1,382 @@
+"""Mistakes with which a node does not start: its class, and what the class' __init__ calls."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import node_life, node_scope
+from grader.mistakes.kind import Family
+from grader.mistakes.placeholders import CLASS
+from grader.mistakes.recognised import Raised, RecognisedMistake, always
+from grader.package.edit.tree import Replace
+from grader.package.source.names import calls_in, dotted, last_part
+
+PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
+NO_NODE_NAME = r"Node\.__init__\(\) missing 1 required positional argument: 'node_name'"
+
+INIT_OF_NODE = msg(
+    "Node.__init__ sets up what timers, the logger and publishers need. Your class must call it "
+    "first, with the node's name."
+)
+SUPER = msg("Write super().__init__('{node_name}') as the first line of __init__.")
+
+
+def _class_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    for call, name in raised.source.calls:
+        given = dotted(call.args[0]) if call.args else ""
+        if last_part(name) == "spin" and _is_class(raised, given):
+            return raised.finding("spin_of_class", at=call, name=given)
+    return None
+
+
+def _is_class(raised: Raised, name: str) -> bool:
+    """Return whether a name is that of a class of the files, the node's or another."""
+    return name in raised.source.known_classes or last_part(name) in raised.source.class_names
+
+
+def _class_not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    for node in raised.source.all_nodes:
+        if isinstance(node, ast.Assign) and _is_class(raised, dotted(node.value)):
+            return raised.finding("class_not_called", at=node, name=dotted(node.value))
+    return None
+
+
+def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    del match
+    found = raised.source.node_class
+    return raised.finding("not_a_node", at=found, name=found.name if found else CLASS)
+
+
+def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    methods = raised.source.methods
+    if "__init__" in methods:
+        return None
+    inside = [m.name for m in methods.values() if _calls_super(m)]
+    near = inside[0] if len(inside) == 1 else nearest("__init__", methods, cutoff=0.7)
+    return raised.finding("init_underscores", at=methods[near], name=near) if near else None
+
+
+def _calls_super(method: ast.AST) -> bool:
+    return any(name == "super().__init__" for _, name in calls_in(method))
+
+
+def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Return that no name is passed; through the class, the first argument is self."""
+    del match
+    found, call = raised.finding("super_without_name"), raised.source.super_init
+    if call is None or raised.line not in lines_of(call) or not call.args:
+        return found
+    on_class = dotted(call.func).endswith("Node.__init__")
+    return replace(found, variant="on_class") if on_class else found
+
+
+def _init_no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if match["function"] != "__init__":
+        return None
+    return raised.finding("init_no_self", at=raised.source.methods.get("__init__"))
+
+
+def _super_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    call = raised.source.super_init
+    if call is None or dotted(call.func) != "super().__init__" or not call.args:
+        return None
+    if dotted(call.args[0]) != "self" or raised.line not in (None, *lines_of(call)):
+        return None
+    return raised.finding("super_with_self", at=call)
+
+
+def lines_of(node: ast.expr) -> range:
+    """Return the lines of an expression."""
+    return range(node.lineno, (node.end_lineno or node.lineno) + 1)
+
+
+def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if match["type"] not in raised.source.known_classes or raised.source.super_init is not None:
+        return None
+    return raised.finding("super_missing")
+
+
+def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if match["type"] not in raised.source.known_classes:
+        return None
+    return raised.finding("super_late", at=raised.source.super_init)
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "spin_of_class",
+        "spin",
+        msg("rclpy.spin gets the class instead of the node"),
+        msg("spin needs the node that was created, not its class."),
+        msg("Write node = {name}() and then rclpy.spin(node)."),
+        links.EXECUTORS,
+        seen=r"TypeError: 'property' object is not iterable",
+        raised={r"\w": _class_is_spun},
+        fixed_by=(node_life.spin,),
+        examples=(
+            example(
+                "spin_of_class",
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(MyFirstNode)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "class_not_called",
+        "start",
+        msg("The () after the class is missing"),
+        msg("The name of a class creates no object; only calling it does."),
+        msg("Write {name}() where the node is created."),
+        links.PYTHON_CLASSES,
+        raised={"argument: 'self'|'property' object is not iterable": _class_not_called},
+        examples=(
+            example(
+                "node_not_made",
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "context_manager",
+        "start",
+        msg("with rclpy.init() needs a newer ROS"),
+        msg(
+            "rclpy.init() works in a with statement from ROS 2 kilted on; before, it returns "
+            "nothing."
+        ),
+        msg("Write rclpy.init(args=args) on a line of its own, without with."),
+        links.RCLPY,
+        seen=r"'NoneType' object does not support the context manager protocol"
+        r"|AttributeError: __enter__",
+        raised={"context manager protocol|AttributeError: __enter__": always("context_manager")},
+        examples=(
+            example(
+                "context_manager_of_kilted",
+                Replace(
+                    NODE,
+                    (
+                        "    rclpy.init(args=args)\n"
+                        "    node = MyFirstNode()\n"
+                        "    try:\n"
+                        "        rclpy.spin(node)\n"
+                        "    except KeyboardInterrupt:\n"
+                        "        pass\n"
+                        "    finally:\n"
+                        "        node.destroy_node()\n"
+                        "        rclpy.try_shutdown()\n"
+                    ),
+                    ("    with rclpy.init(args=args):\n        rclpy.spin(MyFirstNode())\n"),
+                ),
+                fails="run.starts",
+                note="the newer tutorial on jazzy; right from kilted on",
+            ),
+        ),
+    ),
+    _node(
+        "not_a_node",
+        "class",
+        msg("The class does not inherit from Node"),
+        msg(
+            "A class is a node only if it inherits from rclpy's Node. Without it, super() is "
+            "Python's plain object, which takes no name."
+        ),
+        msg("Write: class {name}(Node):"),
+        seen=r"TypeError: object\.__init__\(\) takes exactly one argument",
+        raised={r"object\.__init__\(\) takes exactly one argument": _not_a_node},
+        fixed_by=(node_life.base_class,),
+        examples=(
+            example(
+                "not_a_node",
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "init_underscores",
+        "class",
+        msg("The class has no __init__, but a method that looks like it"),
+        msg(
+            "Python calls __init__, with two underscores on both sides, when an object is "
+            "created. A method with another name is not called, so Node gets no name."
+        ),
+        msg("Rename {name} to __init__: two underscores before and after."),
+        raised={NO_NODE_NAME: _underscores},
+        fixed_by=(node_life.constructor,),
+        examples=(
+            example(
+                "init_single_underscores",
+                Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "init_no_self",
+        "class",
+        msg("__init__ has no parameter self"),
+        msg("Python passes the new object to __init__ as its first argument."),
+        msg("Write: def __init__(self):"),
+        links.PYTHON_CLASSES,
+        seen=r"__init__\(\) takes 0 positional arguments but 1 was given",
+        raised={
+            r"(?P<function>\w{1,120})\(\) takes 0 positional arguments but 1 was given": _init_no_self
+        },
+        examples=(
+            example(
+                "init_without_self",
+                Replace(NODE, "def __init__(self)", "def __init__()"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_not_called",
+        "class",
+        msg("The () after super is missing"),
+        msg(
+            "super is only a name in Python; calling it, super(), gives access to the class that "
+            "yours inherits from."
+        ),
+        SUPER,
+        links.PYTHON_CLASSES,
+        seen=r"TypeError: descriptor '__init__' requires a 'super' object",
+        raised={"descriptor '__init__' requires a 'super' object": always("super_not_called")},
+        examples=(
+            example(
+                "super_without_brackets",
+                Replace(NODE, "super().__init__", "super.__init__"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_with_self",
+        "class",
+        msg("super().__init__() gets self"),
+        msg("super() passes self on its own. The first argument in the () is the node's name."),
+        msg("Write super().__init__('{node_name}'), without self."),
+        links.PYTHON_CLASSES,
+        raised={r"TypeError": _super_self},
+        fixed_by=(node_scope.without_self,),
+        examples=(
+            example(
+                "super_with_self",
+                Replace(NODE, "__init__('my_first_node')", "__init__(self, 'my_first_node')"),
+                fails="run.starts",
+            ),
+            example(
+                "super_with_self_alone",
+                Replace(NODE, "__init__('my_first_node')", "__init__(self)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_missing",
+        "class",
+        msg("super().__init__() is not called"),
+        INIT_OF_NODE,
+        SUPER,
+        seen=r"AttributeError: '\w{1,120}' object has no attribute '_default_callback_group'",
+        raised={PRIVATE: _super_missing},
+        fixed_by=(node_life.name,),
+        examples=(
+            example(
+                "super_missing",
+                Replace(NODE, "        super().__init__('my_first_node')\n", ""),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_late",
+        "class",
+        msg("super().__init__() is called too late"),
+        INIT_OF_NODE,
+        msg("Move super().__init__('{node_name}') to the first line of __init__."),
+        raised={PRIVATE: _super_late},
+        fixed_by=(node_life.super_first,),
+        examples=(
+            example(
+                "super_after_timer",
+                Replace(NODE, "        super().__init__('my_first_node')\n", ""),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    (
+                        "        self.create_timer(1.0, self.timer_callback)\n"
+                        "        super().__init__('my_first_node')\n"
+                    ),
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_without_name",
+        "class",
+        msg("No name is passed to the __init__ of Node"),
+        msg("A node needs a name: ros2 node list and the log show it."),
+        SUPER,
+        seen=r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
+        whys={
+            "on_class": msg(
+                "Node.__init__ is called on the class. There the first argument is self, so your "
+                "string is taken for self, and the name is missing. super() passes self on its own."
+            )
+        },
+        raised={NO_NODE_NAME: _without_name},
+        fixed_by=(node_life.own_init, node_life.name),
+        examples=(
+            example(
+                "init_of_node_without_self",
+                Replace(NODE, "super().__init__(", "Node.__init__("),
+                fails="run.starts",
+            ),
+            example(
+                "super_without_name",
+                Replace(NODE, "__init__('my_first_node')", "__init__()"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "name_invalid",
+        "class",
+        msg("The node's name has a character that ROS does not allow"),
+        msg(
+            "Node names contain only letters, digits and underscores, and do not begin with a "
+            "digit."
+        ),
+        msg("Write super().__init__('{node_name}')."),
+        links.NAMES,
+        seen=r"InvalidNodeNameException: Invalid node name",
+        raised={"InvalidNodeNameException": always("name_invalid")},
+        fixed_by=(node_life.name,),
+        examples=(
+            example(
+                "dash_in_node_name",
+                Replace(NODE, "'my_first_node'", "'my-first-node'"),
+                fails="run.starts",
+            ),
+            example(
+                "blank_in_node_name",
+                Replace(NODE, "'my_first_node'", "'my first node'"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+)

@@ -1,0 +1,206 @@
+"""Mistakes with which a node does not start: the entry point's function, and what it waits for."""
+
+from __future__ import annotations
+
+import re
+
+from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import node_life, node_names
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.names import calls_in
+
+SLEEPS = ("time.sleep", "sleep")
+WAITS = ("input", *SLEEPS)
+NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
+LOOKED_FOR = msg(
+    "The entry point ends in :{function}, so Python looks for a function {function} at the top "
+    "level of the module."
+)
+
+
+def _close_function(raised: Raised) -> str:
+    return nearest(raised.assignment.function, raised.source.entry.functions)
+
+
+def _function_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if match["function"] != raised.assignment.function or _close_function(raised):
+        return None
+    return raised.finding("main_missing")
+
+
+def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    function, close = raised.assignment.function, _close_function(raised)
+    if match["function"] != function or not close:
+        return None
+    at = raised.source.entry.functions[close]
+    return raised.finding("main_misspelt", at=at, name=close, close=function)
+
+
+def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if match["function"] != raised.assignment.function:
+        return None
+    return raised.finding("main_wants_args", at=raised.source.main)
+
+
+def _main_empty(suspect: Suspect) -> RecognisedMistake | None:
+    source = suspect.source
+    made = source.makes_node() or any(n.endswith("create_node") for _, n in source.calls)
+    if source.node_class is None or made:
+        return None
+    return suspect.finding("main_empty", suspect.place_of_function)
+
+
+def _waits_first(suspect: Suspect) -> RecognisedMistake | None:
+    main = suspect.function
+    for call, name in calls_in(main) if main is not None else ():
+        if suspect.source.is_node_class(call.func):
+            return None
+        if name in WAITS:
+            return suspect.finding("waits_first", call, name=f"{name}()")
+    return None
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "main_missing",
+        "start",
+        msg("The module does not have the entry point's function"),
+        LOOKED_FOR,
+        msg("Define it: def {function}(args=None):"),
+        links.DEVELOPING,
+        seen=r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>main)'",
+        raised={NO_FUNCTION: _function_missing},
+        fixed_by=(node_names.main,),
+        examples=(
+            example(
+                "main_missing",
+                Replace(NODE, "def main(", "def run("),
+                Replace(NODE, "\n    main()\n", "\n    run()\n"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_misspelt",
+        "start",
+        msg("The entry point's function has a different name"),
+        LOOKED_FOR,
+        msg("Rename {name} to {function}, also where it is called."),
+        links.DEVELOPING,
+        raised={NO_FUNCTION: _function_misspelt},
+        fixed_by=(node_names.main,),
+        examples=(
+            example(
+                "main_misspelt",
+                Replace(NODE, "def main(", "def mein("),
+                Replace(NODE, "\n    main()\n", "\n    mein()\n"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_wants_args",
+        "start",
+        msg("The entry point's function needs an argument, but is called without any"),
+        msg("The executable calls {function}() without arguments."),
+        msg("Give the argument a default: def {function}(args=None):"),
+        seen=r"TypeError: (?P<function>main)\(\) missing \d{1,3} required positional argument",
+        raised={
+            r"(?<![\w.])(?P<function>\w{1,120})\(\) missing \d{1,3} required positional": _main_wants
+        },
+        fixed_by=(node_life.main_arguments,),
+        examples=(
+            example(
+                "main_wants_args",
+                Replace(NODE, "def main(args=None)", "def main(args)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_empty",
+        "start",
+        msg("The entry point's function does not create the node"),
+        msg(
+            "The executable calls {function}() and ends when it returns. A class alone does "
+            "nothing."
+        ),
+        msg(
+            "Write in {function}: rclpy.init(args=args), then node = YourClass(), then "
+            "rclpy.spin(node)."
+        ),
+        links.NODES,
+        behind={
+            "run.exits_at_once": _main_empty,
+            "run.no_node": _main_empty,
+            "run.never_spins": _main_empty,
+        },
+        examples=(
+            example(
+                "main_empty",
+                Replace(
+                    NODE,
+                    (
+                        "    rclpy.init(args=args)\n"
+                        "    node = MyFirstNode()\n"
+                        "    try:\n"
+                        "        rclpy.spin(node)\n"
+                        "    except KeyboardInterrupt:\n"
+                        "        pass\n"
+                        "    finally:\n"
+                        "        node.destroy_node()\n"
+                        "        rclpy.try_shutdown()\n"
+                    ),
+                    "    pass\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "waits_first",
+        "start",
+        msg("The program waits before it creates the node"),
+        msg(
+            "Until input(), sleep() or a loop is done, nothing after it runs, and there is no node."
+        ),
+        msg("Remove {name}. What must happen again and again belongs in a timer's callback."),
+        behind={"run.no_node": _waits_first},
+        examples=(
+            example(
+                "waits_for_input",
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    input('Press Enter to start')\n    rclpy.init(args=args)\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "sleeps_before_init",
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    ("    import time\n    time.sleep(3600)\n    rclpy.init(args=args)\n"),
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "guard_misspelt",
+        "start",
+        msg("The guard does not compare with '__main__'"),
+        msg(
+            "Python sets __name__ to '__main__' in a file that is started directly. With any "
+            "other text the line below never runs. (ros2 run does not need it.)"
+        ),
+        msg("Write: if __name__ == '__main__':"),
+    ),
+)

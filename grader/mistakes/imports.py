@@ -1,0 +1,277 @@
+"""Mistakes with which a node does not start: what it imports."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import lines, node_life, node_names, node_objects, rename
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
+from grader.package.edit.tree import Replace, Write
+from grader.report.model import Where
+
+MODULES = (
+    *("rclpy", "rclpy.node", "rclpy.executors", "rclpy.qos", "std_msgs", "std_msgs.msg"),
+    *("geometry_msgs", "geometry_msgs.msg", "sensor_msgs", "sensor_msgs.msg", "numpy"),
+)
+OTHER_CLIENTS = ("rclcpp", "rospy", "roscpp", "ros2", "ros", "ros2py", "rclpy2")
+"""Names under which beginners look for the Python client library: those of C++ and of ROS 1."""
+OTHER_PACKAGES = (
+    *("turtlesim", "turtlesim_msgs", "nav_msgs", "tf2_ros", "tf2_msgs", "visualization_msgs"),
+    *("trajectory_msgs", "shape_msgs", "stereo_msgs", "diagnostic_msgs", "example_interfaces"),
+    *("action_msgs", "std_srvs", "cv_bridge", "cv2", "tf_transformations", "nav2_msgs"),
+)
+"""Packages that exist, but may not be installed: their names are not misspelt."""
+RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_node", "logging")
+IMPORTS = {
+    "Node": "from rclpy.node import Node",
+    "rclpy": "import rclpy",
+    **{
+        name: f"from rclpy.executors import {name}"
+        for name in ("ExternalShutdownException", "MultiThreadedExecutor", "SingleThreadedExecutor")
+    },
+    **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
+}
+CLOSE = msg("Write {close} instead of {name}.")
+
+
+def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
+    source = suspect.source
+    if source.uses_ros:
+        return None
+    return suspect.finding("no_ros", Where(file=source.entry.path, line=1))
+
+
+def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    name = match["name"]
+    head, dot, tail = name.partition(".")
+    module, _, last = name.rpartition(".")
+    plain = raised.module.line(raised.line).startswith("import ")
+    if plain and module in MODULES and last[:1].isupper():
+        new = IMPORTS.get(last, f"from {module} import {last}")
+        found = raised.finding("import_misspelt", name=f"import {name}", written=new)
+        return replace(found, variant="class")
+    unused = node_names.unused_import(raised.module, raised.line)
+    close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
+    if head in OTHER_PACKAGES:
+        close = ""
+    if head in OTHER_CLIENTS:
+        close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
+    found = raised.finding("import_misspelt", name=name, close=close)
+    return replace(found, variant="unused") if unused and not close else found
+
+
+def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    name, module = match["name"], match["module"]
+    known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
+    close = nearest(name, known, cutoff=0.75)
+    return raised.finding("import_name", name=name, close=close, module=module)
+
+
+def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    if name not in IMPORTS or name in raised.module.imports:
+        return None
+    found = raised.finding("import_missing", name=name, statement=IMPORTS[name])
+    imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
+    for node in imports if name == "Node" else ():
+        if node.module == "rclpy" and [alias.name for alias in node.names] == ["node"]:
+            found = raised.finding("import_missing", at=node, name=name, statement=IMPORTS[name])
+            return replace(found, variant="module")
+    return found
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "no_ros",
+        "start",
+        msg("The file does not use rclpy"),
+        msg(
+            "A program is a ROS node only if it creates one. A loop that only prints does not "
+            "appear in ros2 node list, on /rosout or to other programs."
+        ),
+        msg(
+            "Write a class that inherits from Node, create a timer in it, and spin it in "
+            "{function}."
+        ),
+        links.NODES,
+        behind={"run.exits_at_once": _no_ros, "run.no_node": _no_ros, "run.never_spins": _no_ros},
+        examples=(
+            example(
+                "loop_without_node",
+                Write(
+                    NODE,
+                    (
+                        "#!/usr/bin/env python3\n"
+                        "def main():\n"
+                        "    for n in range(10):\n"
+                        "        print(f'Hello time: {n}')\n"
+                    ),
+                ),
+                fails="run.starts",
+                note="ten lines at once, without ROS",
+            ),
+            example(
+                "loop_without_ros",
+                Write(
+                    NODE,
+                    (
+                        "#!/usr/bin/env python3\n"
+                        "import time\n"
+                        "\n"
+                        "\n"
+                        "def main():\n"
+                        "    for n in range(10**6):\n"
+                        "        print(f'Hello time: {n}')\n"
+                        "        time.sleep(1)\n"
+                    ),
+                ),
+                fails="run.starts",
+                note="right lines at right instants, but no node",
+            ),
+        ),
+    ),
+    _node(
+        "import_node",
+        "start",
+        msg("Node is imported from rclpy instead of rclpy.node"),
+        msg("The class Node is in the module rclpy.node; rclpy itself has no Node."),
+        msg("Write: from rclpy.node import Node"),
+        seen=r"ImportError: cannot import name 'Node' from 'rclpy'",
+        raised={r"cannot import name 'Node' from 'rclpy'": always("import_node")},
+        fixed_by=(node_life.node_import,),
+        examples=(
+            example(
+                "import_of_node",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy import Node"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "import_misspelt",
+        "start",
+        msg("An import names a module that does not exist"),
+        msg(
+            "Python looks for a module with exactly that name, and ends the program if there is "
+            "none."
+        ),
+        msg(
+            "Check the spelling of the module's name; only modules of ROS and of Python are "
+            "available."
+        ),
+        links.PYTHON_ERRORS,
+        close=CLOSE,
+        fixes={
+            "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
+            "class": msg("Write {written}: after a plain import, only modules can be named."),
+        },
+        seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
+        raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
+        fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
+        examples=(
+            example(
+                "import_of_class_in_one",
+                Replace(NODE, "from rclpy.node import Node", "import rclpy.node.Node"),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_other_lesson",
+                Replace(
+                    NODE, "import rclpy\nfrom", "import rclpy\nfrom turtlesim.msg import Pose\nfrom"
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_ros_1",
+                Replace(NODE, "import rclpy\nfrom", "import rclpy\nimport rospy\nfrom"),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_cpp_client",
+                Replace(NODE, "import rclpy\nfrom rclpy.node", "import rclcpp\nfrom rclcpp.node"),
+                fails="run.starts",
+            ),
+            example(
+                "module_of_rclpy_misspelt",
+                Replace(NODE, "from rclpy.node import", "from rclpy.nod import"),
+                fails="run.starts",
+            ),
+            example(
+                "import_misspelt",
+                Replace(NODE, "import rclpy\nfrom", "import rclpi\nfrom"),
+                fails="run.starts",
+            ),
+            example(
+                "import_unknown",
+                Replace(NODE, "import rclpy\nfrom", "import numpi as np\nimport rclpy\nfrom"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "import_name",
+        "start",
+        msg("An import names something that the module does not have"),
+        msg("from module import name works only for names that the module defines; case matters."),
+        msg("Compare the name with the module's documentation."),
+        links.RCLPY,
+        close=CLOSE,
+        seen=r"ImportError: cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'",
+        raised={
+            r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'": _no_name_in_module
+        },
+        fixed_by=(rename.imported, node_life.node_import),
+        examples=(
+            example(
+                "import_in_lower_case",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import node"),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_misspelt_name",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import Nod"),
+                Replace(NODE, "MyFirstNode(Node)", "MyFirstNode(Nod)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "import_missing",
+        "start",
+        msg("A name is used without being imported"),
+        msg("Python knows only names that the file imports or defines."),
+        msg("Add the import at the top of the file: {statement}"),
+        fixes={
+            "module": msg("Write {statement} on this line: it imports the module, not the class.")
+        },
+        raised={NAME_ERROR: _not_imported},
+        fixed_by=(
+            node_objects.class_import,
+            node_life.node_import,
+            node_names.missing_import,
+        ),
+        examples=(
+            example(
+                "import_of_module_missing",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "import_node_missing",
+                Replace(NODE, "from rclpy.node import Node\n", ""),
+                fails="run.starts",
+                note="NameError while the class is defined",
+            ),
+        ),
+    ),
+)
