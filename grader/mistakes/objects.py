@@ -320,8 +320,7 @@ KINDS = (
         msg("Give the attribute another name, for example self.{name}_ instead of self.{name}."),
         fixes={
             "method": msg(
-                "Give your method another name than {name}, also where the timer gets it: for "
-                "example timer_callback."
+                "Give your method another name than {name}, here and where the timer gets it."
             )
         },
         raised={

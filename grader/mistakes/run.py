@@ -267,7 +267,10 @@ KINDS = (
             "The timer's callback logs the lines. create_timer gets the period and the callback's "
             "name, with no () after it."
         ),
-        msg("Check that a timer is created before rclpy.spin, and that its callback logs."),
+        msg(
+            "Check the timer: self.create_timer({period}, self.{callback}) before rclpy.spin, and a "
+            "callback that logs."
+        ),
     ),
     _run(
         "by_hand",

@@ -13,6 +13,9 @@ from grader.package.edit.text import Splice
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
 
+NEW_CALLBACK = "on_timer"
+"""The name for a callback whose own name is one of Node's methods."""
+
 METHODS = (
     *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
     *("create_subscription", "create_service", "create_client", "declare_parameter"),
@@ -90,7 +93,7 @@ def other_method(case: Case) -> Files | None:
     """Give the timer's callback a name of its own; calls of Node's method keep theirs."""
     node, name = case.node, str(case.finding.params.get("name", ""))
     method = node.method(name) if node is not None else None
-    new = "timer_callback"
+    new = NEW_CALLBACK
     timers = [t.callback for t in node.timers] if node is not None else []
     if node is None or method is None or new in node.methods or len(timers) != 1:
         return None
