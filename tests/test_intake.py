@@ -136,6 +136,7 @@ def test_a_tree_that_is_too_deep_is_cut(tmp_path: Path) -> None:
     assert "folders deep" in notes(found)
 
 
+@pytest.mark.full
 def test_ten_thousand_files_are_too_many_only_inside_the_package(
     tmp_path: Path,
 ) -> None:

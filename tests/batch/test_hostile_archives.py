@@ -198,6 +198,7 @@ def test_a_nested_bomb_is_detected(tmp_path: Path) -> None:
     assert mistake in ("package.archive_bomb", "package.archive_too_large")
 
 
+@pytest.mark.full
 def test_a_tar_with_too_many_files_is_not_read(tmp_path: Path) -> None:
     limits = ArchiveLimits()
     stream = io.BytesIO()

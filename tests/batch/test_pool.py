@@ -34,6 +34,7 @@ def _score(done: Done) -> float:
     return report.score
 
 
+@pytest.mark.full
 def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path: Path) -> None:
     names = ["empty_folder", "as_created", "entry_missing"]
     found = list(LocalPool(JOB, 2).run(tasks(tmp_path, names), started=_ignore))

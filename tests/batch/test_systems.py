@@ -356,6 +356,7 @@ def test_two_submissions_of_a_student_are_attempts_ordered_by_time(tmp_path: Pat
     ]
 
 
+@pytest.mark.long
 def test_large_results_in_gradescope_metadata_are_skipped_quickly(
     tmp_path: Path,
 ) -> None:

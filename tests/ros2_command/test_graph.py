@@ -116,6 +116,7 @@ def test_an_empty_graph_lists_no_nodes_and_the_default_topics(graph: Graph) -> N
     assert graph.ros2("topic list --spin-time 0.1") == (0, "/parameter_events\n/rosout\n", "")
 
 
+@pytest.mark.full
 def test_topics_are_listed(graph: Graph) -> None:
     graph.start("talker")
     plain = "/chatter\n/parameter_events\n/rosout\n"
