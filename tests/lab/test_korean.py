@@ -175,6 +175,7 @@ def test_the_welcome_is_in_the_language(kind: Kind, tmp_path: Path) -> None:
         assert lab.leave() == 0
 
 
+@pytest.mark.full
 def test_usage_errors_of_the_lab_are_in_korean(ros_jazzy: Ros, tmp_path: Path) -> None:
     for words, status in (
         (["--workspace", "/"], 2),
