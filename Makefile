@@ -119,8 +119,8 @@ recordings:  ## Record the evidence of the tests' packages anew (a quarter of an
 # pytest's own compiled form of the tests, once beside mypy instead of once in each test process
 .PHONY: rewritten
 rewritten:
-	@PYTHONDONTWRITEBYTECODE= .venv/bin/python -m pytest -qq --collect-only -p no:xdist > /dev/null || \
-	  { .venv/bin/python -m pytest -qq --collect-only -p no:xdist >&2; exit 1; }
+	@found=$$(PYTHONDONTWRITEBYTECODE= .venv/bin/python -m pytest -qq --collect-only -p no:xdist) || \
+	  { echo "$$found" >&2; exit 1; }
 
 lint:
 	@.venv/bin/python -m ruff check .

@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -157,17 +158,15 @@ def make_venv(python: str, lock: str, stamp: str) -> None:
 def install(python: str, parts: "list[list[str]]") -> None:
     """Install requirements, all parts at once; end with the reason if pip cannot."""
     started = []
-    for number, part in enumerate(parts):
-        listed = os.path.join(VENV, "requirements-%d.txt" % number)
-        write(listed, "".join(part))
-        output = os.path.join(VENV, "pip-%d.log" % number)
-        with open(output, "wb") as log:
-            command = pip_install(python, listed)
-            started.append((subprocess.Popen(command, stdout=log, stderr=log), output))
-    failed = [read(output).strip() for process, output in started if process.wait()]
-    for name in os.listdir(VENV):
-        if name.endswith((".log", ".txt")):
-            os.remove(os.path.join(VENV, name))
+    with tempfile.TemporaryDirectory() as folder:
+        for number, part in enumerate(parts):
+            listed = os.path.join(folder, "%d.txt" % number)
+            write(listed, "".join(part))
+            output = os.path.join(folder, "%d.log" % number)
+            with open(output, "wb") as log:
+                command = pip_install(python, listed)
+                started.append((subprocess.Popen(command, stdout=log, stderr=log), output))
+        failed = [read(output).strip() for process, output in started if process.wait()]
     if failed:
         output = failed[0]
         offline = why_offline(output)

@@ -7,7 +7,7 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.example import DEAD, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_classes
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
@@ -27,7 +27,6 @@ from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import function_at
 
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
-STEP = "        self.counter_ += 1\n"
 NEEDED = ("create_timer", "__init__", *LOG_METHODS)
 """What a method must call, or else no line comes."""
 CALLED_ON_CLASS = (
@@ -261,7 +260,9 @@ KINDS = (
             ),
             example(
                 "callback_defined_twice",
-                Replace(NODE, STEP, f"{STEP}\n    def timer_callback(self):\n        pass\n"),
+                Replace(
+                    NODE, STEP_LINE, f"{STEP_LINE}\n    def timer_callback(self):\n        pass\n"
+                ),
                 fails="run.output",
                 blocks=SILENT,
             ),

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes import node_life, node_scope
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
@@ -166,17 +166,7 @@ KINDS = (
                 "context_manager_of_kilted",
                 Replace(
                     NODE,
-                    (
-                        "    rclpy.init(args=args)\n"
-                        "    node = MyFirstNode()\n"
-                        "    try:\n"
-                        "        rclpy.spin(node)\n"
-                        "    except KeyboardInterrupt:\n"
-                        "        pass\n"
-                        "    finally:\n"
-                        "        node.destroy_node()\n"
-                        "        rclpy.try_shutdown()\n"
-                    ),
+                    BODY_OF_MAIN,
                     ("    with rclpy.init(args=args):\n        rclpy.spin(MyFirstNode())\n"),
                 ),
                 fails="run.starts",

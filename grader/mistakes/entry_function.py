@@ -7,7 +7,7 @@ import re
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes import node_life, node_names
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -146,17 +146,7 @@ KINDS = (
                 "main_empty",
                 Replace(
                     NODE,
-                    (
-                        "    rclpy.init(args=args)\n"
-                        "    node = MyFirstNode()\n"
-                        "    try:\n"
-                        "        rclpy.spin(node)\n"
-                        "    except KeyboardInterrupt:\n"
-                        "        pass\n"
-                        "    finally:\n"
-                        "        node.destroy_node()\n"
-                        "        rclpy.try_shutdown()\n"
-                    ),
+                    BODY_OF_MAIN,
                     "    pass\n",
                 ),
                 fails="run.starts",

@@ -21,6 +21,21 @@ MANIFEST = "package.xml"
 SETUP = "setup.py"
 CFG = "setup.cfg"
 
+LOG = "self.get_logger().info('Hello time: ' + str(self.counter_))"
+LOG_LINE = f"        {LOG}\n"
+STEP_LINE = "        self.counter_ += 1\n"
+BODY_OF_MAIN = (
+    "    rclpy.init(args=args)\n"
+    "    node = MyFirstNode()\n"
+    "    try:\n"
+    "        rclpy.spin(node)\n"
+    "    except KeyboardInterrupt:\n"
+    "        pass\n"
+    "    finally:\n"
+    "        node.destroy_node()\n"
+    "        rclpy.try_shutdown()\n"
+)
+
 UNBUILT = ("build.colcon",)
 UNINSTALLED = ("entry_point.executable",)
 UNSTARTED = ("run.starts",)

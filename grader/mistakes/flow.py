@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -20,8 +20,6 @@ from grader.package.source.place import function_at, statement_at
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
 LEVELS = ("set_level", "set_logger_level")
-LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
-STEP = "        self.counter_ += 1\n"
 
 
 def _blocks(suspect: Suspect) -> Iterator[ast.stmt]:
@@ -138,7 +136,11 @@ KINDS = (
         examples=(
             example(
                 "loop_logs_ten",
-                Replace(NODE, LOG + STEP, f"        for i in range(10):\n    {LOG}    {STEP}"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        for i in range(10):\n    {LOG_LINE}    {STEP_LINE}",
+                ),
                 fails="run.output",
             ),
         ),
@@ -154,17 +156,21 @@ KINDS = (
         examples=(
             example(
                 "logs_until_five",
-                Replace(NODE, LOG, f"        if self.counter_ < 5:\n    {LOG}"),
+                Replace(NODE, LOG_LINE, f"        if self.counter_ < 5:\n    {LOG_LINE}"),
                 fails="run.output",
             ),
             example(
                 "logs_after_the_first",
-                Replace(NODE, LOG, f"        if self.counter_ > 0:\n    {LOG}"),
+                Replace(NODE, LOG_LINE, f"        if self.counter_ > 0:\n    {LOG_LINE}"),
                 fails="run.output",
             ),
             example(
                 "logs_never",
-                Replace(NODE, LOG + STEP, f"        if self.counter_ > 0:\n    {LOG}    {STEP}"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        if self.counter_ > 0:\n    {LOG_LINE}    {STEP_LINE}",
+                ),
                 fails="run.output",
                 blocks=SILENT,
             ),
@@ -181,7 +187,7 @@ KINDS = (
         examples=(
             example(
                 "counts_never",
-                Replace(NODE, STEP, f"        if self.counter_ > 0:\n    {STEP}"),
+                Replace(NODE, STEP_LINE, f"        if self.counter_ > 0:\n    {STEP_LINE}"),
                 fails="run.output",
             ),
         ),
@@ -196,7 +202,11 @@ KINDS = (
         examples=(
             example(
                 "inner_function",
-                Replace(NODE, LOG + STEP, f"        def say_hello():\n    {LOG}    {STEP}"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        def say_hello():\n    {LOG_LINE}    {STEP_LINE}",
+                ),
                 fails="run.output",
                 blocks=SILENT,
             ),
@@ -219,7 +229,7 @@ KINDS = (
         examples=(
             example(
                 "shutdown_in_callback",
-                Replace(NODE, STEP, f"{STEP}        rclpy.shutdown()\n"),
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        rclpy.shutdown()\n"),
                 fails="run.output",
                 blocks=("run.interrupt",),
             ),
@@ -261,7 +271,7 @@ KINDS = (
         examples=(
             example(
                 "not_implemented",
-                Replace(NODE, LOG, f"        raise NotImplementedError\n{LOG}"),
+                Replace(NODE, LOG_LINE, f"        raise NotImplementedError\n{LOG_LINE}"),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_order
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -18,8 +18,6 @@ from grader.package.source.node import NodeSource
 
 ENDS = ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit")
 """Exceptions that end a node as it should end."""
-LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
-STEP = "        self.counter_ += 1\n"
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
 
@@ -102,13 +100,13 @@ KINDS = (
         examples=(
             example(
                 "returns_before_log",
-                Replace(NODE, LOG, f"        return\n{LOG}"),
+                Replace(NODE, LOG_LINE, f"        return\n{LOG_LINE}"),
                 fails="run.output",
                 blocks=SILENT,
             ),
             example(
                 "returns_before_step",
-                Replace(NODE, STEP, f"        return\n{STEP}"),
+                Replace(NODE, STEP_LINE, f"        return\n{STEP_LINE}"),
                 fails="run.output",
             ),
             example(
@@ -120,7 +118,11 @@ KINDS = (
             ),
             example(
                 "returns_if_zero",
-                Replace(NODE, LOG, f"        if self.counter_ == 0:\n            return\n{LOG}"),
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    f"        if self.counter_ == 0:\n            return\n{LOG_LINE}",
+                ),
                 fails="run.output",
                 blocks=SILENT,
             ),
@@ -151,7 +153,7 @@ KINDS = (
                 "error_hidden_in_callback",
                 Replace(
                     NODE,
-                    LOG + STEP,
+                    LOG_LINE + STEP_LINE,
                     (
                         "        try:\n"
                         f"{LOG_OF_NUMBER}"

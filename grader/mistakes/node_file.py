@@ -10,6 +10,7 @@ from grader.mistakes import links
 from grader.mistakes.example import (
     INIT,
     INNER,
+    LOG,
     NO_FILE,
     NODE,
     SETUP,
@@ -54,9 +55,6 @@ SHEBANG = msg(
     "Without it, the shell tries to run the Python code itself. (ros2 run does not need it.)"
 )
 FIRST = msg("Write as line 1: #!/usr/bin/env python3")
-
-
-LOG = "self.get_logger().info('Hello time: ' + str(self.counter_))"
 
 
 def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -8,7 +8,7 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, LOG, NODE, example
 from grader.mistakes.fixes import node_values
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
@@ -18,7 +18,6 @@ from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.place import function_at, statement_at
 
-LOG = "self.get_logger().info('Hello time: ' + str(self.counter_))"
 ADDED = (
     r"can only concatenate str \(not \"(?:int|float)\"\) to str"
     r"|unsupported operand type\(s\) for \+=?: '(?:int|float)' and 'str'"

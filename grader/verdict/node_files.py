@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from grader.package.source.node import NodeSource, read_node
-from grader.verdict.checks.parsed import file_of, node_path
+from grader.verdict.checks.parsed import data_of, node_path
 
 if TYPE_CHECKING:
     from grader.report.model import Where
@@ -25,8 +26,4 @@ def source_around(evidence: Evidence, where: Where | None) -> NodeSource | None:
 
 
 def _read(evidence: Evidence, path: str) -> NodeSource | None:
-    def data(path: str) -> bytes | None:
-        file = file_of(evidence, path)
-        return file.data if file is not None and not file.unreadable else None
-
-    return read_node(data, path, evidence.assignment.function)
+    return read_node(partial(data_of, evidence), path, evidence.assignment.function)

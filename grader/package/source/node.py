@@ -291,7 +291,7 @@ def read_node(read: Read, path: str, function: str) -> NodeSource | None:
     file imports from its own package are read too. None if Python cannot read the file, or if it
     is too large.
     """
-    entry = _module(read, path)
+    entry = read_module(read, path)
     if entry is None:
         return None
     try:
@@ -309,12 +309,13 @@ def _with_imports(entry: Module, read: Read) -> list[Module]:
             size = sum(len(each.text.text) for each in modules)
             if path not in tried and len(modules) <= MOST_MODULES and size < MOST_OF_ALL:
                 tried.add(path)
-                other = _module(read, path)
+                other = read_module(read, path)
                 modules += [other] if other is not None else []
     return modules
 
 
-def _module(read: Read, path: str) -> Module | None:
+def read_module(read: Read, path: str) -> Module | None:
+    """Return a file of the package; None if there is none, or if Python cannot read it."""
     found = read(path)
     if found is None or len(found) > MOST_BYTES:
         return None

@@ -6,7 +6,8 @@ import re
 from collections.abc import Callable, Iterator
 
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip, fault_of
+from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip
+from grader.package.source.python import can_parse
 
 CLOSES = {")": "(", "]": "[", "}": "{"}
 OPENER = re.compile(rf"[ \t]*(?:{BLOCK}|async|match|case)\b")
@@ -140,7 +141,7 @@ def _line_above(text: Broken) -> Slip | None:
         return None
     start = text.source.start_of(above)
     new = text.source.spliced([Splice(start, start + len(written), wanted)])
-    if new is None or not _is_read(new):
+    if new is None or not can_parse(new):
         return None
     shown = text.source.line(above).strip()
     return Slip("signs", "line_above", above, shown, "", new, other=text.number)
@@ -150,11 +151,7 @@ def _reads(text: Broken, number: int, old: str, new: str) -> bool:
     """Whether Python reads the file with another indentation of one line."""
     start = text.source.start_of(number)
     changed = text.source.spliced([Splice(start, start + len(old), new)])
-    return changed is not None and _is_read(changed)
-
-
-def _is_read(found: bytes) -> bool:
-    return fault_of(found) is None
+    return changed is not None and can_parse(changed)
 
 
 def _without_end(text: Broken) -> Slip | None:
@@ -168,7 +165,7 @@ def _without_end(text: Broken) -> Slip | None:
             at = text.source.end_of(number)
             inside = text.source.text[start + 3 : at].rstrip(" \t").rstrip(quotes[0])
             new = text.source.spliced([Splice(start + 3 + len(inside), at, quotes)])
-            if new is not None and _is_read(new):
+            if new is not None and can_parse(new):
                 shown = text.source.line(first).strip()
                 return Slip("signs", "text_without_end", first, shown, quotes, new)
         if tries > 2 * MOST_TRIES:
@@ -232,7 +229,7 @@ def two_statements(text: Broken) -> Slip | None:
     ):
         splice = text.within(*match.span(), text.source.newline + indent)
         new = text.changed(splice)
-        if new is not None and _is_read(new):
+        if new is not None and can_parse(new):
             shown = text.source.line(text.number).strip()
             second = text.source.line(text.number)[match.end() :].strip()
             return Slip("signs", "two_statements", text.number, shown, second, new)

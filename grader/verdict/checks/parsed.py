@@ -20,13 +20,19 @@ def file_of(evidence: Evidence, path: str) -> SourceFile | None:
     return found if found is not None and found.kind == "file" else None
 
 
+def data_of(evidence: Evidence, path: str) -> bytes | None:
+    """Return the bytes of a file of the package; None if there is none that can be read."""
+    file = file_of(evidence, path)
+    return file.data if file is not None and not file.unreadable else None
+
+
 def setup_py_of(evidence: Evidence) -> SetupPy | None:
     """Return the parsed setup.py; None if it is missing or Python cannot read it."""
-    file = file_of(evidence, "setup.py")
-    if file is None or file.unreadable:
+    found = data_of(evidence, "setup.py")
+    if found is None:
         return None
     try:
-        return read_setup_py(file.data)
+        return read_setup_py(found)
     except PythonFault:
         return None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+from functools import partial
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
@@ -13,15 +14,14 @@ from grader.mistakes.hints import hints
 from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
-from grader.package.source.module import parse_module
-from grader.package.source.node import MOST_BYTES
+from grader.package.source.node import read_module
 from grader.package.source.node_class import derives_from_node
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.declare import INTAKE, check
-from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
+from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             words={"wanted": path},
         )
     init = f"{inner}/__init__.py"
-    if _has_node(file_of(evidence, init), evidence.assignment.function):
+    if _has_node(evidence, init):
         raise Failed(
             "source.misplaced_node_file",
             expected=expected,
@@ -159,14 +159,12 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     )
 
 
-def _has_node(file: SourceFile | None, function: str) -> bool:
+def _has_node(evidence: Evidence, path: str) -> bool:
     """Whether a file has a class that derives from a node, or the entry point's function."""
-    if file is None or file.unreadable or len(file.data) > MOST_BYTES:
+    module = read_module(partial(data_of, evidence), path)
+    if module is None:
         return False
-    try:
-        module = parse_module(file.path, file.data)
-    except (PythonFault, RecursionError, MemoryError):
-        return False
+    function = evidence.assignment.function
     return function in module.functions or any(map(derives_from_node, module.classes))
 
 
