@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+import signal
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grader.run.terminal import Terminal
-from grader.sandbox.base import Role, Sandbox
+from grader.sandbox.base import Pipe, Role, Sandbox
 from grader.sandbox.limits import MEGABYTE, Limits
 from tests import processes
 
@@ -51,6 +52,49 @@ def test_the_network_is_loopback_only(sandbox: Sandbox) -> None:
     assert status == 1
 
 
+NETWORK = "readlink /proc/self/ns/net"
+
+
+def network_of_a_probe(sandbox: Sandbox) -> tuple[Pipe, str]:
+    probe = sandbox.probe(["bash", "-c", f"{NETWORK}; cat"])
+    said = probe.read(20)
+    assert said is not None
+    return probe, said.decode().strip()
+
+
+def test_the_build_and_each_probe_have_a_network_of_their_own(sandbox: Sandbox) -> None:
+    """Else a node that setup.py left behind would be taken for the one that is observed."""
+    seen = [shell(sandbox, NETWORK)[1].strip()]
+    for _ in range(2):
+        probe, network = network_of_a_probe(sandbox)
+        console = sandbox.console(["bash", "-c", NETWORK], probe=probe)
+        opened = Terminal(console, most=1000)
+        lines, ended = opened.finish(20)
+        opened.close()
+        probe.finish(1)
+        assert ended
+        assert [line.text for line in lines] == [network], "the node is not on its probe's network"
+        seen.append(network)
+    assert all(network.startswith("net:[") for network in seen)
+    assert len(set(seen)) == 3
+
+
+def test_loopback_is_up_in_the_network_of_a_probe(sandbox: Sandbox) -> None:
+    answer = "exec 3<>/dev/tcp/127.0.0.1/4567; cat <&3"
+    server = (
+        "import socket; s = socket.create_server(('127.0.0.1', 4567)); print('up', flush=True); "
+        "s.accept()[0].sendall(b'from the probe')"
+    )
+    probe = sandbox.probe(["python3", "-S", "-c", server])
+    assert probe.read(20) == b"up\n"
+    assert shell(sandbox, answer)[0] == 1, "the build reaches the probe"
+    opened = Terminal(sandbox.console(["bash", "-c", answer], probe=probe), most=1000)
+    opened.finish(20)
+    opened.close()
+    probe.finish(1)
+    assert opened.transcript.strip() == "from the probe"
+
+
 def test_the_environment_has_only_listed_variables(
     sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -70,7 +114,7 @@ def test_nothing_of_a_command_remains_for_the_next(sandbox: Sandbox) -> None:
 
 
 def test_student_and_probe_cannot_reach_each_other(sandbox: Sandbox) -> None:
-    probe = sandbox.pipe(["cat"], role="probe")
+    probe = sandbox.probe(["cat"])
     probe.write(b"up\n")
     assert probe.read(10) == b"up\n"
     shell(sandbox, "kill -9 -1; for p in /proc/[0-9]*; do kill -9 ${p#/proc/}; done")
@@ -154,7 +198,7 @@ def test_output_without_a_line_end_extends_no_wait(sandbox: Sandbox) -> None:
 
 def test_a_pipe_without_a_complete_line_extends_no_wait(sandbox: Sandbox) -> None:
     """stdout is read in pieces; output on stderr alone does not end or extend the wait."""
-    pipe = sandbox.pipe(["bash", "-c", f"{DOTS} >&2"], role="probe")
+    pipe = sandbox.probe(["bash", "-c", f"{DOTS} >&2"])
     begin = time.monotonic()
     assert pipe.read(0.5) is None
     assert time.monotonic() - begin < 2
@@ -165,7 +209,7 @@ def test_a_pipe_without_a_complete_line_extends_no_wait(sandbox: Sandbox) -> Non
 
 def test_unread_stderr_does_not_block_a_pipe(sandbox: Sandbox) -> None:
     """A full pipe would block a probe that a node causes to print warnings."""
-    pipe = sandbox.pipe(["bash", "-c", "head -c 300000 /dev/zero >&2; echo done"], role="probe")
+    pipe = sandbox.probe(["bash", "-c", "head -c 300000 /dev/zero >&2; echo done"])
     assert pipe.read(20) == b"done\n"
     pipe.finish(1)
 
@@ -229,3 +273,94 @@ def test_the_report_names_the_limits_that_were_enforced(sandbox: Sandbox) -> Non
     assert report["workspace"].held_by == "tmpfs"
     assert report["memory"].held_by in ("cgroup", "rlimit")
     assert report["memory"].value == Limits().memory
+
+
+CALLS = """
+import ctypes, errno, sys
+libc = ctypes.CDLL(None, use_errno=True)
+def refused(name, *args):
+    ctypes.set_errno(0)
+    value = libc.syscall(*(ctypes.c_long(a) for a in args))
+    if value != -1 or ctypes.get_errno() != errno.ENOSYS:
+        print(name, value, errno.errorcode.get(ctypes.get_errno()))
+page = ctypes.addressof(ctypes.create_string_buffer(4096))
+refused("add_key", 248, page, page, page, 1, -2)
+refused("request_key", 249, page, page, 0, -2)
+refused("keyctl", 250, 0, -3, 0)
+refused("io_uring_setup", 425, 8, page)
+refused("userfaultfd", 323, 0)
+refused("bpf", 321, 0, page, 120)
+refused("perf_event_open", 298, page, 0, -1, -1, 0)
+refused("ptrace", 101, 0, 0, 0, 0)
+refused("process_vm_readv", 310, 1, page, 1, page, 1, 0)
+refused("process_madvise", 440, 1, page, 1, 4, 0)
+refused("pidfd_getfd", 438, 0, 0, 0)
+refused("kcmp", 312, 1, 1, 0, 0, 0)
+refused("unshare", 272, 0x10000000)
+refused("setns", 308, 0, 0)
+refused("mount", 165, page, page, page, 0, 0)
+refused("open_tree", 428, -100, page, 0)
+refused("fsopen", 430, page, 0)
+refused("pivot_root", 155, page, page)
+refused("clone3", 435, page, 88)
+refused("shmget", 29, 0, 4096, 0o1600)
+refused("msgget", 68, 0, 0o1600)
+refused("memfd_create", 319, page, 0)
+refused("mq_open", 240, page, 0o100, 0o600, 0)
+refused("personality without address randomisation", 135, 0x40000)
+families = {"vsock": 40, "packet": 17, "alg": 38, "kcm": 41, "vsock, high bits": 1 << 32 | 40}
+for name, family in families.items():
+    refused(name, 41, family, 1, 0)
+for flag in (0x10000000, 0x20000, 0x20000000, 0x40000000, 0x2000000):
+    refused(f"clone {flag:#x}", 56, flag | 17, 0, 0, 0, 0)
+"""
+
+
+def test_no_system_call_beyond_the_list_is_possible(sandbox: Sandbox) -> None:
+    """Numbers: x86_64. As on a kernel without them; the list is in seccomp.py."""
+    outcome = sandbox.run(["python3", "-S", "-c", CALLS], seconds=20)
+    assert (outcome.status, outcome.output) == (0, b"")
+
+
+FOREIGN = """
+import ctypes, mmap
+code = {code}
+page = mmap.mmap(-1, 4096, prot=mmap.PROT_READ | mmap.PROT_WRITE | mmap.PROT_EXEC)
+page.write(code)
+call = ctypes.CFUNCTYPE(ctypes.c_long)(ctypes.addressof(ctypes.c_char.from_buffer(page)))
+print("answered", call(), flush=True)
+"""
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        b"\xb8\x14\x00\x00\x00\xcd\x80\xc3",  # mov eax, 20 (getpid of i386); int 0x80; ret
+        b"\xb8\x27\x00\x00\x40\x0f\x05\xc3",  # mov eax, 0x40000027 (getpid of x32); syscall; ret
+    ],
+    ids=["i386", "x32"],
+)
+def test_system_calls_of_a_foreign_architecture_end_the_process(
+    sandbox: Sandbox, code: bytes
+) -> None:
+    command = ["python3", "-S", "-c", FOREIGN.format(code=code)]
+    outcome = sandbox.run(command, seconds=20)
+    assert (outcome.status, outcome.output) == (128 + signal.SIGSYS, b"")
+
+
+def test_what_python_and_compilers_use_works(sandbox: Sandbox) -> None:
+    code = (
+        "import ctypes, multiprocessing, os, select, socket, subprocess, tempfile, threading\n"
+        "threading.Thread(target=print, args=('thread',)).start()\n"
+        "print(subprocess.run(['echo', 'child'], capture_output=True, text=True).stdout)\n"
+        "socket.socketpair(); os.eventfd(0); select.epoll()\n"
+        "os.mkfifo('fifo'); os.sched_getaffinity(0); tempfile.TemporaryFile().write(b'x')\n"
+        "socket.if_nameindex(); socket.getaddrinfo('localhost', 80)\n"
+        "child = multiprocessing.Process(target=print, args=('process',))\n"
+        "child.start(); child.join(); multiprocessing.Lock(); print(child.exitcode)\n"
+        "print('personality', ctypes.CDLL(None).personality(0xffffffff))\n"
+    )
+    outcome = sandbox.run(["python3", "-u", "-c", code], seconds=30)
+    said = outcome.output.decode().split()
+    assert outcome.status == 0, outcome.output
+    assert sorted(said) == sorted(["thread", "child", "process", "0", "personality", "0"])

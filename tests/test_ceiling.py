@@ -50,7 +50,7 @@ class Clock:
         monkeypatch.setattr(session, "ProbeLink", lambda sandbox: NoProbe())
         monkeypatch.setattr(session, "prove_again", self.proofs.append)
 
-    def _observe(self, *args: object, until: float, fine: bool) -> Run:
+    def _observe(self, *args: object, until: float, fine: bool, **more: object) -> Run:
         result = self._results[min(self.runs, len(self._results) - 1)]
         self.runs += 1
         self.now = until if self.seconds is None else min(until, self.now + self.seconds)
@@ -143,10 +143,8 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
     limits = Limits().override({"run_seconds": 0.5, "start_seconds": 0.5, "stop_seconds": 0.2})
     with make_sandbox(limits) as opened:
         opened.run(["sh", "-c", f'mkdir install; echo "$0" > {SETUP}', overlay], seconds=10)
-        pipe = opened.pipe
-        monkeypatch.setattr(
-            opened, "pipe", lambda argv, role: pipe(["python3", "-c", silent], role=role)
-        )
+        probe = opened.probe
+        monkeypatch.setattr(opened, "probe", lambda argv: probe(["python3", "-c", silent]))
         link = ProbeLink(opened)
         link.ready()
         begin = time.monotonic()

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from grader.run.observer import Event, Watch
+from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
+from grader.verdict.checks.counting import logger, output
 from grader.verdict.checks.declare import Check
+from grader.verdict.checks.spinning import spins
 from grader.verdict.checks.starting import interrupt
 from grader.verdict.checks.timing import period
 from grader.verdict.evidence import Evidence
@@ -133,3 +137,60 @@ def test_a_failing_ctrl_c_handler_is_an_error_at_the_stop(bench: Bench, error: s
 )
 def test_the_traceback_of_ctrl_c_itself_is_not_an_error(bench: Bench, transcript: str) -> None:
     assert ask(interrupt, bench, ended(transcript, status=1)) is not None
+
+
+def counted(**more: object) -> Run:
+    """Return a right run of twelve lines with other facts about it."""
+    run = on_time([0.1 * n for n in range(12)])
+    run.nodes = (
+        NodeSeen("/my_first_node", clock=True, rosout=True, parameters=True, answers=True),
+    )
+    run.watch.settled = True
+    return replace(run, **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("asked", [output, logger, period, spins])
+def test_a_node_that_does_not_count_in_a_plain_run_gets_no_point_for_its_lines(
+    bench: Bench, asked: Check
+) -> None:
+    for confirmed in (True, None):
+        ask(asked, bench, counted(confirmed=confirmed))
+    with pytest.raises((Failed, Blocked)) as caught:
+        ask(asked, bench, counted(confirmed=False))
+    if isinstance(caught.value, Blocked):
+        assert caught.value.by == "run.output"
+    else:
+        assert isinstance(caught.value, Failed)
+        assert caught.value.mistake.id == "run.only_when_marked"
+
+
+def test_the_line_that_asks_where_it_runs_is_named(bench: Bench) -> None:
+    source = RIGHT.replace("        self.counter_ = 0", "        self.counter_ = len(sys.argv) - 4")
+    with pytest.raises(Failed) as caught:
+        ask(output, bench, counted(confirmed=False), source)
+    where = caught.value.where
+    assert where is not None
+    assert where.line is not None
+    assert "sys.argv" in source.splitlines()[where.line - 1]
+
+
+def test_records_of_a_node_with_two_publishers_on_rosout_prove_nothing(bench: Bench) -> None:
+    with pytest.raises(Failed) as caught:
+        ask(logger, bench, counted(doubled="/my_first_node"))
+    assert caught.value.mistake.id == "run.faked_log"
+    assert "/my_first_node has a second publisher on /rosout" in caught.value.actual
+
+
+def test_lines_that_were_erased_are_not_taken_for_a_silent_node(bench: Bench) -> None:
+    silent = Run("ros2 run", Watch(clock="virtual"), started=True, erased=5)
+    with pytest.raises(Failed) as caught:
+        ask(output, bench, silent)
+    assert caught.value.mistake.id == "run.erased"
+
+
+def test_callbacks_that_hold_up_the_clock_are_a_longer_period(bench: Bench) -> None:
+    assert ask(period, bench, counted(held_up=0.9)) is not None
+    with pytest.raises(Failed) as caught:
+        ask(period, bench, counted(held_up=1.8))
+    assert caught.value.mistake.id == "run.wrong_period"
+    assert "1.80 s" in caught.value.actual

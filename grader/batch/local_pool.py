@@ -27,6 +27,12 @@ END_SECONDS = 10.0  # for a worker to end, with its sandbox, before it is killed
 CHUNK = 1 << 20
 IDLE_SECONDS = 0.5  # over which idle cores are measured
 IDLE_CORES = 0.5
+# `-m` would put the current folder first, which may be a student's
+START_WORKER = """import sys
+sys.path.remove("")
+from grader.batch.worker import main
+raise SystemExit(main(sys.argv[1:]))
+"""
 MOST_STDERR = 2_000  # bytes of what a crashed worker wrote
 
 
@@ -68,7 +74,7 @@ class LocalPool:
         self._count = workers
         self._most = max(workers, most)
         self._idleness = Idleness(IDLE_SECONDS)
-        self._command = command or (sys.executable, "-m", "grader.batch.worker")
+        self._command = command or (sys.executable, "-c", START_WORKER)
         self._seconds = job.seconds if seconds is None else seconds
         self._workers: list[Worker] = []
         self._again: deque[Trial] = deque()

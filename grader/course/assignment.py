@@ -50,6 +50,7 @@ class Assignment(_Part):
     output: Output
     modes: Literal["accept-unknown", "require"] = "accept-unknown"
     timer: Literal["ros", "any"] = "ros"
+    confirm: Literal["always", "sample", "never"] = "sample"
     hidden_checks: int = Field(default=0, ge=0)
     limits: dict[str, float] = Field(default_factory=dict)
     checks: tuple[CheckUse, ...]

@@ -548,6 +548,34 @@ KINDS = (
         ),
     ),
     Kind(
+        id="entry_point.other_installed",
+        stage="entry point",
+        title=msg("The build installs something other than the sources say"),
+        why=msg(
+            "setup.py is a program: what it does besides setup() can change what is installed. "
+            "Others read the sources, and expect the package to be what they say."
+        ),
+        fix=msg("Remove what setup.py does besides calling setup()."),
+        link=links.DEVELOPING,
+        examples=(
+            example(
+                "script_rewritten",
+                Replace(
+                    SETUP,
+                    "    },\n)\n",
+                    "    },\n)\n\n"
+                    "script = f'../../install/{package_name}/lib/{package_name}/test_node'\n"
+                    "try:\n"
+                    "    with open(script, 'a') as file:\n"
+                    "        file.write('# started\\nprint()\\n')\n"
+                    "except OSError:\n"
+                    "    pass\n",
+                ),
+                fails="entry_point.executable",
+            ),
+        ),
+    ),
+    Kind(
         id="entry_point.computed_mapping",
         stage="entry point",
         title=msg("setup.py computes a different entry than the required one"),

@@ -12,6 +12,7 @@ NAMES: Mapping[str, Value] = {
     **EXAMPLE,
     "before": "talker = my_package.talker:main",
     "close": "create_timer",
+    "executable": "my_node",
     "file": "my_node.py",
     "debian": "turtlesim",
     "key": "script_dir",

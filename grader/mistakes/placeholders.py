@@ -29,6 +29,7 @@ def placeholder_values(
     counter = _counter_of(source)
     return {
         "package": assignment.package,
+        "executable": assignment.executable,
         "node_name": assignment.node_name,
         "function": assignment.function,
         "period": repr(output.period),

@@ -370,6 +370,55 @@ KINDS = (
         ),
     ),
     _run(
+        "erased",
+        "logger",
+        msg("The lines do not stay on the terminal"),
+        msg(
+            "Whoever runs the node reads its lines on the terminal, also those of a minute ago. "
+            "Control sequences and carriage returns can erase or hide them."
+        ),
+        msg("Print the lines with self.get_logger().info(…) and leave the terminal as it is."),
+        links.LOGGING,
+        examples=(
+            example(
+                "erased_lines",
+                Replace(
+                    NODE,
+                    "        self.counter_ += 1\n",
+                    "        self.counter_ += 1\n"
+                    "        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _run(
+        "only_when_marked",
+        "logger",
+        msg("The node works only while it is marked"),
+        msg(
+            "A node is started in many ways: by hand, by a launch file, with or without simulated "
+            "time. It must do the same in all of them."
+        ),
+        msg(
+            "Remove what asks how or where the node was started. Then run `ros2 run {package} "
+            "{executable}` in a terminal: the lines must come."
+        ),
+        links.FIRST_NODE,
+        examples=(
+            example(
+                "only_under_sim_time",
+                Replace(NODE, "import rclpy\nfrom", "import sys\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info(",
+                    "        if 'use_sim_time:=true' in sys.argv:\n            self.get_logger().info(",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _run(
         "other_logger",
         "logger",
         msg("The lines come from a logger that is not the node's"),

@@ -61,7 +61,7 @@ def _install(distro: Distro, staging: Path, notify: Notify) -> None:
     lock = distro.lock
     assert lock is not None
     total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
-    command = [sys.executable, "-m", "pip", "install", "--prefix", str(staging)]
+    command = [sys.executable, "-I", "-m", "pip", "install", "--prefix", str(staging)]
     command += ["--ignore-installed", "--no-deps", "--require-hashes", "-r", str(lock)]
     # empy 3.3.4 has no wheel: it is built with this environment's pinned setuptools
     command += ["--only-binary", ":all:", "--no-binary", "empy", "--no-build-isolation"]
@@ -115,7 +115,7 @@ def _install_command(distro: Distro, site: Path, script: Path, interpreter: Path
     target = site / COMMAND_MODULE
     shutil.copytree(COMMAND, target, ignore=shutil.ignore_patterns("__pycache__"))
     (target / "distro").write_text(distro.name, encoding="utf-8")
-    compile_ = [str(interpreter), "-m", "compileall", "-q", str(target)]
+    compile_ = [str(interpreter), "-I", "-m", "compileall", "-q", str(target)]
     subprocess.run(compile_, check=False)  # only saves time; whether it runs is tested later
     script.write_bytes(
         HEADER

@@ -8,15 +8,18 @@ of the barrier. Nodes that do not follow `/clock` are watched on the wall clock.
 
 from __future__ import annotations
 
+import os
 import statistics
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Output
 from grader.run.observer import SECOND, Event, Observer, Watch, recurring
 from grader.run.probe_link import Answer
+from grader.sandbox.scheduling import seconds_waited
 
 MILLISECOND = 1_000_000
 BARRIER_SECONDS = 2.0  # wall time for one barrier
@@ -33,13 +36,41 @@ WALL_SPARE = 3.0  # seconds of wall time in addition to the ticks'
 STILL = 1.3  # periods of wall time without a /clock message, to detect a wall clock
 
 
+class Lap:
+    """Measures how long a step takes, without the time in which its processes waited for a core."""
+
+    def __init__(self, pids: Collection[int]) -> None:
+        self._pids = pids
+        self._begin, self._waited = time.monotonic(), seconds_waited(pids)
+
+    def own_seconds(self) -> float:
+        """Return the seconds since it was made in which the processes ran or slept.
+
+        At most: threads wait side by side. 0 if the processes are unknown.
+        """
+        if not self._pids:
+            return 0.0
+        waited = seconds_waited(self._pids) - self._waited
+        return max(0.0, time.monotonic() - self._begin - waited)
+
+
 class VirtualClock:
     """Drives `/clock` for one node and records which lines come when."""
 
     def __init__(
-        self, observer: Observer, output: Output, *, deadline: float, fine: bool = False
+        self,
+        observer: Observer,
+        output: Output,
+        *,
+        deadline: float,
+        fine: bool = False,
+        more_ticks: int = 0,
+        stay_until: float = 0,
     ) -> None:
+        """Watch `more_ticks` beyond the announced ones, the last not before `stay_until`."""
         self._fine = fine
+        self._ticks = output.ticks + more_ticks
+        self._stay_until = stay_until  # by time.monotonic()
         self._observer = observer
         self._output = output
         self._deadline = deadline  # by time.monotonic()
@@ -95,9 +126,17 @@ class VirtualClock:
     def _at_due_instants(self, watch: Watch, phase: int, on_event: Callable[[Event], None]) -> bool:
         """Watch the due instants from `phase` on; return whether ticks came at these only."""
         already = len(watch.dues)
-        for k in range(already, self._output.ticks):
+        lap: Lap | None = None
+        for k in range(already, self._ticks):
             due = phase + (k - already) * self._period
+            if k == self._ticks - 1 and self._stay_until:
+                lap = None
+                if not self._stay(watch):
+                    return False
             early = self._go_to(due - MILLISECOND)
+            if lap is not None:
+                watch.held.append(lap.own_seconds())
+            lap = None if self._fine else Lap(self._pids)
             watch.events += early
             found = self._wait_for_tick(due, k)
             watch.early += _ticks_among(early, found)
@@ -111,6 +150,24 @@ class VirtualClock:
             if not found or watch.early or self._over():
                 return False
         return True
+
+    def _stay(self, watch: Watch) -> bool:
+        """Wait while the clock stands still; return whether no line of the count came."""
+        left = min(self._stay_until, self._deadline) - time.monotonic()
+        if left <= 0:
+            return True
+        still = self._observer.watch_for(left)
+        watch.events += still
+        kinds = {event.kind for event in watch.counted}
+        watch.early += [event for event in still if event.kind in kinds]
+        return not watch.early and not self._over()
+
+    @cached_property
+    def _pids(self) -> set[int]:
+        """The processes that a step waits for: the node's and ours."""
+        observer = self._observer
+        node = observer.terminal.processes()
+        return {*node, *observer.probe.pipe.processes(), os.getpid()} if node else set()
 
     def _go_to(self, at: int) -> list[Event]:
         """Set the clock to an instant, in one step or, if `fine`, in many.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import time
+from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
@@ -15,6 +16,7 @@ from grader.run.terminal import Line, Terminal
 SECOND = 1_000_000_000
 GRACE = 0.1  # seconds of wall time within which a log record follows its line on the terminal
 LATE_GRACE = 1.0  # the same for records from before the probe had discovered the node
+STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
@@ -51,6 +53,7 @@ class Watch:
     """The events of a run in order, and the timing of its count.
 
     `while_still` is whether lines came although ROS time stood still, None if this is unknown.
+    `held` has the seconds for which the node held up each step by itself, not by the machine's load.
     """
 
     clock: Literal["virtual", "wall"] | None = None
@@ -63,6 +66,7 @@ class Watch:
     settled: bool = False
     note: str = ""
     while_still: bool | None = None
+    held: list[float] = field(default_factory=list)
 
     @property
     def counted(self) -> list[Event]:
@@ -105,6 +109,15 @@ def without_tracebacks(events: Iterable[Event]) -> Iterator[Event]:
             yield event
 
 
+def _logged_at(record: LogRecord) -> int:
+    """Return when a record was logged (ns): the sender's stamp if the time of reading agrees.
+
+    The stamp is the more exact one on a busy machine, but a sender can write anything into it.
+    """
+    agrees = 0 <= record.read - record.stamp <= STAMP_TOLERANCE
+    return record.stamp if agrees or not record.read else record.read
+
+
 class Observer:
     """Merges the lines of the terminal with the log records of ROS."""
 
@@ -121,11 +134,18 @@ class Observer:
         self._linked: float | None = None
         self._mirrored = True  # whether log records appear on the terminal
         self.logged = 0  # bytes that the log records would take on a terminal
+        self._doubled: Counter[str] = Counter()  # answers in which a node had two log publishers
 
     @property
     def flooded(self) -> bool:
         """Whether the output exceeds the limit, on the terminal or on /rosout alone."""
         return self.terminal.flooded or self.logged >= self.terminal.most
+
+    @property
+    def doubled(self) -> str:
+        """A node that had two publishers on /rosout in several answers, "" if there was none."""
+        found = [name for name, count in self._doubled.items() if count > 1]
+        return found[0] if found else ""
 
     @property
     def over(self) -> bool:
@@ -147,6 +167,7 @@ class Observer:
     def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
         """Return the new events of a probe answer and of the terminal, in order."""
         events = [self._of_record(record) for record in (answer.logs if answer else ())]
+        self._doubled.update(answer.doubled if answer else ())
         for line in self.terminal.read(seconds):
             for part in line.parts():
                 if part.log is not None:
@@ -158,7 +179,7 @@ class Observer:
     def _of_record(self, record: LogRecord) -> Event:
         self.records.append(record)
         self.logged += len(record.text.encode()) + PREFIX
-        return self._event(record.text, record.stamp / SECOND, "logger", record)
+        return self._event(record.text, _logged_at(record) / SECOND, "logger", record)
 
     def _event(self, text: str, wall: float, source: Source, record: LogRecord | None) -> Event:
         return Event(text, wall, self.now, source, self.number(text), record=record)

@@ -14,7 +14,8 @@ Commands (`do`); times are nanoseconds of ROS time, `seconds` is the most wall t
 - `try` asks the other services of the node `name`; `barrier` is whether one answered;
 - `end` ends the probe.
 The answer has `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock),
-`silent` (the number of nodes that were asked and have never answered).
+`silent` (the number of nodes that were asked and have never answered), `doubled` (the nodes with
+more than one publisher on /rosout).
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ import json
 import os
 import sys
 import time
+from collections import Counter
 from typing import Any
 
 import rclpy
@@ -148,6 +150,7 @@ class Probe:
                 "file": log.file[:512],
                 "line": log.line,
                 "stamp": log.stamp.sec * 1_000_000_000 + log.stamp.nanosec,
+                "read": time.time_ns(),
             }
         )
 
@@ -174,6 +177,20 @@ class Probe:
             node["services"] = peer.ready()
             node["answers"], node["sim_time"] = peer.answered, peer.sim_time
         return list(found.values())
+
+    def doubled(self) -> list[str]:
+        """Return the nodes with more publishers on /rosout than the one of their logger."""
+        names = self.node.get_node_names_and_namespaces()
+        nodes = Counter((space, name) for name, space in names)
+        publishers = Counter(
+            (info.node_namespace, info.node_name)
+            for info in self.node.get_publishers_info_by_topic("/rosout")
+        )
+        return [
+            (space if space.endswith("/") else space + "/") + name
+            for (space, name), count in publishers.items()
+            if 0 < nodes[space, name] < count
+        ][:MOST_NODES]
 
     def peer(self, full: str) -> Peer:
         """Return how a node is asked: by its parameter service, or by another without an effect."""
@@ -300,6 +317,7 @@ class Probe:
             answer["matched"] = self.matched(answer["nodes"])
         silent = [p for p in self.peers.values() if not p.answered and p.ready()]
         answer["silent"] = len(silent)
+        answer["doubled"] = self.doubled()
         answer["clocks"] = self.node.count_publishers("/clock")
         return answer
 

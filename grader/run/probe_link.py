@@ -22,7 +22,11 @@ PATIENCE = 20.0  # seconds in addition to a command's own, within which the answ
 
 @dataclass(frozen=True)
 class LogRecord:
-    """One record of /rosout; `stamp` in nanoseconds since the epoch, `level` 10 to 50."""
+    """One record of /rosout; `level` is 10 to 50.
+
+    In nanoseconds since the epoch, `stamp` is when the sender says that it was logged, `read` when
+    the probe read it, 0 if that is unknown.
+    """
 
     level: int
     name: str
@@ -31,6 +35,7 @@ class LogRecord:
     file: str
     line: int
     stamp: int
+    read: int = 0
 
 
 @dataclass(frozen=True)
@@ -61,7 +66,8 @@ class Answer:
     """An answer of the probe.
 
     `barrier` is whether the nodes that spin answered, None if unknown; `silent` is the number of
-    nodes that were asked and have never answered.
+    nodes that were asked and have never answered. `doubled` has the nodes with more than one
+    publisher on /rosout.
     """
 
     barrier: bool | None = None
@@ -70,6 +76,7 @@ class Answer:
     clocks: int = 0
     matched: bool = False
     silent: int = 0
+    doubled: tuple[str, ...] = ()
 
 
 class ProbeError(SurroundingsError):
@@ -84,7 +91,7 @@ class ProbeLink:
         script = (
             f"PROBE=$(cat <<'PROBE_ENDS'\n{SOURCE.read_text(encoding='utf-8')}\nPROBE_ENDS\n)\n"
         )
-        self._pipe = sandbox.pipe(["bash", "-c", script + setup], role="probe")
+        self.pipe = sandbox.probe(["bash", "-c", script + setup])
         self._buffer = b""
         self._ready = False
         self.until = math.inf
@@ -101,7 +108,7 @@ class ProbeLink:
         self.ready()
         try:
             command = {"do": do, "seconds": seconds, **more}
-            self._pipe.write(json.dumps(command).encode() + b"\n")
+            self.pipe.write(json.dumps(command).encode() + b"\n")
         except OSError as error:
             raise self._lost("it has ended") from error
         said = self._read(seconds + PATIENCE)
@@ -113,6 +120,7 @@ class ProbeLink:
                 clocks=said["clocks"],
                 matched=said.get("matched", False),
                 silent=said.get("silent", 0),
+                doubled=tuple(str(name) for name in said.get("doubled", ())),
             )
         except (KeyError, TypeError) as error:
             raise self._lost("its answer lacks keys or has unknown ones") from error
@@ -121,7 +129,7 @@ class ProbeLink:
         deadline = min(time.monotonic() + seconds, self.until)
         while b"\n" not in self._buffer:
             left = deadline - time.monotonic()
-            data = self._pipe.read(left) if left > 0 else None
+            data = self.pipe.read(left) if left > 0 else None
             if data is None:  # (an unfinished answer does not extend the deadline)
                 raise self._lost(f"no answer within {seconds:.0f} s")
             if not data or len(self._buffer) > LONGEST_ANSWER:
@@ -137,12 +145,12 @@ class ProbeLink:
         return answer
 
     def _lost(self, why: str) -> ProbeError:
-        self._pipe.kill()
-        said = self._pipe.errors().decode(errors="replace").strip()
+        self.pipe.kill()
+        said = self.pipe.errors().decode(errors="replace").strip()
         return ProbeError(f"the probe failed: {why}" + (f"\n{said}" if said else ""))
 
     def close(self) -> None:
         """Tell the probe to end, and kill it if it does not."""
         with contextlib.suppress(OSError, ValueError):
-            self._pipe.write(b'{"do": "end"}\n')
-        self._pipe.finish(END_SECONDS)
+            self.pipe.write(b'{"do": "end"}\n')
+        self.pipe.finish(END_SECONDS)

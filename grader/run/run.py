@@ -14,6 +14,7 @@ from grader.course.assignment import Assignment
 from grader.run.clock import STILL, ForeignClock, VirtualClock, watch_wall
 from grader.run.observer import Event, Observer, Watch
 from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
+from grader.run.screen import stays
 from grader.run.terminal import Terminal
 from grader.sandbox.base import UNRUNNABLE, Sandbox
 
@@ -23,6 +24,7 @@ OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
 FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
 TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
 SETTLE_SECONDS = 0.1  # wall time in which lines come that were logged before the time stood still
+PLAIN_SECONDS = 5.0  # wall time beyond two periods, in which a node logs twice
 END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
 
@@ -32,7 +34,11 @@ class Run:
 
     `counting` is the node whose logger carried the count, "" if it is unknown.
     `first_line_seconds` is counted from the start of `ros2 run`; `logged` is the number of bytes
-    that the log records would take on a terminal.
+    that the log records would take on a terminal. `confirmed` is whether the node also counts as a person
+    would run it, None if it was not run so. `doubled` is a node with two publishers on /rosout: its
+    records prove nothing. `erased` is the number of lines of the count that the terminal showed and
+    no longer shows. `held_up` is the median of the seconds for which the node held up its steps in two
+    runs, 0 if it was at most a period.
     """
 
     command: str
@@ -50,6 +56,10 @@ class Run:
     logged: int = 0
     resource: str = ""
     inconsistent: bool = False
+    confirmed: bool | None = None
+    doubled: str = ""
+    erased: int = 0
+    held_up: float = 0
     seconds: float = 0
     node_seconds: float | None = None
     first_line_seconds: float | None = None
@@ -66,10 +76,11 @@ class Run:
         return self.ended_by_itself and not self.nodes and unrunnable
 
 
-def ros2_run(assignment: Assignment) -> str:
-    """Return the student's `ros2 run` command, with `use_sim_time` added."""
+def ros2_run(assignment: Assignment, *, plain: bool = False) -> str:
+    """Return the student's `ros2 run` command, with `use_sim_time` added unless it is `plain`."""
     words = ["ros2", "run", assignment.package, assignment.executable]
-    return shlex.join([*words, "--ros-args", "-p", "use_sim_time:=true"])
+    more = [] if plain else ["--ros-args", "-p", "use_sim_time:=true"]
+    return shlex.join([*words, *more])
 
 
 def observe(
@@ -80,8 +91,13 @@ def observe(
     *,
     until: float = math.inf,
     fine: bool = False,
+    more_ticks: int = 0,
+    stay_seconds: float = 0,
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, return the result.
+
+    The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
+    `stay_seconds` of wall time after the node at the earliest.
 
     The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
     failed. It is the run's `resource` instead if the probe exceeded a limit, because the node
@@ -91,26 +107,38 @@ def observe(
     run = Run(command=ros2_run(assignment))
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
-    script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {run.command}'
     begin = time.monotonic()
     longest = limits.run_seconds + limits.stop_seconds
-    terminal = Terminal(sandbox.console(["bash", "-c", script]), most=int(limits.output))
+    terminal = _start(sandbox, run.command, probe)
     try:
         observer = Observer(terminal, probe, assignment.output)
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)
         if run.nodes and not terminal.ended:
             deadline = min(begin + limits.run_seconds, probe.until)
-            clock = VirtualClock(observer, assignment.output, deadline=deadline, fine=fine)
+            clock = VirtualClock(
+                observer,
+                assignment.output,
+                deadline=deadline,
+                fine=fine,
+                more_ticks=more_ticks,
+                stay_until=time.monotonic() + stay_seconds if stay_seconds else 0,
+            )
             _watch(run, observer, clock, on_event, follows=follows, deadline=deadline)
         run.watch.events += observer.settle()
         watch = run.watch
+        can_be_read = stays(terminal.raw)
         for seen in (watch.events, watch.before_start, watch.early):
             seen[:] = observer.visible(seen)
+            if can_be_read is not None:
+                kept = [event for event in seen if event.n is None or can_be_read(event.text)]
+                run.erased += len(seen) - len(kept)
+                seen[:] = kept
         counted = watch.counted
         if counted:
             run.first_line_seconds = counted[0].wall - terminal.started
         run.ended_by_itself, run.flooded = terminal.ended, observer.flooded
         run.logged = observer.logged
+        run.doubled = observer.doubled
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
         _stop(run, terminal, limits.stop_seconds)
         run.watch.events += observer.take()
@@ -127,6 +155,47 @@ def observe(
         run.flooded = run.flooded or terminal.flooded
         run.seconds = time.monotonic() - begin
     return run
+
+
+def counts_plainly(
+    sandbox: Sandbox, assignment: Assignment, probe: ProbeLink, *, until: float
+) -> bool | None:
+    """Return whether the node counts on the wall clock, without arguments: two lines are enough.
+
+    None if no node was seen within the time, which a busy machine can cause. The command is stopped by
+    Ctrl+C, and ends at `until` (by time.monotonic()) at the latest.
+    """
+    output = assignment.output
+    probe.until = until
+    probe.ready()
+    terminal = _start(sandbox, ros2_run(assignment, plain=True), probe)
+    try:
+        observer = Observer(terminal, probe, output)
+        lines: list[Event] = []
+        longest = 2 * output.period + PLAIN_SECONDS
+        until = min(until, time.monotonic() + sandbox.limits.start_seconds + longest)
+        seen = math.inf
+        while time.monotonic() < until:
+            answer = probe.ask("wait", seconds=0.2)
+            seen = min(seen, time.monotonic()) if answer.nodes else seen
+            lines += [event for event in observer.take(answer) if event.n is not None]
+            numbers = [event.n for event in observer.visible(lines)]
+            if numbers[:2] == [output.start, output.start + output.step]:
+                return True
+            if len(numbers) > 1 or observer.over or time.monotonic() - seen > longest:
+                return False
+        return None
+    finally:
+        terminal.interrupt()
+        terminal.finish(min(1.0, sandbox.limits.stop_seconds))
+        terminal.close()
+
+
+def _start(sandbox: Sandbox, command: str, probe: ProbeLink) -> Terminal:
+    """Start the student's command in their workspace, as they do after the build."""
+    script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {command}'
+    console = sandbox.console(["bash", "-c", script], probe=probe.pipe)
+    return Terminal(console, most=int(sandbox.limits.output))
 
 
 def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> bool:

@@ -53,6 +53,11 @@ class Terminal:
         self.flooded = False
 
     @property
+    def raw(self) -> bytes:
+        """All output read so far, as it came."""
+        return bytes(self._raw)
+
+    @property
     def transcript(self) -> str:
         """All output read so far, without control sequences."""
         return _clean(bytes(self._raw))
@@ -113,6 +118,10 @@ class Terminal:
     def status(self) -> tuple[int | None, int | None]:
         """The exit status and the signal of the command; both None while it runs."""
         return self._console.poll() or (None, None)
+
+    def processes(self) -> set[int]:
+        """Return the ids of the command's processes; none if they are unknown."""
+        return self._console.processes()
 
     def close(self) -> None:
         """End everything that still runs on it."""

@@ -6,6 +6,9 @@ list of files.
 
 from __future__ import annotations
 
+import base64
+import contextlib
+import hashlib
 import io
 import re
 import tarfile
@@ -24,15 +27,25 @@ MOST_OUTPUT = 2_000  # characters of the output of a failed command of ours
 LAY_OUT_SECONDS = 60.0
 INSPECT_SECONDS = 20.0
 HOOK = re.compile(r"^install/([^/]+)/share/\1/hook/ament_prefix_path\.")
+METADATA = re.compile(r"build/[^/]+/[^/]+\.egg-info/entry_points\.txt")
+MOST_HASHES = 150_000  # characters; a list that was cut proves nothing
 PREFIX = re.compile(r"^install/[^/]+/")
 INSPECT = r"""
 find install build -printf '%y %m %s %p\t%l\0' 2>/dev/null | head -c 1000000
 printf '\0\n'
-for file in build/*/*.egg-info/entry_points.txt; do
-  [ -f "$file" ] && head -c 100000 "$file"
-done
-true
+contents() {
+  head -n 20 | while read -r file; do
+    case $file in *[!A-Za-z0-9_./+-]*) continue;; esac
+    [ -f "$file" ] && printf '%s %s ' "$1" "$file" && head -c 20000 "$file" | base64 -w 0 && echo
+  done
+}
+find build install -name entry_points.txt | contents E
+find install/*/lib/* -maxdepth 1 -type f 2>/dev/null | contents S
+printf 'H - '
+find src -type f -print0 2>/dev/null | head -c 200000 | xargs -0 sha256sum -z 2>/dev/null | base64 -w 0
+echo
 """
+# With base64, no content of a file can be taken for another line of this output.
 
 
 @dataclass(frozen=True)
@@ -47,7 +60,12 @@ class Installed:
 
 @dataclass(frozen=True)
 class Build:
-    """The result of the build; `status` is None if the limit `stopped_by` ended it."""
+    """The result of the build; `status` is None if the limit `stopped_by` ended it.
+
+    `entry_points` is the text of the entry point metadata, `entry_files` that of each of its files,
+    `scripts` the text of each installed executable. `altered` has the Python files of the package
+    that the build changed or removed, `added` those that it made.
+    """
 
     command: str
     status: int | None
@@ -56,6 +74,10 @@ class Build:
     stopped_by: str = ""
     files: dict[str, Installed] = field(default_factory=dict, repr=False)
     entry_points: str = ""
+    entry_files: dict[str, str] = field(default_factory=dict, repr=False)
+    scripts: dict[str, str] = field(default_factory=dict, repr=False)
+    altered: tuple[str, ...] = ()
+    added: tuple[str, ...] = ()
 
     @property
     def doubts_colcon(self) -> bool:
@@ -119,7 +141,9 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
         ["bash", "-c", f"{_setup(sandbox)}; exec {BUILD} < /dev/null"],
         seconds=sandbox.limits.build_seconds,
     )
-    files, entry_points = _inspect(sandbox)
+    files, contents = _inspect(sandbox)
+    entry_files = {path: text for (kind, path), text in contents.items() if kind == "E"}
+    altered, added = _changes(submission, package, contents.get(("H", "-"), ""))
     return Build(
         command=BUILD,
         status=outcome.status,
@@ -127,7 +151,13 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
         seconds=outcome.seconds,
         stopped_by=outcome.stopped_by,
         files=files,
-        entry_points=entry_points,
+        entry_points="".join(
+            text for path, text in sorted(entry_files.items()) if METADATA.fullmatch(path)
+        ),
+        entry_files=entry_files,
+        scripts={path: text for (kind, path), text in contents.items() if kind == "S"},
+        altered=altered,
+        added=added,
     )
 
 
@@ -156,7 +186,25 @@ def _text(outcome: Outcome) -> str:
     return outcome.output.decode("utf-8", errors="replace").replace("\r\n", "\n")
 
 
-def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], str]:
+def _changes(
+    submission: Submission, package: str, hashes: str
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the Python files that the build changed or removed, and those that it made."""
+    rows = [row.partition("  ") for row in hashes.split("\0") if row]
+    after = {path.removeprefix(f"src/{package}/"): digest for digest, _, path in rows}
+    if not after or len(hashes) > MOST_HASHES:
+        return (), ()
+    before = {
+        file.path: hashlib.sha256(file.data).hexdigest()
+        for file in submission.files
+        if file.kind == "file" and file.path.endswith(".py")
+    }
+    altered = sorted(path for path, digest in before.items() if after.get(path) != digest)
+    added = sorted(path for path in after if path.endswith(".py") and path not in before)
+    return tuple(altered), tuple(added)
+
+
+def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], dict[tuple[str, str], str]]:
     outcome: Outcome = sandbox.run(
         ["sh", "-c", INSPECT], seconds=INSPECT_SECONDS, output=MOST_LISTED
     )
@@ -172,4 +220,10 @@ def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], str]:
         if len(parts) == 4 and parts[1].isdigit() and parts[2].isdigit():
             kind, mode, size, path = parts
             files[path] = Installed(kind, int(mode, 8), int(size), target)
-    return files, rest
+    contents = {}
+    for line in rest.splitlines():
+        kind, path, encoded = ([*line.split(" ", 2), "", ""])[:3]
+        with contextlib.suppress(ValueError):
+            text = base64.b64decode(encoded).decode("utf-8", errors="replace")
+            contents[kind, path] = text
+    return files, contents

@@ -83,6 +83,10 @@ class Console(ABC):
     def end(self) -> None:
         """Kill what still runs on the terminal and close it."""
 
+    def processes(self) -> set[int]:
+        """Return the ids of its processes in this PID namespace; none if they are unknown."""
+        return set()
+
 
 class Pipe(ABC):
     """A command whose input and output are pipes."""
@@ -106,6 +110,10 @@ class Pipe(ABC):
     @abstractmethod
     def kill(self) -> None:
         """Kill it and everything that it started."""
+
+    def processes(self) -> set[int]:
+        """Return the ids of its processes in this PID namespace; none if they are unknown."""
+        return set()
 
 
 class Sandbox(ABC):
@@ -152,12 +160,16 @@ class Sandbox(ABC):
         """
 
     @abstractmethod
-    def console(self, argv: Sequence[str]) -> Console:
-        """Start a command on a pseudo-terminal, as the student."""
+    def probe(self, argv: Sequence[str]) -> Pipe:
+        """Start a probe with pipes, in a new network that has only loopback.
+
+        No process of the student's has ever been in that network. (Sandboxes without namespaces
+        have one network for everything.)
+        """
 
     @abstractmethod
-    def pipe(self, argv: Sequence[str], *, role: Role) -> Pipe:
-        """Start a command with pipes."""
+    def console(self, argv: Sequence[str], *, probe: Pipe | None = None) -> Console:
+        """Start a command on a pseudo-terminal, as the student, in the network of `probe`."""
 
     @abstractmethod
     def close(self) -> None:

@@ -2,7 +2,8 @@
 
 A holder process owns a network namespace with only loopback, a read-only system and the workspace
 (a tmpfs with a size limit). Every command enters the holder's namespaces and gets its own PID,
-mount and IPC namespaces inside them. The holder reads a pipe from the grader: however the grader
+mount and IPC namespaces inside them. Each probe gets a network of its own too, which the node that
+it observes enters. The holder reads a pipe from the grader: however the grader
 ends, the pipe closes, the holder exits, and the kernel kills every process in its PID namespace.
 
 It does not protect against kernel bugs.
@@ -25,17 +26,19 @@ from typing import IO
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.ros.prefix import Ros
-from grader.sandbox.base import DISCOVERY_PROFILE, HOME, WORKSPACE, Role
+from grader.sandbox.base import DISCOVERY_PROFILE, HOME, WORKSPACE, Console, Pipe, Role
 from grader.sandbox.cgroups import Group, open_group
-from grader.sandbox.limits import Limits
-from grader.sandbox.local import LocalSandbox, require_program
-from grader.sandbox.processes import adopt_orphans, children_of, collect_orphans
+from grader.sandbox.limits import PROBE_MEMORY, Limits
+from grader.sandbox.local import LocalConsole, LocalPipe, LocalSandbox, require_program
+from grader.sandbox.processes import adopt_orphans, children_of, collect_orphans, descendants
+from grader.sandbox.seccomp import filter_path
+from grader.sandbox.user_ids import new_user_ids
 
 PROFILE = "/etc/grader/fastdds.xml"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-release")
-FIRST_UID = 61_000
-UIDS = 4_000
+FILTER = "9"  # the descriptor from which bwrap reads the filter of system calls
+NEW = "new"  # a network namespace that the command makes itself
 END_SECONDS = 10.0
 POLL_SECONDS = 0.02
 NOT_ALLOWED = say("unprivileged user namespaces are not allowed here")
@@ -47,6 +50,23 @@ CAUSES = (
     ("Operation not permitted", FILTERED),
     ("Creating new namespace failed", USED_UP),
 )
+
+
+class NetworkedPipe(LocalPipe):
+    """A probe with pipes that has a network of its own."""
+
+    _network = -1
+
+    def hold(self, network: int) -> str:
+        """Keep the descriptor of the network until the end; return a path that opens it."""
+        self._network = network
+        return f"/proc/{os.getpid()}/fd/{network}"
+
+    def finish(self, seconds: float) -> None:
+        super().finish(seconds)
+        network, self._network = self._network, -1
+        if network >= 0:
+            os.close(network)
 
 
 class Bubblewrap(LocalSandbox):
@@ -63,8 +83,9 @@ class Bubblewrap(LocalSandbox):
         self._init_pid = 0  # of the first process in the holder's PID namespace
         self._init_pidfd = -1  # readable after that process has ended
         self._group = Group()
-        uid = FIRST_UID + 2 * (os.getpid() % (UIDS // 2))
-        self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
+        student, probe = new_user_ids() if self._root else (1000, 1001)
+        self._uids: dict[Role, int] = {"student": student, "probe": probe}
+        self._filter = filter_path()
 
     def profile_path(self, role: Role) -> str:
         del role
@@ -117,10 +138,44 @@ class Bubblewrap(LocalSandbox):
             raise self._refused() from None
         self._group = open_group(self.limits)
 
+    def probe(self, argv: Sequence[str]) -> Pipe:
+        command = self._enter(argv, "probe", network=NEW)
+        self._latest_probe = probe = NetworkedPipe(self, command, self.outer_environment("probe"))
+        return probe
+
+    def console(self, argv: Sequence[str], *, probe: Pipe | None = None) -> Console:
+        if not isinstance(probe, NetworkedPipe):
+            return super().console(argv)
+        command = self._enter(argv, "student", network=self._network_of(probe))
+        return LocalConsole(command, self.outer_environment("student"))
+
+    def _network_of(self, probe: NetworkedPipe) -> str:
+        """Return the path of the probe's network namespace, which stays open with the pipe."""
+        shared = {_network(pid).stat().st_ino for pid in (os.getpid(), self._init_pid)}
+        deadline = time.monotonic() + END_SECONDS
+        while time.monotonic() < deadline:
+            for pid in sorted(descendants(probe.pid)):
+                with contextlib.suppress(OSError):
+                    network = os.open(_network(pid), os.O_RDONLY | os.O_CLOEXEC)
+                    if os.fstat(network).st_ino not in shared:
+                        return probe.hold(network)
+                    os.close(network)
+            time.sleep(POLL_SECONDS)
+        raise SurroundingsError("the probe has no network of its own")
+
     def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
+        return self._enter(argv, role)
+
+    def _enter(self, argv: Sequence[str], role: Role, *, network: str = "") -> list[str]:
+        """Return the command line that runs `argv`.
+
+        `network` is the path of a network namespace, NEW for one of its own, "" for the holder's.
+        """
         if self._holder is None or self._holder.poll() is not None:
             raise SurroundingsError("the sandbox is closed or was killed from outside")
-        inner = [self._bwrap, *self._own_namespaces(role)]
+        inner = [self._bwrap, *self._own_namespaces(role), "--seccomp", FILTER]
+        if network == NEW:
+            inner.append("--unshare-net")
         for name, value in self.environment(role).items():
             inner += ["--setenv", name, value]
         if self._root:
@@ -129,12 +184,13 @@ class Bubblewrap(LocalSandbox):
             inner += ["--cap-add", "CAP_SETPCAP", "--", "setpriv", f"--reuid={uid}"]
             inner += [f"--regid={uid}", "--clear-groups", "--inh-caps=-all", "--bounding-set=-all"]
         inner += ["--", *self._rlimits(role), "env", "--default-signal=INT", *argv]
-        enter = [self._nsenter, "-t", str(self._init_pid), "-m", "-n", "-p", "-i", "-u"]
+        enter = [self._nsenter, "-t", str(self._init_pid), "-m", "-p", "-i", "-u"]
+        enter.append(f"--net={network}" if network.startswith("/") else "-n")
         if not self._root:
             enter += ["-U", "--preserve-credentials"]
         # Ctrl+C would kill bwrap and lose the node's last output. bwrap ignores SIGINT; the command
         # inside gets the default handler back (env --default-signal).
-        script = "trap '' INT; "
+        script = f"trap '' INT; exec {FILTER}< {self._filter}; "
         if role == "student":
             script += "".join(f'echo 0 > "{entry}" || exit; ' for entry in self._group.entries)
         return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *enter, "--", *inner]
@@ -180,7 +236,7 @@ class Bubblewrap(LocalSandbox):
         self._init_pidfd, self._init_pid = -1, 0
 
     def _passwd(self) -> str:
-        uid = self._uids["student"] if self._root else 1000
+        uid = self._uids["student"]
         return f"root:x:0:0::/root:/bin/sh\nstudent:x:{uid}:{uid}::{HOME}:/bin/bash\n"
 
     def _mounts(self) -> Iterator[str]:
@@ -204,7 +260,7 @@ class Bubblewrap(LocalSandbox):
         # without --die-with-parent, a background process would keep bwrap running
         options = ["--die-with-parent", "--unshare-pid", "--unshare-ipc", "--ro-bind", "/", "/"]
         if not self._root:
-            uid = "1000" if role == "student" else "1001"
+            uid = str(self._uids[role])
             options += ["--unshare-user", "--uid", uid, "--gid", uid]
         options += ["--proc", "/proc", "--dev", "/dev"]
         for path in ("/dev/shm", "/tmp", HOME):  # noqa: S108
@@ -219,7 +275,7 @@ class Bubblewrap(LocalSandbox):
         limits = self.limits
         words = ["prlimit", "--core=0", f"--fsize={int(limits.file_size)}"]
         if role == "probe":
-            return words
+            return [*words, f"--as={PROBE_MEMORY}"]
         words.append(f"--cpu={int(limits.cpu_seconds)}")
         if "processes" not in self._group.holds:
             words.append(f"--nproc={int(limits.processes)}")
@@ -253,6 +309,10 @@ class Bubblewrap(LocalSandbox):
             ),
             remedy=_remedy(said),
         )
+
+
+def _network(pid: int) -> Path:
+    return Path(f"/proc/{pid}/ns/net")
 
 
 def _cause(said: str) -> str:

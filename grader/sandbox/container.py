@@ -21,6 +21,7 @@ from grader.base.errors import SurroundingsError
 from grader.sandbox.base import HOME
 from grader.sandbox.execs import Exec, Frames, communicate, socket_of
 from grader.sandbox.limits import Limits
+from grader.sandbox.seccomp import docker_profile
 
 if TYPE_CHECKING:
     from docker import APIClient
@@ -74,7 +75,7 @@ class ContainerSpec:
             network_mode=self.network,
             pids_limit=int(limits.processes),
             read_only=True,
-            security_opt=["no-new-privileges"],
+            security_opt=["no-new-privileges", f"seccomp={docker_profile()}"],
             shm_size=scratch,
             tmpfs={
                 "/run/grader": f"size=65536,mode=0755,uid={HOLDER},gid={HOLDER},noexec",

@@ -1,9 +1,10 @@
 """The `docker` sandbox: containers without network, capabilities or a writable system.
 
-A holder container owns a network with only loopback and the workspace (a volume in memory); the
-probe runs in it. The student's build and run each get their own container, with its own PID, mount
-and IPC namespaces and another user. Files are copied in as a tar stream; no folder of this machine
-is mounted. `container` explains how a container ends with the grader.
+A holder container owns the workspace (a volume in memory); the first probe runs in it. The
+student's build and each run get their own container, with its own PID, mount and IPC namespaces and
+another user. The build has a network of its own, and so has each probe: a run shares its
+probe's. Files are copied in as a tar stream; no folder of this machine is mounted. `container`
+explains how a container ends with the grader.
 """
 
 from __future__ import annotations
@@ -60,7 +61,9 @@ class DockerSandbox(Sandbox):
         self._image = str(image.id)
         self._threads = ThreadPoolExecutor(max_workers=4, thread_name_prefix="docker")
         self._holder: Container | None = None
+        self._probe: Container | None = None
         self._slots: dict[Slot, Future[Container]] = {}
+        self._has_had_a_probe = False
         self._removals: list[Future[None]] = []
         self._limit_hit = ""
 
@@ -75,11 +78,11 @@ class DockerSandbox(Sandbox):
     def open(self) -> None:
         with docker_errors("opening the sandbox"):
             orphans.remove_orphans(self._client)
-            self._holder = Container(self._client.api, self._spec())
+            self._holder = self._probe = Container(self._client.api, self._spec())
         self._prepare("build")
 
     def _spec(self) -> ContainerSpec:
-        """Return the settings of the holder, in which the probe runs."""
+        """Return the settings of the holder, in which the first probe runs."""
         limits = self.limits
         lifetime = limits.verdict_seconds + SPARE_SECONDS
         options = f"size={int(limits.workspace)},uid={STUDENT},gid={STUDENT},mode=0700,nosuid,nodev"
@@ -104,14 +107,13 @@ class DockerSandbox(Sandbox):
         )
 
     def _prepare(self, slot: Slot) -> Future[Container]:
-        """Start to create a container in the background."""
-        holder = self._open_holder.id
+        """Start to create a container in the background; for a run, in the probe's network."""
         spec = replace(
             self._spec(),
             user=STUDENT,
-            network=f"container:{holder}",
+            network=f"container:{self._open_probe.id}" if slot == "run" else "none",
             mounts=(),
-            volumes_from=(holder,),
+            volumes_from=(self._open_holder.id,),
         )
         # the SDK's client is not thread-safe: each container has its own
         future = self._threads.submit(lambda: Container(images.connect().api, spec))
@@ -182,8 +184,9 @@ class DockerSandbox(Sandbox):
         finally:
             command.close()
 
-    def console(self, argv: Sequence[str]) -> Console:
+    def console(self, argv: Sequence[str], *, probe: Pipe | None = None) -> Console:
         # a separate container: nothing that a build leaves behind is there when the node runs
+        del probe  # the latest one: its network is that of the prepared container
         future = self._container("run")
         with docker_errors("starting the node"):
             inside = self._inside(argv, "student")
@@ -196,14 +199,24 @@ class DockerSandbox(Sandbox):
                 self._limit_hit = future.result().limit_hit()
         self._retire("run", future)
 
-    def pipe(self, argv: Sequence[str], *, role: Role) -> Pipe:
+    def probe(self, argv: Sequence[str]) -> Pipe:
         with docker_errors("starting the probe"):
-            if role == "probe":
-                command = self._open_holder.start(self._inside(argv, role), user=PROBE)
-                return ExecPipe(command, ended=self._end_probe)
-            future = self._container("run")
-            command = future.result().start(self._inside(argv, role), user=STUDENT)
-            return ExecPipe(command, ended=partial(self._retire, "run", future))
+            if self._has_had_a_probe:
+                self._renew_network()
+            self._has_had_a_probe = True
+            container = self._open_probe
+            command = container.start(self._inside(argv, "probe"), user=PROBE)
+        return ExecPipe(command, ended=partial(_end_probe, container))
+
+    def _renew_network(self) -> None:
+        """Replace the probe's container and network; the run's container was for the old one."""
+        run, former = self._slots.get("run"), self._open_probe
+        if run is not None:
+            self._retire("run", run)
+        spec = replace(self._spec(), mounts=())
+        self._probe = Container(self._client.api, spec)
+        if former is not self._holder:
+            self._removals.append(self._threads.submit(former.remove))
 
     @property
     def _open_holder(self) -> Container:
@@ -211,12 +224,11 @@ class DockerSandbox(Sandbox):
             raise SurroundingsError("the sandbox is closed")
         return self._holder
 
-    def _end_probe(self) -> None:
-        """Kill every process of the probe's user; only the probe runs as that user."""
-        with docker_errors("ending the probe"):
-            killer = self._open_holder.start(["sh", "-c", "kill -KILL -1"], user=PROBE)
-            killer.wait(STATUS_SECONDS)
-            killer.close()
+    @property
+    def _open_probe(self) -> Container:
+        if self._probe is None:
+            raise SurroundingsError("the sandbox is closed")
+        return self._probe
 
     def resource_limit_hit(self) -> str:
         hit, self._limit_hit = self._limit_hit, ""
@@ -224,21 +236,31 @@ class DockerSandbox(Sandbox):
 
     def probe_limit_hit(self) -> str:
         with docker_errors("reading what ended the probe"):
-            return self._open_holder.limit_hit()
+            return self._open_probe.limit_hit()
 
     def close(self) -> None:
         for slot, container in list(self._slots.items()):
             self._retire(slot, container)
-        holder, self._holder = self._holder, None
+        own = dict.fromkeys((self._probe, self._holder))  # (the first probe's is the holder)
+        self._probe = self._holder = None
         try:
             with docker_errors("closing the sandbox"):
-                if holder is not None:
-                    holder.remove()
+                for opened in own:
+                    if opened is not None:
+                        opened.remove()
                 for removal in self._removals:
                     removal.result()
         finally:
             self._threads.shutdown()
             self._client.close()
+
+
+def _end_probe(container: Container) -> None:
+    """Kill every process of the probe's user; only the probe runs as that user."""
+    with docker_errors("ending the probe"):
+        killer = container.start(["sh", "-c", "kill -KILL -1"], user=PROBE)
+        killer.wait(STATUS_SECONDS)
+        killer.close()
 
 
 def _remove(container: Future[Container]) -> None:

@@ -7,7 +7,8 @@ import socket
 import struct
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import docker.errors
@@ -16,6 +17,7 @@ from pexpect.socket_pexpect import SocketSpawn
 
 from grader.base.errors import SurroundingsError
 from grader.sandbox.base import COLUMNS, ROWS, Console, Outcome, Pipe
+from grader.sandbox.processes import descendants
 
 if TYPE_CHECKING:
     from docker import APIClient
@@ -91,6 +93,16 @@ class Exec:
         except docker.errors.NotFound:
             return GONE
         return None if state["Running"] else int(state["ExitCode"] or 0)
+
+    def processes(self) -> set[int]:
+        """Return the ids of its processes if this machine runs the daemon, else none."""
+        with suppress(docker.errors.APIError, OSError):
+            state: dict[str, Any] = self._api.exec_inspect(self._id)
+            pid = int(state.get("Pid") or 0)
+            groups = Path(f"/proc/{pid}/cgroup").read_text(encoding="utf-8") if pid else ""
+            if str(state.get("ContainerID")) in groups:
+                return {pid, *descendants(pid)}
+        return set()
 
     def wait(self, seconds: float) -> int | None:
         """Wait for its exit status; None if it did not end in time."""
@@ -230,6 +242,9 @@ class ExecConsole(Console):
                 self._status = self._command.status()
         return None if self._status is None else (self._status, None)
 
+    def processes(self) -> set[int]:
+        return self._command.processes()
+
     def end(self) -> None:
         how: End = "interrupted" if self._interrupted and self.poll() is not None else "otherwise"
         self._command.close()
@@ -278,3 +293,6 @@ class ExecPipe(Pipe):
 
     def kill(self) -> None:
         self._ended()
+
+    def processes(self) -> set[int]:
+        return self._command.processes()

@@ -15,6 +15,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import did_you_mean
 
 MEGABYTE = 1_000_000
+PROBE_MEMORY = 2_500 * MEGABYTE  # of addresses, of which a probe that nobody floods uses a third
 RUNS = 2  # that fit into a verdict: a run, and a second one to confirm it
 OVERRUN_SECONDS = 30.0  # of a run beyond its limits: the probe's answers and the cleanup
 

@@ -21,15 +21,19 @@ import pexpect
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.sandbox.base import COLUMNS, PATH, ROWS, Console, Outcome, Pipe, Role, Sandbox
+from grader.sandbox.processes import descendants
 
 END_SECONDS = 2.0  # to wait for a killed command
 KILL_SECONDS = 5.0
 POLL_SECONDS = 0.002  # between two checks of a process that is ending
 MAX_STDERR = 4_000  # bytes that are kept
+OUT_OF_MEMORY = (b"MemoryError", b"bad_alloc", b"Cannot allocate memory")
 
 
 class LocalSandbox(Sandbox):
     """A sandbox whose commands are started on this machine."""
+
+    _latest_probe: LocalPipe | None = None
 
     @abstractmethod
     def command(self, argv: Sequence[str], *, role: Role = "student") -> list[str]:
@@ -67,11 +71,18 @@ class LocalSandbox(Sandbox):
         status = None if stopped_by else process.returncode
         return Outcome(status, text, time.monotonic() - started, stopped_by)
 
-    def console(self, argv: Sequence[str]) -> Console:
-        return LocalConsole(self.command(argv), self.outer_environment("student"))
+    def probe(self, argv: Sequence[str]) -> Pipe:
+        command = self.command(argv, role="probe")
+        self._latest_probe = LocalPipe(self, command, self.outer_environment("probe"))
+        return self._latest_probe
 
-    def pipe(self, argv: Sequence[str], *, role: Role) -> Pipe:
-        return LocalPipe(self, self.command(argv, role=role), self.outer_environment(role))
+    def probe_limit_hit(self) -> str:
+        said = self._latest_probe.errors() if self._latest_probe is not None else b""
+        return "memory" if any(words in said for words in OUT_OF_MEMORY) else ""
+
+    def console(self, argv: Sequence[str], *, probe: Pipe | None = None) -> Console:
+        del probe
+        return LocalConsole(self.command(argv), self.outer_environment("student"))
 
     def end(self, process: subprocess.Popen[bytes]) -> None:
         """Kill a process started from `command`, and everything that it started."""
@@ -116,6 +127,9 @@ class LocalConsole(Console):
             return None
         return self._spawn.exitstatus, self._spawn.signalstatus
 
+    def processes(self) -> set[int]:
+        return descendants(self._spawn.pid)
+
     def end(self) -> None:
         begin = time.monotonic()
         while self._spawn.isalive() and time.monotonic() < begin + KILL_SECONDS:
@@ -143,6 +157,8 @@ class LocalPipe(Pipe):
             start_new_session=True,
             env=dict(env),
         )
+        self.pid = self._process.pid
+        """Of the process that started the command; the command is one of its descendants."""
         self._errors = b""
         self._errors_end = False
 
@@ -199,6 +215,9 @@ class LocalPipe(Pipe):
 
     def kill(self) -> None:
         self._sandbox.end(self._process)
+
+    def processes(self) -> set[int]:
+        return descendants(self.pid)
 
 
 def kill_children(pid: int) -> None:

@@ -28,9 +28,10 @@ from grader.base.lock import HeldError, take_lock
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE, Role
 from grader.sandbox.cgroups import Group, open_group
-from grader.sandbox.limits import Limits
+from grader.sandbox.limits import PROBE_MEMORY, Limits
 from grader.sandbox.local import LocalSandbox, require_program
 from grader.sandbox.processes import adopt_orphans, descendants, processes, reap, stat_fields
+from grader.sandbox.user_ids import new_user_ids
 
 MARK = "GRADER_RUN"
 # without a network namespace, the profile keeps the nodes on this machine
@@ -40,7 +41,6 @@ LOOPBACK_PROFILE = DISCOVERY_PROFILE.replace(
     "<interfaceWhiteList><address>127.0.0.1</address></interfaceWhiteList>",
 )
 DOMAINS = range(1, 101)  # safe on Linux according to the ROS documentation of ROS_DOMAIN_ID
-FIRST_UID = 65_600
 END_SECONDS = 10.0
 # a `#!` line allows 255 bytes and no spaces, PATH allows no colons
 PLAIN_PATH = re.compile(r"/[\w./+-]{0,60}", re.ASCII)
@@ -147,6 +147,8 @@ class NoSandbox(LocalSandbox):
             words.append(f"--cpu={int(limits.cpu_seconds)}")
             if "memory" not in self._group.holds:
                 words.append(f"--as={int(limits.memory)}")
+        else:
+            words.append(f"--as={PROBE_MEMORY}")
         return words
 
     def _end_all(self) -> None:
@@ -192,8 +194,8 @@ class AccountSandbox(NoSandbox):
                 remedy="Run the grader as root in a container that is discarded afterwards, or "
                 "mark with SANDBOX=bubblewrap.",
             )
-        uid = FIRST_UID + 2 * (os.getpid() % 10_000)
-        self._uids: dict[Role, int] = {"student": uid, "probe": uid + 1}
+        student, probe = new_user_ids()
+        self._uids: dict[Role, int] = {"student": student, "probe": probe}
         self._linked: Path | None = None
 
     def open(self) -> None:

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, msg, say
 from grader.base.i18n.translator import Translator
+from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
 from grader.run.run import Run
 from grader.verdict.evidence import Evidence
 
+REMARKS = {
+    "asks": msg("To look at: {place} reads {what}, which can tell a program where it runs."),
+    "hides": msg("To look at: {place} has {what}: the source does not show what it does."),
+    "rosout": msg("To look at: {place} has {what}: the node may publish log records by hand."),
+}
 MOST_EVIDENCE = 40_000  # characters, of the build log and of the transcript each
 
 
@@ -45,7 +51,7 @@ def compose(
             package=_package_name(submission),
             origin=submission.origin,
             modes=submission.modes,
-            notes=[translate(note) for note in submission.notes],
+            notes=[translate(note) for note in (*submission.notes, *_to_look_at(submission, run))],
         ),
         environment=environment,
         status="graded",
@@ -62,6 +68,17 @@ def compose(
         timing=timing,
         started=started.isoformat(),
     )
+
+
+def _to_look_at(submission: Submission, run: Run | None) -> Iterator[str]:
+    """Yield what the grader cannot judge for certain, for a person to look at."""
+    for remark in remarks_on(submission.files):
+        if remark.kind == "ends" or (remark.kind == "rosout" and run is None):
+            continue
+        place = remark.path
+        if remark.line is not None:
+            place = say("{file}, line {line}", file=remark.path, line=remark.line)
+        yield Message(REMARKS[remark.kind], {"place": place, "what": remark.what})
 
 
 def _printable(path: Path) -> str:

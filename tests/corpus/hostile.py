@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .hostile_node import NODES
+from .hostile_points import POINTS_ATTACKS
 from .hostile_setup import SETUPS
 from .model import Package
 
-HOSTILE: tuple[Package, ...] = (*NODES, *SETUPS)
+HOSTILE: tuple[Package, ...] = (*NODES, *SETUPS, *POINTS_ATTACKS)

@@ -94,7 +94,7 @@ def test_a_limit_that_ends_the_probe_is_detected(make_sandbox: Callable[[Limits]
     hog = "x = bytearray(500_000_000); x[::4096] = b'1' * len(x[::4096])"
     with make_sandbox(Limits(memory=80_000_000)) as opened:
         assert opened.probe_limit_hit() == ""
-        probe = opened.pipe(["python3", "-S", "-c", hog], role="probe")
+        probe = opened.probe(["python3", "-S", "-c", hog])
         assert probe.read(20) == b""
         assert opened.probe_limit_hit() == "memory"
         probe.finish(1)

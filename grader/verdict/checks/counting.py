@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import compared
+from grader.package.source.remarks import remarks_on
+from grader.report.model import Where
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
-    from grader.report.model import Where
     from grader.run.observer import Event
     from grader.verdict.evidence import Evidence
 
@@ -34,6 +35,14 @@ def output(evidence: Evidence) -> Passed:
     expected = f"{wanted.line(0)}, {wanted.line(1)}, {wanted.line(2)}, …"
     if run.flooded:
         raise flood(evidence, expected)
+    if not events and run.erased:
+        raise Failed(
+            "run.erased",
+            expected=expected,
+            actual=say("the lines were erased or hidden as soon as they were printed"),
+            where=node_file(evidence),
+            words=words(evidence),
+        )
     if not events:
         if evidence.has_failed("run.spins") and not run.resource:
             raise Blocked(by="run.spins")
@@ -60,6 +69,8 @@ def output(evidence: Evidence) -> Passed:
             words=words(evidence),
         )
     _must_go_on(evidence, expected)
+    if run.confirmed is False:
+        raise _only_when_marked(evidence, expected)
     advice = []
     if any(event.n is None for event in events + run.watch.events if event.due is not None):
         advice.append(
@@ -151,6 +162,18 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
     )
 
 
+def _only_when_marked(evidence: Evidence, expected: str) -> Failed:
+    remarks = [r for r in remarks_on(evidence.submission.files) if r.kind in ("asks", "hides")]
+    where = Where(file=remarks[0].path, line=remarks[0].line) if remarks else node_file(evidence)
+    return Failed(
+        "run.only_when_marked",
+        expected=expected,
+        actual=say("the right lines under simulated time, but not in a plain ros2 run"),
+        where=where,
+        words=words(evidence),
+    )
+
+
 def _difference(wanted: str, found: str) -> str:
     """Return what was found, with the difference marked if it is similar to what was wanted."""
     return compared(found, wanted) or repr(found[:200])
@@ -167,10 +190,20 @@ def logger(evidence: Evidence) -> Passed:
     """The lines go through the node's own logger."""
     run = evidence.run
     events = run.watch.counted
-    if not events:
+    if not events or run.confirmed is False:
         raise Blocked(by="run.output")
     names = {node.logger for node in run.nodes}
     expected = say("log records of the node on /rosout, level INFO")
+    if run.doubled:
+        raise Failed(
+            "run.faked_log",
+            expected=expected,
+            actual=say(
+                "{node} has a second publisher on /rosout: who made the records cannot be told",
+                node=run.doubled,
+            ),
+            where=line_of(evidence, events[0].record),
+        )
     gone = run.ended_by_itself or bool(run.watch.missing)
     for event in events:
         if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:

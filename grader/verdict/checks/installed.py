@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.report.model import Where
+from grader.verdict.checks.as_declared import must_be_as_declared
 from grader.verdict.checks.build import setup_error
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.entry_faults import wanted_entry
@@ -86,6 +87,7 @@ def executable(evidence: Evidence) -> Passed:
     there = evidence.build.installed(f"lib/{package}/{name}")
     found = files[there[0]] if there else None
     if found is not None and found.kind == "f" and found.mode & 0o111:
+        must_be_as_declared(evidence, there[0])
         return Passed(actual=there[0], advice=_other_name(evidence))
     if found is not None and found.kind == "f":
         raise Failed(

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 def spins(evidence: Evidence) -> Passed:
     """The node spins, so that ROS calls its callbacks."""
     run = evidence.run
+    if run.confirmed is False:
+        raise Blocked(by="run.output")
     if not _answers(run) and not _follows(run):
         raise _never(evidence)
     if not run.watch.while_still:

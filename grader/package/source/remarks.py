@@ -1,0 +1,179 @@
+"""What in a package's source a person should look at, and what asks for a closer observation.
+
+A node may ask where it runs (arguments, variables, files of the system) and behave otherwise there;
+it may end, or stop to count, by itself. Both have honest uses: nothing here costs points. A node
+that asks is run once more as a person would run it; one that could end is watched for longer.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from grader.package.intake.model import SourceFile
+from grader.package.source.module import Module, parse_module
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.python import PythonFault
+
+Kind = Literal["asks", "ends", "hides", "rosout"]
+MOST_REMARKS = 8  # of one kind
+MOST_BYTES = 60_000
+"""Of a file that is read; a larger one cannot be looked through, which is a remark itself."""
+
+ASKS = {
+    "sys.argv",
+    "sys.orig_argv",
+    "os.environ",
+    "os.environb",
+    "os.getenv",
+    "os.getuid",
+    "os.geteuid",
+    "os.getlogin",
+    "os.uname",
+    "os.listdir",
+    "os.scandir",
+    "os.path.exists",
+    "os.path.isdir",
+    "os.path.isfile",
+    "os.stat",
+    "os.access",
+    "os.isatty",
+    "os.ttyname",
+    "os.sched_getaffinity",
+    "socket.gethostname",
+    "getpass.getuser",
+    "platform.node",
+    "pwd.getpwuid",
+    "environ",
+    "getenv",
+    "argv",
+}
+ASKED_TEXTS = re.compile(
+    r"use_sim_time|^/clock$|^clock$|/proc\b|/etc/|/sys/|dockerenv|bwrap|grader"
+)
+ROSOUT = re.compile(r"rosout")
+ENDS_ANYWHERE = {
+    "_exit",
+    "abort",
+    "kill",
+    "killpg",
+    "alarm",
+    "setitimer",
+    "raise_signal",
+    "Timer",
+    "Thread",
+    "Process",
+    "Popen",
+    "fork",
+    "system",
+    "dump_traceback_later",
+    "execv",
+    "execve",
+}
+ENDS_IN_A_CLASS = {
+    "exit",
+    "quit",
+    "shutdown",
+    "try_shutdown",
+    "cancel",
+    "destroy_timer",
+    "destroy_node",
+    "destroy_publisher",
+    "monotonic",
+    "time",
+    "perf_counter",
+}
+HIDES = {"exec", "eval", "__import__", "import_module", "CDLL", "PyDLL", "loads"}
+COMPILED = (".so", ".pyc", ".pyd", ".pyo")
+NOT_THE_NODE = re.compile(r"(^|/)(setup\.py|test/.*|tests/.*|launch/.*|conftest\.py)$")
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A place in the source; `what` is the name or the text that was found there."""
+
+    kind: Kind
+    path: str
+    line: int | None
+    what: str
+
+
+def remarks_on(files: Sequence[SourceFile]) -> list[Remark]:
+    """Return the remarks on a package's files, at most MOST_REMARKS of each kind."""
+    found: list[Remark] = []
+    for file in files:
+        if file.kind != "file" or NOT_THE_NODE.search(file.path):
+            continue
+        if file.path.endswith(COMPILED):
+            found.append(Remark("hides", file.path, None, file.path.rpartition(".")[2]))
+        elif file.path.endswith(".py"):
+            found += _of_file(file)
+    kept: list[Remark] = []
+    for remark in dict.fromkeys(found):
+        if sum(other.kind == remark.kind for other in kept) < MOST_REMARKS:
+            kept.append(remark)
+    return kept
+
+
+def _of_file(file: SourceFile) -> Iterator[Remark]:
+    if len(file.data) > MOST_BYTES:
+        yield Remark("hides", file.path, None, f"{len(file.data)} bytes")
+        return
+    try:
+        module = parse_module(file.path, file.data)
+    except PythonFault:
+        return
+    yield from _names(module)
+    yield from _texts(module)
+    yield from _calls(module)
+
+
+def _names(module: Module) -> Iterator[Remark]:
+    for node in module.nodes:
+        if not isinstance(node, ast.Attribute | ast.Name) or not isinstance(node.ctx, ast.Load):
+            continue
+        name = dotted(node)
+        if name in ASKS and not _is_passed_on(module, node):
+            yield Remark("asks", module.path, node.lineno, name)
+
+
+def _is_passed_on(module: Module, node: ast.AST) -> bool:
+    """Whether a name is only handed to rclpy.init or main, as many examples do."""
+    outer = module.parents.get(node)
+    if isinstance(outer, ast.keyword):
+        outer = module.parents.get(outer)
+    return isinstance(outer, ast.Call) and last_part(dotted(outer.func)) in ("init", "main")
+
+
+def _texts(module: Module) -> Iterator[Remark]:
+    for node in module.nodes:
+        if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
+            continue
+        if isinstance(module.parents.get(node), ast.Expr):
+            continue  # a docstring
+        if ROSOUT.search(node.value):
+            yield Remark("rosout", module.path, node.lineno, node.value[:60])
+        if ASKED_TEXTS.search(node.value):
+            yield Remark("asks", module.path, node.lineno, node.value[:60])
+    for node in module.nodes:
+        if isinstance(node, ast.keyword) and node.arg == "enable_rosout":
+            yield Remark("rosout", module.path, node.value.lineno, "enable_rosout")
+
+
+def _calls(module: Module) -> Iterator[Remark]:
+    for call, name in calls_in(module.tree):
+        last = last_part(name)
+        if name == "compile" or last in HIDES:
+            yield Remark("hides", module.path, call.lineno, name)
+        if last in ENDS_ANYWHERE or (last in ENDS_IN_A_CLASS and _is_in_a_class(module, call)):
+            yield Remark("ends", module.path, call.lineno, name)
+    for node in module.nodes:
+        if isinstance(node, ast.Raise) and _is_in_a_class(module, node):
+            yield Remark("ends", module.path, node.lineno, "raise")
+
+
+def _is_in_a_class(module: Module, node: ast.AST) -> bool:
+    return any(isinstance(outer, ast.ClassDef) for outer in module.around(node))

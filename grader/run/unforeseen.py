@@ -1,0 +1,74 @@
+"""What a submission cannot foresee: how many lines are watched, for how long, and what is sampled.
+
+All is computed from a hash of the submission, keyed with a secret of this installation (HMAC, RFC
+2104): the same submission always gets the same, and nobody can compute it without the secret, which
+never enters a sandbox.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import hmac
+import os
+import secrets
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+STATE = "GRADER_STATE"
+KEY_FILE = "observation.key"
+KEY_BYTES = 32
+MORE_TICKS = 3  # that are watched beyond the announced ones: one to this many
+MORE_IF_IT_COULD_END = 24
+STAY_SECONDS = (3.0, 6.0)  # of wall time, in which a node that could end must not
+
+
+@dataclass(frozen=True)
+class Unforeseen:
+    """How a submission is observed: `draw` is its number in the sample, from 0 up to 1."""
+
+    more_ticks: int
+    stay_seconds: float
+    draw: float
+
+
+def unforeseen(sha256: str, *, could_end: bool) -> Unforeseen:
+    """Return how the submission with this hash is observed on this installation."""
+    digest = hmac.new(installation_key(), sha256.encode(), hashlib.sha256).digest()
+    ticks, stay, draw = (int.from_bytes(digest[at : at + 8], "big") for at in (0, 8, 16))
+    least, most = STAY_SECONDS
+    share = stay / 2**64
+    return Unforeseen(
+        more_ticks=1 + ticks % (MORE_IF_IT_COULD_END if could_end else MORE_TICKS),
+        stay_seconds=least + share * (most - least) if could_end else 0.0,
+        draw=draw / 2**64,
+    )
+
+
+@cache
+def installation_key() -> bytes:
+    """Return the secret of this installation; one for this process if none can be kept."""
+    file = state_folder() / KEY_FILE
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=file.parent) as new:  # readable by the owner only
+            new.write(secrets.token_bytes(KEY_BYTES))
+            new.flush()
+            with contextlib.suppress(FileExistsError):
+                os.link(new.name, file)  # complete, or not at all
+    with contextlib.suppress(OSError):
+        kept = file.read_bytes()
+        if len(kept) == KEY_BYTES:
+            return kept
+    return secrets.token_bytes(KEY_BYTES)
+
+
+def state_folder() -> Path:
+    """Return the folder for what belongs to this installation."""
+    own = os.environ.get(STATE)
+    if own:
+        return Path(own)
+    base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    return Path(base) / "ros2_teaching_lab"

@@ -1,0 +1,222 @@
+"""Packages that want points without the behaviour: other nodes, forged records, other programs.
+
+What each must lose is in `failed`; everything else about it may be right.
+"""
+
+from __future__ import annotations
+
+from grader.package.edit.tree import Edit, Replace, Write
+
+from .model import AFTER_START, INNER, NODE, SETUP, TICKS, Package, hostile
+from .right_node import LINE, STEP
+
+CALL = "\nsetup(\n"
+MADE = "    node = MyFirstNode()\n"
+TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
+COUNTER = "        self.counter_ = 0\n"
+NO_ROS = "#!/usr/bin/env python3\nimport time\n\n\ndef main(args=None):\n    time.sleep(60)\n"
+LEFT_BEHIND = """
+import os
+import sys
+if 'develop' in sys.argv and os.fork() == 0:
+    os.setsid()
+    if os.fork() == 0:
+        for number in range(3):
+            os.dup2(os.open('/dev/null', os.O_RDWR), number)
+        import rclpy
+        from rclpy.node import Node
+        rclpy.init(args=['x', '--ros-args', '-p', 'use_sim_time:=true'])
+        node = Node('my_first_node')
+        node.counter = 0
+        def tick():
+            node.get_logger().info('Hello time: ' + str(node.counter))
+            node.counter += 1
+        node.create_timer(1.0, tick)
+        rclpy.spin(node)
+    os._exit(0)
+"""
+SENT_AHEAD = """
+import sys
+if 'develop' in sys.argv:
+    import time
+    import rclpy
+    from rclpy.node import Node
+    rclpy.init()
+    node = Node('my_first_node')
+    for n in range(10):
+        node.get_logger().info(f'Hello time: {n}')
+    time.sleep(2)
+"""
+IMPORT_LOG = Replace(
+    NODE,
+    "import rclpy\nfrom",
+    "import sys\nimport time\nimport rclpy\nfrom rcl_interfaces.msg import Log\nfrom",
+)
+BY_HAND = """\
+        stamp = time.time_ns()
+        text = 'Hello time: ' + str(self.counter_)
+        record = Log(level={level}, name='my_first_node', msg=text)
+        record.stamp.sec, record.stamp.nanosec = divmod(stamp, 10**9)
+        self.records.publish(record)
+        print(f'[INFO] [{{stamp // 10**9}}.{{stamp % 10**9:09d}}] [my_first_node]: {{text}}',
+              file=sys.stderr, flush=True)
+"""
+LEVEL = "Log.INFO"
+PUBLISHER = COUNTER + "        self.records = self.create_publisher(Log, '/rosout', 10)\n"
+BURST = """\
+    records = node.create_publisher(Log, '/rosout', 20)
+    time.sleep(1)
+    begin = time.time_ns()
+    for n in range(12):
+        stamp = begin + n * 10**9
+        record = Log(level=Log.INFO, name='my_first_node', msg=f'Hello time: {n}')
+        record.stamp.sec, record.stamp.nanosec = divmod(stamp, 10**9)
+        records.publish(record)
+        print(f'[INFO] [{stamp // 10**9}.{stamp % 10**9:09d}] [my_first_node]: Hello time: {n}',
+              file=sys.stderr, flush=True)
+"""
+SUBSCRIBER = """\
+        self.create_subscription(Clock, '/clock', self.on_clock, 10)
+
+    def on_clock(self, message):
+        while self.counter_ < message.clock.sec:
+            self.timer_callback()
+
+"""
+REWRITES_SCRIPT = """
+import os
+path = os.path.join('..', '..', 'install', package_name, 'lib', package_name, 'test_node')
+if os.path.exists(path):
+    text = open(path).read().replace("import sys", "import sys, json", 1)
+    open(path, 'w').write(text)
+"""
+REWRITES_SOURCE = """
+import os
+path = os.path.join(os.path.dirname(os.path.realpath(__file__)), package_name, 'my_first_node.py')
+text = open(path).read().replace('Hallo', 'Hello')
+open(path, 'w').write(text)
+"""
+REWRITES_METADATA = """
+import glob
+for path in glob.glob('*.egg-info/entry_points.txt') + glob.glob('*/*.egg-info/entry_points.txt'):
+    text = open(path).read().replace('my_first_node:main', 'other:main')
+    open(path, 'w').write(text)
+"""
+DEAF_FOR_A_WHILE = """\
+    def dots():
+        for _ in range(1500):
+            print('.', end='', flush=True)
+            time.sleep(0.01)
+        os._exit(0)
+
+    def deaf(*_):
+        threading.Thread(target=dots).start()
+
+    signal.signal(signal.SIGINT, deaf)
+"""
+
+
+def _imports(*names: str) -> Edit:
+    lines = "".join(f"import {name}\n" for name in names)
+    return Replace(NODE, "import rclpy\nfrom", f"{lines}import rclpy\nfrom")
+
+
+def _setup(code: str) -> Edit:
+    return Replace(SETUP, CALL, code + CALL)
+
+
+def _after_setup(code: str) -> Edit:
+    return Replace(SETUP, "    },\n)\n", "    },\n)\n" + code)
+
+
+def _made(code: str) -> Edit:
+    return Replace(NODE, MADE, MADE + code)
+
+
+def _only_if(condition: str) -> Edit:
+    """Log only if the condition holds."""
+    return Replace(NODE, f"        {LINE}\n", f"        if {condition}:\n            {LINE}\n")
+
+
+ONLY_HERE = {"run.output": "run.only_when_marked"}
+NOT_JUDGED = frozenset({"run.spins", "run.logger", "run.period"})
+STOPS = {"run.output": None}
+ENDS = {"run.output": None}
+
+POINTS_ATTACKS: tuple[Package, ...] = (
+    hostile("node_left_by_setup", _setup(LEFT_BEHIND), Write(NODE, NO_ROS),
+            failed={"run.starts": "node.no_ros"}, skipped=AFTER_START,
+            note="a right node, started by setup.py; the program itself only sleeps"),
+    hostile("records_sent_ahead", _setup(SENT_AHEAD), Write(NODE, NO_ROS),
+            failed={"run.starts": "node.no_ros"}, skipped=AFTER_START,
+            note="records published while the package was built"),
+    hostile("records_by_hand", IMPORT_LOG, Replace(NODE, COUNTER, PUBLISHER),
+            Replace(NODE, f"        {LINE}\n", BY_HAND.format(level=LEVEL)),
+            failed={"run.logger": "run.faked_log"},
+            note="a publisher on /rosout beside that of the logger"),
+    hostile("records_in_a_burst", IMPORT_LOG, _made(BURST),
+            Replace(NODE, f"        {LINE}\n", ""),
+            failed={"run.output": None}, undecided=TICKS | {"run.spins", "run.interrupt"},
+            note="twelve records in a millisecond, their stamps a second apart"),
+    hostile("stops_after_ten", _only_if("self.counter_ < 10"), failed=STOPS,
+            undecided=TICKS | {"run.interrupt"}),
+    hostile("ends_after_ten", _imports("os"),
+            Replace(NODE, f"        {STEP.strip()}\n",
+                    f"        {STEP.strip()}\n        if self.counter_ == 10:\n"
+                    "            os._exit(0)\n"),
+            failed=ENDS, undecided=TICKS, skipped=frozenset({"run.interrupt"})),
+    hostile("gone_after_two_seconds", _imports("os", "threading"),
+            _made("    threading.Timer(2.0, os._exit, [0]).start()\n"),
+            failed=ENDS, undecided=TICKS, skipped=frozenset({"run.interrupt"}),
+            note="ten seconds of ROS time take less than two of wall time"),
+    hostile("only_with_arguments", _imports("sys"), _only_if("len(sys.argv) > 1"),
+            failed=ONLY_HERE, skipped=NOT_JUDGED),
+    hostile("only_with_its_command_line",
+            _only_if("'sim_time' in open('/proc/self/cmdline').read()"),
+            failed=ONLY_HERE, skipped=NOT_JUDGED),
+    hostile("only_under_sim_time",
+            _only_if("self.get_parameter('use_sim_time').value"),
+            failed=ONLY_HERE, skipped=NOT_JUDGED),
+    hostile("clock_instead_of_a_timer",
+            Replace(NODE, "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom rosgraph_msgs.msg import Clock\n"),
+            Replace(NODE, TIMER, SUBSCRIBER), failed=ONLY_HERE, skipped=NOT_JUDGED,
+            note="counts the seconds of /clock, which nobody publishes at home"),
+    hostile("other_script_installed", _after_setup(REWRITES_SCRIPT),
+            failed={"entry_point.executable": "entry_point.other_installed"},
+            skipped=AFTER_START | {"run.starts"}),
+    hostile("source_changed_by_setup", _setup(REWRITES_SOURCE),
+            Replace(NODE, "'Hello time: '", "'Hallo time: '"),
+            failed={"entry_point.executable": "entry_point.other_installed"},
+            skipped=AFTER_START | {"run.starts"}),
+    hostile("other_metadata_installed", _after_setup(REWRITES_METADATA),
+            Write(f"{INNER}/other.py", "from .my_first_node import main\n"),
+            failed={"entry_point.executable": "entry_point.other_installed"},
+            skipped=AFTER_START | {"run.starts"}),
+    hostile("sleeps_twice", _imports("time"),
+            Replace(NODE, f"        {LINE}\n",
+                    f"        nap = 0.9\n        time.sleep(nap)\n        {LINE}\n"
+                    "        time.sleep(nap)\n"),
+            failed={"run.period": None},
+            note="each shorter than a period, both longer: a line every 1.8 s on a terminal"),
+    hostile("erases_its_lines",
+            Replace(NODE, f"        {STEP}\n",
+                    f"        {STEP}\n        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n"),
+            failed={"run.output": "run.erased"}, skipped=TICKS),
+    hostile("records_of_ten_megabytes", _imports("threading"),
+            _made("    def flood():\n        while True:\n"
+                  "            node.get_logger().info('x' * 10_000_000)\n\n"
+                  "    threading.Thread(target=flood, daemon=True).start()\n"),
+            undecided=frozenset({"run.starts"}) | AFTER_START,
+            note="fills the probe's memory, if nothing bounds it"),
+    hostile("records_at_full_speed", _imports("threading"),
+            Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom rcl_interfaces.msg import Log\nfrom"),
+            _made("    records = node.create_publisher(Log, '/rosout', 1000)\n\n"
+                  "    def flood():\n        while True:\n"
+                  "            records.publish(Log(name='my_first_node', msg='x' * 1000))\n\n"
+                  "    threading.Thread(target=flood, daemon=True).start()\n"),
+            undecided=frozenset({"run.starts"}) | AFTER_START),
+    hostile("deaf_for_fifteen_seconds", _imports("os", "signal", "threading", "time"),
+            _made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "run.ignores_interrupt"},
+            note="dots after Ctrl+C, then it ends by itself"),
+)  # fmt: skip

@@ -1,0 +1,91 @@
+"""What in a package's source a person should look at."""
+
+from __future__ import annotations
+
+import pytest
+
+from grader.package.intake.model import SourceFile
+from grader.package.source.remarks import MOST_REMARKS, Remark, remarks_on
+
+NODE = """\
+import os
+import sys
+import rclpy
+from rclpy.node import Node
+
+class MyNode(Node):
+    def __init__(self):
+        super().__init__('my_node')
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        pass
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = MyNode()
+    rclpy.spin(node)
+    node.destroy_node()
+    rclpy.shutdown()
+
+if __name__ == '__main__':
+    main()
+"""
+
+
+def file(text: str, path: str = "my_package/my_node.py") -> SourceFile:
+    return SourceFile(path, "file", 0o755, text.encode())
+
+
+def kinds(text: str, path: str = "my_package/my_node.py") -> set[tuple[str, str]]:
+    return {(remark.kind, remark.what) for remark in remarks_on([file(text, path)])}
+
+
+def test_a_usual_node_has_no_remark() -> None:
+    assert remarks_on([file(NODE)]) == []
+    assert remarks_on([file(NODE.replace("args=args", "args=sys.argv"))]) == []
+    assert remarks_on([file(NODE.replace("    main()", "    main(sys.argv)"))]) == []
+
+
+@pytest.mark.parametrize(
+    ("code", "remark"),
+    [
+        ("if '--ros-args' in sys.argv: pass", ("asks", "sys.argv")),
+        ("x = os.environ.get('HOME')", ("asks", "os.environ")),
+        ("x = open('/proc/self/cmdline').read()", ("asks", "/proc/self/cmdline")),
+        ("x = self.get_parameter('use_sim_time')", ("asks", "use_sim_time")),
+        ("self.create_subscription(Clock, '/clock', print, 10)", ("asks", "/clock")),
+        ("os._exit(0)", ("ends", "os._exit")),
+        ("rclpy.shutdown()", ("ends", "rclpy.shutdown")),
+        ("raise SystemExit", ("ends", "raise")),
+        ("self.timer.cancel()", ("ends", "self.timer.cancel")),
+        ("exec('x = 1')", ("hides", "exec")),
+        ("x = __import__('os')", ("hides", "__import__")),
+        ("self.create_publisher(Log, '/rosout', 10)", ("rosout", "/rosout")),
+    ],
+)
+def test_what_asks_ends_or_hides_is_found_with_its_line(code: str, remark: tuple[str, str]) -> None:
+    text = NODE.replace("        pass\n", f"        {code}\n")
+    (found,) = remarks_on([file(text)])
+    assert (found.kind, found.what) == remark
+    assert found.line == text.splitlines().index(f"        {code}") + 1
+
+
+def test_setup_tests_and_launch_files_are_not_the_node() -> None:
+    text = "import os\nprint(os.environ)\n"
+    for path in ("setup.py", "test/test_node.py", "launch/start.launch.py"):
+        assert kinds(text, path) == set()
+    assert kinds(text) == {("asks", "os.environ")}
+
+
+def test_what_cannot_be_read_is_a_remark() -> None:
+    assert remarks_on([file("x = 1\n", "my_package/fast.so")]) == [
+        Remark("hides", "my_package/fast.so", None, "so")
+    ]
+    assert kinds("x = 1\n" * 20_000) == {("hides", "120000 bytes")}
+    assert kinds("def (:\n") == set()  # the node cannot be read by Python either
+
+
+def test_few_of_one_kind_are_enough() -> None:
+    found = remarks_on([file(NODE + "print(os.getuid())\n" * 100)])
+    assert len(found) == MOST_REMARKS
