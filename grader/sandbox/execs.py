@@ -65,7 +65,14 @@ class Exec:
         self.socket = socket_of(self._reply)
         self._early = already_read(self._reply, self.socket)
         if tty:
-            api.exec_resize(self._id, height=ROWS, width=COLUMNS)
+            self._resize()
+
+    def _resize(self) -> None:
+        try:
+            self._api.exec_resize(self._id, height=ROWS, width=COLUMNS)
+        except docker.errors.APIError:
+            if self.status() is None:  # (a command that has ended has no terminal to resize)
+                raise
 
     def wait_for_output(self, seconds: float) -> bool:
         """Wait for output or its end; return whether there is something to read."""

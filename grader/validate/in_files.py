@@ -68,7 +68,7 @@ def _layout(tree: Tree, assignment: Assignment) -> Iterator[Made]:
         yield f"rename folder {folder}", (Move(folder, f"{folder}s"),), ANY
         yield f"folder {folder} in src", (Move(folder, f"src/{folder}"),), ANY
     nested = (Nest(f"src/{package}"), Copy(f"src/{package}", f"src/{package}_copy"))
-    yield "copy of the package beside it", nested, ("package.found",)
+    yield "copy of the package beside it", nested, ("build.colcon",)
 
 
 def _manifest(text: str, assignment: Assignment) -> Iterator[Made]:

@@ -67,7 +67,7 @@ def test_the_system_is_locked_down(sandbox: Sandbox, client: DockerClient) -> No
         assert not host["Binds"]
         assert host["Privileged"] is False
         assert host["NetworkMode"].split(":")[0] in ("none", "container")
-        assert host["SecurityOpt"] == ["no-new-privileges"]  # and Docker's default seccomp filter
+        assert host["SecurityOpt"] == ["no-new-privileges", f"seccomp={docker_profile()}"]
         assert host["Memory"] == host["MemorySwap"] == Limits().memory
         assert host["PidsLimit"] == Limits().processes
         assert host["NanoCpus"] > 0
