@@ -18,6 +18,7 @@ from docker import DockerClient
 from grader.sandbox import orphans
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
+from grader.sandbox.seccomp import docker_profile
 from tests import engine, processes
 from tests.sandbox_contract import *  # noqa: F403 - the tests themselves
 from tests.sandbox_contract import shell
