@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import layout, node_count, node_life, node_log, node_timer
 from grader.mistakes.kind import Family, Kind
 from grader.package.edit.tree import Replace
@@ -389,6 +389,7 @@ KINDS = (
                     "        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n",
                 ),
                 fails="run.output",
+                blocks=SILENT,
             ),
         ),
     ),
@@ -415,6 +416,7 @@ KINDS = (
                     "        if 'use_sim_time:=true' in sys.argv:\n            self.get_logger().info(",
                 ),
                 fails="run.output",
+                blocks=("run.spins", *SILENT),
             ),
         ),
     ),

@@ -174,7 +174,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
     hostile("only_with_its_command_line",
             _only_if("'sim_time' in open('/proc/self/cmdline').read()"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
-    hostile("only_under_sim_time",
+    hostile("only_if_use_sim_time_is_set",
             _only_if("self.get_parameter('use_sim_time').value"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
     hostile("clock_instead_of_a_timer",
