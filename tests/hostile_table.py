@@ -20,8 +20,9 @@ from pathlib import Path
 
 from grader.base.cache import cache_root
 from grader.report.model import Report
+from grader.ros import images
 from grader.sandbox.processes import adopt_orphans
-from tests import processes
+from tests import engine, processes
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
 from tests.corpus.model import Package
@@ -82,7 +83,8 @@ def _verdict(package: Package, column: str, place: Path) -> tuple[Report | None,
     limits.append(f"run_seconds={LIMITS.run_seconds}")
     words = [word for limit in limits for word in ("--limit", limit)]
     command = processes.grader("grade", root, "--sandbox", sandbox, "--out", place / "out", *words)
-    environment = {**os.environ, "PYTHONPATH": str(processes.ROOT)}
+    own_images = {images.REPOSITORY_VARIABLE: engine.REPOSITORY}
+    environment = {**os.environ, **own_images, "PYTHONPATH": str(processes.ROOT)}
     if column.endswith("as a user"):
         subprocess.run(["chmod", "-R", "a+rwX", place], check=True)
         command = processes.as_user(command)

@@ -140,6 +140,7 @@ def _only_if(condition: str) -> Edit:
 
 ONLY_HERE = {"run.output": "run.only_when_marked"}
 NOT_JUDGED = frozenset({"run.spins", "run.logger", "run.period"})
+FLOODED = TICKS | {"run.spins", "run.interrupt"}
 STOPS = {"run.output": None}
 ENDS = {"run.output": None}
 
@@ -207,7 +208,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             _made("    def flood():\n        while True:\n"
                   "            node.get_logger().info('x' * 10_000_000)\n\n"
                   "    threading.Thread(target=flood, daemon=True).start()\n"),
-            undecided=frozenset({"run.starts"}) | AFTER_START,
+            failed={"run.output": "run.too_much_output"}, skipped=FLOODED,
             note="fills the probe's memory, if nothing bounds it"),
     hostile("records_at_full_speed", _imports("threading"),
             Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom rcl_interfaces.msg import Log\nfrom"),
@@ -215,7 +216,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
                   "    def flood():\n        while True:\n"
                   "            records.publish(Log(name='my_first_node', msg='x' * 1000))\n\n"
                   "    threading.Thread(target=flood, daemon=True).start()\n"),
-            undecided=frozenset({"run.starts"}) | AFTER_START),
+            failed={"run.logger": "run.faked_log"}),
     hostile("deaf_for_fifteen_seconds", _imports("os", "signal", "threading", "time"),
             _made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "run.ignores_interrupt"},
             note="dots after Ctrl+C, then it ends by itself"),

@@ -190,7 +190,7 @@ def logger(evidence: Evidence) -> Passed:
     """The lines go through the node's own logger."""
     run = evidence.run
     events = run.watch.counted
-    if not events or run.confirmed is False:
+    if not events or run.confirmed is False or run.flooded:
         raise Blocked(by="run.output")
     names = {node.logger for node in run.nodes}
     expected = say("log records of the node on /rosout, level INFO")

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 def spins(evidence: Evidence) -> Passed:
     """The node spins, so that ROS calls its callbacks."""
     run = evidence.run
-    if run.confirmed is False:
+    # a flood ends the run: whether the node answered before that would be chance
+    if run.confirmed is False or run.flooded:
         raise Blocked(by="run.output")
     if not _answers(run) and not _follows(run):
         raise _never(evidence)
@@ -45,7 +46,7 @@ def spins(evidence: Evidence) -> Passed:
 def _never(evidence: Evidence) -> Failed | Blocked | Inconclusive:
     """Return the outcome of a node of which nothing answered."""
     run = evidence.run
-    if run.flooded or run.resource or run.ended_by_itself:
+    if run.resource or run.ended_by_itself:
         return Blocked(by="run.output")
     node = run.counting_node
     if node is not None and not node.services and not node.clock:

@@ -35,7 +35,7 @@ def period(evidence: Evidence) -> Passed:
     run, wanted = evidence.run, evidence.assignment.output
     watch = run.watch
     events = watch.counted
-    if not events or run.confirmed is False:
+    if not events or run.confirmed is False or run.flooded:
         raise Blocked(by="run.output")
     every = f"{wanted.period:g}"
     expected = say("one line every {period} s, the first after {period} s", period=every)
