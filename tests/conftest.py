@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+import shutil
 import signal
 import tempfile
 from collections.abc import Callable, Iterator
@@ -26,7 +28,9 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # texts are compared in English, whatever the language of the environment
 os.environ["LC_ALL"] = "C.UTF-8"
 # a secret of their own, which decides how many lines of a package are watched
-os.environ.setdefault("GRADER_STATE", tempfile.mkdtemp(prefix="grader-state-"))
+if "GRADER_STATE" not in os.environ:
+    os.environ["GRADER_STATE"] = tempfile.mkdtemp(prefix="grader-state-")
+    atexit.register(shutil.rmtree, os.environ["GRADER_STATE"], ignore_errors=True)
 # the tests use the default course and lesson
 for _name in (lessons.COURSE, lessons.LESSON):
     os.environ.pop(_name, None)

@@ -89,25 +89,29 @@ class Session:
         run.
         """
         begin = time.monotonic()
+        named = named or self.assignment
         try:
-            run = self._run(on_event, named or self.assignment)
+            run = self._run(on_event, named)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
-            if self._holds_up(run):
-                again = self._run(unheard, named or self.assignment)
-                if self._holds_up(again):
-                    run.held_up = statistics.median(sorted([*run.watch.held, *again.watch.held]))
-                elif again.watch.counted and self._on_time(again):
-                    run = again
-            elif self._doubtful(run):
-                # the second run reports no ticks: the listener already has those of the first
-                again = self._run(unheard, named or self.assignment, fine=True)
-                run = self._second_opinion(run, again)
-            elif self._may_only_work_here(run):
-                run.confirmed = self._confirm(named or self.assignment)
-            return run
+            return self._compared(run, named)
         finally:
             self.timing["run"] += time.monotonic() - begin
+
+    def _compared(self, run: Run, named: Assignment) -> Run:
+        """Return a run after another one, if one run does not say enough about the node."""
+        # the second run reports no ticks: the listener already has those of the first
+        if self._holds_up(run):
+            again = self._run(unheard, named)
+            if self._holds_up(again):
+                run.held_up = statistics.median([*run.watch.held, *again.watch.held])
+            elif again.watch.counted and self._on_time(again):
+                return again
+        elif self._doubtful(run):
+            return self._second_opinion(run, self._run(unheard, named, fine=True))
+        elif self._may_only_work_here(run):
+            run.confirmed = self._confirm(named)
+        return run
 
     def _run(
         self, on_event: Callable[[Event], None], named: Assignment, *, fine: bool = False
@@ -162,21 +166,20 @@ class Session:
         return asks or self._unforeseen.draw < SAMPLE
 
     def _confirm(self, named: Assignment) -> bool | None:
-        """Run the node plainly; False only if it did not count in two runs."""
-        for _ in range(CONFIRMING_RUNS):
-            if not self._has_time():
-                return None
+        """Return whether the node counts in a plain run; False only after two that show it."""
+        found: list[bool | None] = []
+        while len(found) < CONFIRMING_RUNS and self._has_time():
             probe = ProbeLink(self.sandbox)
             until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
             try:
-                counts = counts_plainly(self.sandbox, named, probe, until=until)
+                found.append(counts_plainly(self.sandbox, named, probe, until=until))
             except ProbeError:
-                counts = None
+                found.append(None)
             finally:
                 probe.close()
-            if counts:
+            if found[-1]:
                 return True
-        return False if counts is False else None
+        return False if found.count(False) == CONFIRMING_RUNS else None
 
     def _works(self) -> bool:
         """Whether a command that does nothing succeeds; if so, the node ended by itself."""

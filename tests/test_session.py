@@ -1,0 +1,136 @@
+"""When a session runs the node again, and what it makes of two runs (the runs are simulated)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import cast
+
+import pytest
+
+from grader.base.unheard import unheard
+from grader.package.source.remarks import Remark
+from grader.run import session
+from grader.run.observer import Event, Watch
+from grader.run.probe_link import NodeSeen, ProbeError
+from grader.run.run import Run
+from grader.run.session import Session
+from grader.run.unforeseen import Unforeseen
+from grader.sandbox.base import Outcome, Sandbox
+from grader.sandbox.limits import Limits
+from tests.marking import ASSIGNMENT
+
+ASKS = Remark("asks", "node.py", 3, "sys.argv")
+
+
+class NoSandbox:
+    limits = Limits()
+
+    def resource_limit_hit(self) -> str:
+        return ""
+
+    def run(self, argv: list[str], *, seconds: float) -> Outcome:
+        return Outcome(0, b"", seconds)
+
+
+class NoProbe:
+    def close(self) -> None:
+        return
+
+
+def right_run(held: float = 0.02) -> Run:
+    """Return a run on virtual time with eleven lines, each step held up for some seconds."""
+    events = [Event(f"Hello time: {n}", n, n + 1, "logger", n, n) for n in range(11)]
+    watch = Watch(clock="virtual", events=events, held=[held] * 10)
+    node = NodeSeen("/my_first_node", clock=True, rosout=True, parameters=True)
+    return Run("ros2 run", watch, nodes=(node,), started=True)
+
+
+@pytest.fixture
+def runs(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Session]:
+    """A function that makes a session whose runs and plain runs have given results."""
+
+    def make(*results: Run, plain: tuple[bool | None, ...] = ()) -> Session:
+        left, plainly = iter(results), iter(plain)
+
+        def counts(*_: object, **__: object) -> bool | None:
+            found = next(plainly)
+            if found is None:
+                raise ProbeError("no answer")
+            return found
+
+        monkeypatch.setattr(session, "observe", lambda *_, **__: next(left))
+        monkeypatch.setattr(session, "counts_plainly", counts)
+        monkeypatch.setattr(session, "ProbeLink", lambda _: NoProbe())
+        return Session(cast("Sandbox", NoSandbox()), ASSIGNMENT)
+
+    return make
+
+
+def test_a_right_run_is_enough(runs: Callable[..., Session]) -> None:
+    first = right_run()
+    assert runs(first).run(unheard) is first
+    assert (first.held_up, first.confirmed) == (0, None)
+
+
+def test_callbacks_that_hold_up_two_runs_are_slow(runs: Callable[..., Session]) -> None:
+    run = runs(right_run(held=1.8), right_run(held=1.9)).run(unheard)
+    assert run.held_up == pytest.approx(1.85)
+
+
+def test_a_run_that_was_held_up_once_proves_nothing(runs: Callable[..., Session]) -> None:
+    second = right_run()
+    assert runs(right_run(held=1.8), second).run(unheard) is second
+    assert second.held_up == 0
+
+
+def test_two_slow_steps_prove_nothing(runs: Callable[..., Session]) -> None:
+    first = right_run()
+    first.watch.held[:2] = [5.0, 5.0]
+    assert runs(first).run(unheard) is first
+
+
+@pytest.mark.parametrize(
+    ("plain", "confirmed"),
+    [
+        ((True,), True),
+        ((False, True), True),
+        ((False, False), False),
+        ((None, False), None),
+        ((False, None), None),
+        ((None, None), None),
+    ],
+)
+def test_only_two_plain_runs_without_a_count_blame_the_node(
+    runs: Callable[..., Session], plain: tuple[bool | None, ...], confirmed: bool | None
+) -> None:
+    opened = runs(right_run(), plain=plain)
+    opened._remarks = [ASKS]
+    assert opened.run(unheard).confirmed is confirmed
+
+
+@pytest.mark.parametrize(
+    ("confirm", "remarks", "draw", "made"),
+    [
+        ("sample", [], 0.5, False),
+        ("sample", [], 0.01, True),
+        ("sample", [ASKS], 0.5, True),
+        ("never", [ASKS], 0.01, False),
+        ("always", [], 0.5, True),
+    ],
+)
+def test_who_is_run_plainly(
+    runs: Callable[..., Session], confirm: str, remarks: list[Remark], draw: float, made: bool
+) -> None:
+    opened = runs(right_run(), plain=(True,))
+    opened.assignment = ASSIGNMENT.model_copy(update={"confirm": confirm})
+    opened._remarks = remarks
+    opened._unforeseen = Unforeseen(more_ticks=1, stay_seconds=0, draw=draw)
+    assert opened.run(unheard).confirmed is (True if made else None)
+
+
+def test_a_node_that_already_failed_is_not_run_plainly(runs: Callable[..., Session]) -> None:
+    ended = right_run()
+    ended.ended_by_itself = True
+    opened = runs(ended)
+    opened._remarks = [ASKS]
+    assert opened.run(unheard).confirmed is None
