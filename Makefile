@@ -92,8 +92,7 @@ validate:  ## Test an assignment with its solution and mutants (ASSIGNMENT=id KE
 
 test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests
-	@$(MAKE) --no-print-directory --jobs=2 lint rewritten
-	@$(PYTEST) -m "not full and not docker and not long" $${PYTEST_ARGS}
+	@$(MAKE) --no-print-directory --jobs=2 lint fast
 
 test-all:  ## Run all tests (as root: installs and starts Docker if it is missing)
 	@$(MAKE) --no-print-directory test
@@ -116,17 +115,21 @@ recordings:  ## Record the evidence of the tests' packages anew (a quarter of an
 	@rm -rf tests/recordings/evidence
 	@GRADER_TESTS_EVIDENCE=record $(PYTEST) $(RECORDED)
 
-# pytest's own compiled form of the tests, once beside mypy instead of once in each test process
-.PHONY: rewritten
+# the tests begin as soon as they are compiled, beside the rest of mypy
+.PHONY: fast rewritten
+fast: rewritten
+	@$(PYTEST) -m "not full and not docker and not long" $${PYTEST_ARGS}
+
+# pytest's own compiled form of the tests, once instead of once in each test process
 rewritten:
 	@found=$$(PYTHONDONTWRITEBYTECODE= .venv/bin/python -m pytest -qq --collect-only -p no:xdist) || \
 	  { echo "$$found" >&2; exit 1; }
 
 lint:
-	@.venv/bin/python -m ruff check .
-	@.venv/bin/python -m ruff format --check .
-	@.venv/bin/python -m mypy grader lab tests
-	@.venv/bin/lint-imports
+	@.venv/bin/python -m ruff check --quiet .
+	@.venv/bin/python -m ruff format --quiet --check .
+	@.venv/bin/python -m mypy --no-error-summary grader lab tests
+	@found=$$(.venv/bin/lint-imports) || { echo "$$found"; exit 1; }
 
 bench:  ## Measure the time of a verdict relative to the bare commands (needs Docker and root)
 	@$(BOOTSTRAP) --tests

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import secrets
 import signal
 import time
@@ -50,6 +51,20 @@ def test_the_network_is_loopback_only(sandbox: Sandbox) -> None:
         sandbox, "exec 3<>/dev/tcp/127.0.0.1/9", seconds=10
     )  # refused at once, so loopback is up
     assert status == 1
+
+
+IN_SIGHT = """
+env; cat /proc/self/mountinfo /proc/self/cgroup /etc/passwd /etc/group; hostname; id
+ls -a / /etc /run /opt /opt/ros /tmp /dev /dev/shm /home /home/student
+"""
+
+
+def test_nothing_in_sight_tells_that_this_is_the_grader(sandbox: Sandbox) -> None:
+    """A node that behaves only here would look for it."""
+    _, output = shell(sandbox, IN_SIGHT)
+    assert "student" in output
+    told = [line for line in output.splitlines() if re.search(r"grader|marking|autograd", line)]
+    assert told == []
 
 
 NETWORK = "readlink /proc/self/ns/net"

@@ -35,7 +35,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
-NAME = "_grader_probe"
+NAME = "_ros2cli_daemon_0"  # a node that a graph at home has too, once `ros2 node list` has run
 LONGEST_TEXT = 2_000  # characters of a log record that are passed on
 MOST_LOGS = 2_000  # records in one answer
 MOST_NODES = 8

@@ -29,7 +29,7 @@ DISCOVERY_PROFILE = """<?xml version="1.0" encoding="UTF-8"?>
       <type>UDPv4</type>
     </transport_descriptor>
   </transport_descriptors>
-  <participant profile_name="grader" is_default_profile="true">
+  <participant profile_name="local" is_default_profile="true">
     <rtps>
       <useBuiltinTransports>false</useBuiltinTransports>
       <userTransports><transport_id>udp4</transport_id></userTransports>

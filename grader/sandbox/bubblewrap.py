@@ -34,7 +34,7 @@ from grader.sandbox.processes import adopt_orphans, children_of, collect_orphans
 from grader.sandbox.seccomp import filter_path
 from grader.sandbox.user_ids import new_user_ids
 
-PROFILE = "/etc/grader/fastdds.xml"
+PROFILE = "/etc/ros/fastdds.xml"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-release")
 FILTER = "9"  # the descriptor from which bwrap reads the filter of system calls
@@ -258,7 +258,8 @@ class Bubblewrap(LocalSandbox):
         """Return the mounts and namespaces of one command."""
         scratch = str(int(self.limits.workspace / 10))
         # without --die-with-parent, a background process would keep bwrap running
-        options = ["--die-with-parent", "--unshare-pid", "--unshare-ipc", "--ro-bind", "/", "/"]
+        options = ["--die-with-parent", "--unshare-pid", "--unshare-ipc", "--unshare-cgroup-try"]
+        options += ["--ro-bind", "/", "/"]
         if not self._root:
             uid = str(self._uids[role])
             options += ["--unshare-user", "--uid", uid, "--gid", uid]
@@ -358,7 +359,7 @@ def parents_of(*paths: str) -> list[str]:
 
 def memory_file(text: str) -> int:
     """Return a file descriptor of an anonymous file with this text."""
-    descriptor = os.memfd_create("grader")
+    descriptor = os.memfd_create("file")
     os.write(descriptor, text.encode())
     os.lseek(descriptor, 0, os.SEEK_SET)
     return descriptor

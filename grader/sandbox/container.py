@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from docker import APIClient
 
 STUDENT, PROBE, HOLDER = 1000, 1001, 1002  # user ids in the images
-PROFILE = "/run/grader/fastdds.xml"
+PROFILE = "/run/ros/fastdds.xml"
 READY_SECONDS = 30.0
 MAX_COUNTERS = 100_000  # bytes of the kernel's counters
 OWN_PROCESSES = 3  # docker-init, timeout, cat
@@ -78,7 +78,7 @@ class ContainerSpec:
             security_opt=["no-new-privileges", f"seccomp={docker_profile()}"],
             shm_size=scratch,
             tmpfs={
-                "/run/grader": f"size=65536,mode=0755,uid={HOLDER},gid={HOLDER},noexec",
+                "/run/ros": f"size=65536,mode=0755,uid={HOLDER},gid={HOLDER},noexec",
                 "/tmp": f"size={scratch},mode=1777,exec",  # noqa: S108
                 HOME: f"size={scratch},mode=0755,uid={self.user},gid={self.user},exec",
             },

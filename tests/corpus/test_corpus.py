@@ -17,32 +17,36 @@ from .model import NODE, POINTS, SETUP, Package
 from .right import RIGHT
 
 CORPUS = (*RIGHT, *BROKEN, *HOSTILE)
+PARTS = {"right": RIGHT, "broken": BROKEN, "hostile": HOSTILE}
 
 
-def named(package: Package) -> str:
-    return package.name
+@pytest.mark.parametrize("packages", PARTS.values(), ids=PARTS)
+def test_all_edits_apply(
+    packages: tuple[Package, ...], tmp_path: Path, subtests: pytest.Subtests
+) -> None:
+    for package in packages:
+        with subtests.test(package.name):
+            assert write(package, tmp_path / package.name).is_dir()
 
 
-@pytest.mark.parametrize("package", CORPUS, ids=named)
-def test_its_edits_apply(package: Package, tmp_path: Path) -> None:
-    assert write(package, tmp_path).is_dir()
+def test_right_packages_parse_and_are_executable(tmp_path: Path, subtests: pytest.Subtests) -> None:
+    for package in RIGHT:
+        with subtests.test(package.name):
+            root = write(package, tmp_path / package.name)
+            nests = [root / edit.folder for edit in package.edits if isinstance(edit, Nest)]
+            root = (nests or [root])[0]
+            for path in (root / SETUP, root / NODE):
+                ast.parse(path.read_bytes())
+            assert (root / NODE).stat().st_mode & stat.S_IXUSR
 
 
-@pytest.mark.parametrize("package", RIGHT, ids=named)
-def test_right_packages_parse_and_are_executable(package: Package, tmp_path: Path) -> None:
-    root = write(package, tmp_path)
-    root = next((root / edit.folder for edit in package.edits if isinstance(edit, Nest)), root)
-    for path in (root / SETUP, root / NODE):
-        ast.parse(path.read_bytes())
-    assert (root / NODE).stat().st_mode & stat.S_IXUSR
-
-
-@pytest.mark.parametrize("package", CORPUS, ids=named)
-def test_it_names_checks_of_the_assignment_once(package: Package) -> None:
-    groups = (set(package.expect_failed), package.blocked, package.undecided)
-    named_checks = [check for group in groups for check in group]
-    assert len(named_checks) == len(set(named_checks)), "a check has one outcome"
-    assert set(named_checks) <= set(POINTS)
+def test_each_names_checks_of_the_assignment_once(subtests: pytest.Subtests) -> None:
+    for package in CORPUS:
+        with subtests.test(package.name):
+            groups = (set(package.expect_failed), package.blocked, package.undecided)
+            named_checks = [check for group in groups for check in group]
+            assert len(named_checks) == len(set(named_checks)), "a check has one outcome"
+            assert set(named_checks) <= set(POINTS)
 
 
 @pytest.mark.parametrize(

@@ -98,25 +98,34 @@ def shown_text(slip: Slip) -> str:
     return lines.get(slip.mistake, "Helo time: 0")
 
 
-def named(case: tuple[Slip, str]) -> str:
-    return f"{case[0].mistake} with {case[1]}"
+def slips_of(form: str) -> list[Slip]:
+    """Return the slips that can be made in a node of this form."""
+    return [slip for slip, one in CASES if one == form]
 
 
-@pytest.mark.parametrize("case", CASES, ids=named)
-def test_a_mistake_is_recognised_in_the_file_that_has_it(case: tuple[Slip, str]) -> None:
-    slip, form = case
-    files = with_slip(slip, form)
-    diagnosis = diagnosis_of(slip, files)
-    assert diagnosis.mistakes[0].id == slip.mistake
-    (edited,) = [path for path, text in files.items() if text != FORMS[form][path]]
-    assert diagnosis.where is not None
-    if diagnosis.where.line is not None:
-        assert diagnosis.where.file == edited
+@pytest.mark.parametrize("form", FORMS)
+def test_a_mistake_is_recognised_in_the_file_that_has_it(
+    form: str, subtests: pytest.Subtests
+) -> None:
+    for slip in slips_of(form):
+        with subtests.test(slip.mistake):
+            files = with_slip(slip, form)
+            diagnosis = diagnosis_of(slip, files)
+            assert diagnosis.mistakes[0].id == slip.mistake
+            (edited,) = [path for path, text in files.items() if text != FORMS[form][path]]
+            assert diagnosis.where is not None
+            if diagnosis.where.line is not None:
+                assert diagnosis.where.file == edited
 
 
-@pytest.mark.parametrize("case", CASES, ids=named)
-def test_the_fix_restores_the_right_node(case: tuple[Slip, str]) -> None:
-    slip, form = case
+@pytest.mark.parametrize("form", FORMS)
+def test_the_fix_restores_the_right_node(form: str, subtests: pytest.Subtests) -> None:
+    for slip in slips_of(form):
+        with subtests.test(slip.mistake):
+            is_restored(slip, form)
+
+
+def is_restored(slip: Slip, form: str) -> None:
     files = Files.of(submitted(with_slip(slip, form)))
     found = Case(files, Finding("run.output", slip.mistake), ASSIGNMENT)
     new = first_fix(found, fixes_for(found.finding))
