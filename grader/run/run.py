@@ -59,7 +59,7 @@ class Run:
     confirmed: bool | None = None
     doubled: str = ""
     erased: int = 0
-    held_up: float = 0
+    held_up: float = 0.0
     seconds: float = 0
     node_seconds: float | None = None
     first_line_seconds: float | None = None

@@ -50,7 +50,7 @@ def output(evidence: Evidence) -> Passed:
     first = _first_wrong(events, wanted.step)
     shown = ", ".join(event.text[:80] for event in events[first : first + 4])
     numbers = [event.n for event in events if event.n is not None]
-    if not numbers:
+    if not numbers or events[0].n is None:
         raise Failed(
             "run.wrong_text",
             expected=expected,
