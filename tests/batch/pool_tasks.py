@@ -46,7 +46,7 @@ def workers_of(parent: int) -> list[int]:
             words = (entry / "cmdline").read_bytes().split(b"\0")
         except OSError:
             continue
-        if above == parent and b"grader.batch.worker" in words:
+        if above == parent and any(b"grader.batch.worker" in word for word in words):
             found.append(int(entry.name))
     return sorted(found)
 

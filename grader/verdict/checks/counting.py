@@ -35,7 +35,7 @@ def output(evidence: Evidence) -> Passed:
     expected = f"{wanted.line(0)}, {wanted.line(1)}, {wanted.line(2)}, …"
     if run.flooded:
         raise flood(evidence, expected)
-    if not events and run.erased:
+    if run.erased:
         raise Failed(
             "run.erased",
             expected=expected,
