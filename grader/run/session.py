@@ -158,8 +158,13 @@ class Session:
 
     def _may_only_work_here(self, run: Run) -> bool:
         """Whether to see if the node also works without our arguments, as a person runs it."""
-        if not run.watch.counted or run.ended_by_itself or not self._on_time(run):
-            return False
+        output = self.assignment.output
+        begins_right = [event.n for event in run.watch.counted[:2]] == [
+            output.start,
+            output.start + output.step,
+        ]
+        if not begins_right or run.ended_by_itself or not self._on_time(run):
+            return False  # (it has failed already)
         if self.assignment.confirm != "sample":
             return self.assignment.confirm == "always"
         asks = any(remark.kind in ("asks", "hides") for remark in self._remarks)
