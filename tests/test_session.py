@@ -25,6 +25,10 @@ ASKS = Remark("asks", "node.py", 3, "sys.argv")
 
 class NoSandbox:
     limits = Limits()
+    held = "cgroup"
+
+    def held_by(self) -> dict[str, str]:
+        return {"memory": self.held, "processes": self.held}
 
     def resource_limit_hit(self) -> str:
         return ""
@@ -127,6 +131,26 @@ def test_who_is_run_plainly(
     opened._remarks = remarks
     opened._unforeseen = Unforeseen(more_ticks=1, stay_seconds=0, draw=draw)
     assert opened.run(unheard).confirmed is (True if made else None)
+
+
+@pytest.mark.parametrize(
+    ("error", "limit"),
+    [
+        ("MemoryError", "memory"),
+        ("RuntimeError: Resource temporarily unavailable", "processes"),
+        ("RuntimeError: can't start new thread", "processes"),
+        ("ValueError: no", ""),
+    ],
+)
+@pytest.mark.parametrize("held", ["rlimit", "cgroup"])
+def test_a_node_that_dies_of_a_limit_on_each_process_met_that_limit(
+    runs: Callable[..., Session], error: str, limit: str, held: str
+) -> None:
+    """As where a control group holds the limit, so that both verdicts are the same."""
+    ended = Run("ros2 run", ended_by_itself=True, transcript=f"Traceback ...\n{error}\n")
+    opened = runs(ended)
+    cast("NoSandbox", opened.sandbox).held = held
+    assert opened.run(unheard).resource == (limit if held == "rlimit" else "")
 
 
 def test_a_node_that_already_failed_is_not_run_plainly(runs: Callable[..., Session]) -> None:

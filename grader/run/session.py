@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import statistics
 import time
 from collections.abc import Callable
@@ -22,6 +23,11 @@ from grader.sandbox.proof import prove_again
 
 WORKS_SECONDS = 10.0
 LEAST_HELD = 3  # steps
+REFUSED = {
+    "memory": re.compile(r"MemoryError|bad_alloc|Cannot allocate memory"),
+    "processes": re.compile(r"Resource temporarily unavailable|can't start new thread"),
+}
+LAST_OUTPUT = 20_000  # characters, in which a program says why it ended
 SAMPLE = 0.05  # of the packages without a remark are run plainly too
 CONFIRMING_RUNS = 2  # before a node counts as one that works only while it is marked
 RUNS = 3  # attempts at a run if our own side fails
@@ -76,7 +82,10 @@ class Session:
                 prove_again(self.sandbox)
         finally:
             self.timing["build"] += time.monotonic() - begin
-        return replace(made, stopped_by=made.stopped_by or self._resource(made.status))
+        stopped_by = made.stopped_by or self._resource(made.status)
+        if not stopped_by and made.status != 0:
+            stopped_by = self._limit_on_a_process(made.log)
+        return replace(made, stopped_by=stopped_by)
 
     def run(self, on_event: Callable[[Event], None], *, named: Assignment | None = None) -> Run:
         """Run the node and return the result; repeat the run if our own side failed.
@@ -139,6 +148,8 @@ class Session:
             finally:
                 self._drop_probe()  # a run never shares a network with an earlier one
             run.resource = run.resource or self.sandbox.resource_limit_hit()
+            if run.ended_by_itself and not run.resource:
+                run.resource = self._limit_on_a_process(run.transcript)
             if run.ended_by_itself and not run.nodes and not run.resource and not self._works():
                 failure = ProbeError(f"the sandbox no longer starts commands:\n{run.transcript}")
                 continue
@@ -221,6 +232,17 @@ class Session:
 
     def _resource(self, status: int | None) -> str:
         return self.sandbox.resource_limit_hit() if status not in (0, None) else ""
+
+    def _limit_on_a_process(self, output: str) -> str:
+        """Return the limit that output names, if it is one on each process ("" if none is).
+
+        The kernel counts no such refusals: the program is told, and dies of its own error.
+        """
+        held_by = self.sandbox.held_by()
+        for limit, error in REFUSED.items():
+            if held_by.get(limit) == "rlimit" and error.search(output[-LAST_OUTPUT:]):
+                return limit
+        return ""
 
     def _drop_probe(self) -> None:
         probe, self._probe = self._probe, None
