@@ -73,6 +73,9 @@ class NoSandbox:
     def resource_limit_hit(self) -> str:
         return ""
 
+    def held_by(self) -> dict[str, str]:
+        return {}
+
     def run(self, argv: Sequence[str], *, seconds: float) -> Outcome:
         return Outcome(0 if self._works else 1, b"", seconds)
 
