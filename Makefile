@@ -110,7 +110,7 @@ test-long:  ## Run what counts in dozens: every package for real, attacks, kills
 	  .venv/bin/python -m tests.engine up all && { $(call run_tests,long); } && \
 	  GRADER_TESTS_EVIDENCE=real $(PYTEST) $(RECORDED)
 
-recordings:  ## Record the evidence of the tests' packages anew (a quarter of an hour)
+recordings:  ## Record the evidence of the tests' packages anew (three quarters of an hour)
 	@$(BOOTSTRAP) --tests
 	@rm -rf tests/recordings/evidence
 	@GRADER_TESTS_EVIDENCE=record $(PYTEST) $(RECORDED)

@@ -24,9 +24,7 @@ CFG = "setup.cfg"
 LOG = "self.get_logger().info('Hello time: ' + str(self.counter_))"
 LOG_LINE = f"        {LOG}\n"
 STEP_LINE = "        self.counter_ += 1\n"
-BODY_OF_MAIN = (
-    "    rclpy.init(args=args)\n"
-    "    node = MyFirstNode()\n"
+SPIN_UNTIL_CTRL_C = (
     "    try:\n"
     "        rclpy.spin(node)\n"
     "    except KeyboardInterrupt:\n"
@@ -35,6 +33,7 @@ BODY_OF_MAIN = (
     "        node.destroy_node()\n"
     "        rclpy.try_shutdown()\n"
 )
+BODY_OF_MAIN = f"    rclpy.init(args=args)\n    node = MyFirstNode()\n{SPIN_UNTIL_CTRL_C}"
 
 UNBUILT = ("build.colcon",)
 UNINSTALLED = ("entry_point.executable",)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
 from grader.mistakes.fixes import layout, node_count, node_life, node_log, node_timer
 from grader.mistakes.kind import Family, Kind
 from grader.package.edit.tree import Replace
@@ -474,15 +474,7 @@ KINDS = (
                 "ignores_interrupt",
                 Replace(
                     NODE,
-                    (
-                        "    try:\n"
-                        "        rclpy.spin(node)\n"
-                        "    except KeyboardInterrupt:\n"
-                        "        pass\n"
-                        "    finally:\n"
-                        "        node.destroy_node()\n"
-                        "        rclpy.try_shutdown()\n"
-                    ),
+                    SPIN_UNTIL_CTRL_C,
                     (
                         "    import signal\n"
                         "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n"

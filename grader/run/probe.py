@@ -57,6 +57,11 @@ def service_type(name: str) -> Any:
         return None
 
 
+def full_name(space: str, name: str) -> str:
+    """Return a node's full name, such as /robot/talker."""
+    return (space if space.endswith("/") else space + "/") + name
+
+
 class Peer:
     """A node, and the service by which it is asked whether it has run what was due."""
 
@@ -159,15 +164,14 @@ class Probe:
         found: dict[str, dict[str, Any]] = {}
         for name, space in self.node.get_node_names_and_namespaces():
             if name != NAME and len(found) < MOST_NODES:
-                full = (space if space.endswith("/") else space + "/") + name
+                full = full_name(space, name)
                 found[full] = {"name": full, "clock": False, "rosout": False, "parameters": False}
         for key, infos in (
             ("clock", self.node.get_subscriptions_info_by_topic("/clock")),
             ("rosout", self.node.get_publishers_info_by_topic("/rosout")),
         ):
             for info in infos:
-                space = info.node_namespace
-                full = (space if space.endswith("/") else space + "/") + info.node_name
+                full = full_name(info.node_namespace, info.node_name)
                 if full in found:
                     found[full][key] = True
         for full, node in found.items():
@@ -181,16 +185,12 @@ class Probe:
     def doubled(self) -> list[str]:
         """Return the nodes with more publishers on /rosout than the one of their logger."""
         names = self.node.get_node_names_and_namespaces()
-        nodes = Counter((space, name) for name, space in names)
+        nodes = Counter(full_name(space, name) for name, space in names)
         publishers = Counter(
-            (info.node_namespace, info.node_name)
+            full_name(info.node_namespace, info.node_name)
             for info in self.node.get_publishers_info_by_topic("/rosout")
         )
-        return [
-            (space if space.endswith("/") else space + "/") + name
-            for (space, name), count in publishers.items()
-            if 0 < nodes[space, name] < count
-        ][:MOST_NODES]
+        return [full for full, count in publishers.items() if 0 < nodes[full] < count][:MOST_NODES]
 
     def peer(self, full: str) -> Peer:
         """Return how a node is asked: by its parameter service, or by another without an effect."""

@@ -34,10 +34,10 @@ class Run:
 
     `counting` is the node whose logger carried the count, "" if it is unknown.
     `first_line_seconds` is counted from the start of `ros2 run`; `logged` is the number of bytes
-    that the log records would take on a terminal. `confirmed` is whether the node also counts as a person
-    would run it, None if it was not run so. `doubled` is a node with two publishers on /rosout: its
-    records prove nothing. `erased` is the number of lines of the count that the terminal showed and
-    no longer shows. `held_up` is the median of the seconds for which the node held up its steps in two
+    that the log records would take on a terminal. `confirmed` is whether the node also counts as a
+    person would run it, None if it was not run so. `doubled` is a node with two publishers on
+    /rosout: its records prove nothing. `erased` is above 0 if the terminal no longer shows lines of
+    the count. `held_up` is the median of the seconds for which the node held up its steps in two
     runs, 0 if it was at most a period.
     """
 
@@ -162,8 +162,8 @@ def counts_plainly(
 ) -> bool | None:
     """Return whether the node counts on the wall clock, without arguments: two lines are enough.
 
-    None if no node was seen within the time, which a busy machine can cause. The command is stopped by
-    Ctrl+C, and ends at `until` (by time.monotonic()) at the latest.
+    None if no node was seen within the time, which a busy machine can cause. The command is stopped
+    by Ctrl+C, and ends at `until` (by time.monotonic()) at the latest.
     """
     output = assignment.output
     probe.until = until

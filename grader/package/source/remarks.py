@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from grader.package.intake.model import SourceFile
+from grader.package.source.kept import keep_small
 from grader.package.source.module import Module, parse_module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.python import PythonFault
@@ -110,7 +111,7 @@ def remarks_on(files: Sequence[SourceFile]) -> list[Remark]:
         if file.path.endswith(COMPILED):
             found.append(Remark("hides", file.path, None, file.path.rpartition(".")[2]))
         elif file.path.endswith(".py"):
-            found += _of_file(file)
+            found += _in_file(file.path, file.data)
     kept: list[Remark] = []
     for remark in dict.fromkeys(found):
         if sum(other.kind == remark.kind for other in kept) < MOST_REMARKS:
@@ -118,17 +119,16 @@ def remarks_on(files: Sequence[SourceFile]) -> list[Remark]:
     return kept
 
 
-def _of_file(file: SourceFile) -> Iterator[Remark]:
-    if len(file.data) > MOST_BYTES:
-        yield Remark("hides", file.path, None, f"{len(file.data)} bytes")
-        return
+@keep_small
+def _in_file(path: str, found: bytes) -> tuple[Remark, ...]:
+    """Return the remarks on one file; the session, a check and the report ask for them."""
+    if len(found) > MOST_BYTES:
+        return (Remark("hides", path, None, f"{len(found)} bytes"),)
     try:
-        module = parse_module(file.path, file.data)
+        module = parse_module(path, found)
     except PythonFault:
-        return
-    yield from _names(module)
-    yield from _texts(module)
-    yield from _calls(module)
+        return ()
+    return (*_names(module), *_texts(module), *_calls(module))
 
 
 def _names(module: Module) -> Iterator[Remark]:
