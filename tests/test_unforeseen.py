@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.run import unforeseen as module
+from grader.base.state import STATE
 from grader.run.unforeseen import KEY_BYTES, KEY_FILE, installation_key, unforeseen
 from tests import processes
 
@@ -21,7 +21,7 @@ HASHES = [hashlib.sha256(str(n).encode()).hexdigest() for n in range(400)]
 
 @pytest.fixture(autouse=True)
 def own_installation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv(module.STATE, str(tmp_path / "state"))
+    monkeypatch.setenv(STATE, str(tmp_path / "state"))
     installation_key.cache_clear()
     return tmp_path / "state"
 
@@ -32,7 +32,7 @@ def test_one_installation_always_observes_a_submission_alike(
     before = [unforeseen(one, could_end=True) for one in HASHES]
     installation_key.cache_clear()
     assert [unforeseen(one, could_end=True) for one in HASHES] == before
-    monkeypatch.setenv(module.STATE, str(own_installation / "other"))
+    monkeypatch.setenv(STATE, str(own_installation / "other"))
     installation_key.cache_clear()
     assert [unforeseen(one, could_end=True) for one in HASHES] != before
 
@@ -60,7 +60,7 @@ def test_the_secret_is_readable_by_its_owner_only(own_installation: Path) -> Non
 def test_graders_that_start_together_agree_on_one_secret(own_installation: Path) -> None:
     code = "from grader.run.unforeseen import *; print(installation_key().hex())"
     command = [sys.executable, "-c", code]
-    environment = {**os.environ, module.STATE: str(own_installation)}
+    environment = {**os.environ, STATE: str(own_installation)}
 
     def ask(_: int) -> str:
         return subprocess.run(
@@ -75,6 +75,6 @@ def test_without_a_place_for_it_the_secret_is_the_process_own(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_text("in the way")
-    monkeypatch.setenv(module.STATE, str(tmp_path / "file" / "state"))
+    monkeypatch.setenv(STATE, str(tmp_path / "file" / "state"))
     assert len(installation_key()) == KEY_BYTES
     assert installation_key() == installation_key()

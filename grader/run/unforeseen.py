@@ -15,9 +15,9 @@ import secrets
 import tempfile
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
-STATE = "GRADER_STATE"
+from grader.base.state import state_folder
+
 KEY_FILE = "observation.key"
 KEY_BYTES = 32
 MORE_TICKS = 3  # that are watched beyond the announced ones: one to this many
@@ -63,12 +63,3 @@ def installation_key() -> bytes:
         if len(kept) == KEY_BYTES:
             return kept
     return secrets.token_bytes(KEY_BYTES)
-
-
-def state_folder() -> Path:
-    """Return the folder for what belongs to this installation."""
-    own = os.environ.get(STATE)
-    if own:
-        return Path(own)
-    base = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
-    return Path(base) / "ros2_teaching_lab"
