@@ -12,6 +12,7 @@ from grader.report.events import Listener
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
+from grader.verdict.evidence_file import Judged
 from grader.verdict.mark import mark as mark_submission
 from grader.verdict.order import Order
 from grader.verdict.recording import Recording
@@ -57,7 +58,11 @@ def mark(
     recordings: list[Recording] | None = None,
 ) -> Report:
     """Build and run a package and return the report; its evidence is appended to `recordings`."""
-    keep = None if recordings is None else recordings.append
+
+    def keep(judged: Judged) -> None:
+        if recordings is not None:
+            recordings.append(judged.recording)
+
     wanted = order(path, distro=distro, sandbox=sandbox)
     return mark_submission(taken_in(path), wanted, listener, keep=keep)
 

@@ -17,8 +17,9 @@ from grader.package.submission import Submission
 from grader.report.events import Listener
 from grader.report.model import Report
 from grader.sandbox.limits import Limits
+from grader.verdict.evidence_file import Judged
+from grader.verdict.mark import Keep, replay
 from grader.verdict.mark import mark as mark_for_real
-from grader.verdict.mark import replay
 from grader.verdict.order import Order
 from grader.verdict.recording import Recording
 from tests import marking, processes
@@ -42,7 +43,12 @@ def mark(
 
 
 def mark_submission(
-    submission: Submission, order: Order, listener: Listener = unheard, **_: object
+    submission: Submission,
+    order: Order,
+    listener: Listener = unheard,
+    *,
+    keep: Keep | None = None,
+    **_: object,
 ) -> Report:
     """Return the report of a submission, with the arguments of `grader.verdict.mark.mark`."""
     file = file_of(submission)
@@ -60,6 +66,8 @@ def mark_submission(
         lang=order.lang,
         student_id=order.student_id,
     )
+    if keep is not None:
+        keep(Judged(submission, recording))
     if MODE == "real":
         real = marking.outcomes(mark_for_real(submission, order, unheard))
         assert real == marking.outcomes(report), f"{file.name} is not what happens now"
@@ -72,10 +80,10 @@ def file_of(submission: Submission) -> Path:
 
 
 def _record(submission: Submission, order: Order, file: Path) -> None:
-    recordings: list[Recording] = []
+    kept: list[Judged] = []
     # the default limits: a busy machine must not reach them
-    mark_for_real(submission, replace(order, limits=Limits()), unheard, keep=recordings.append)
+    mark_for_real(submission, replace(order, limits=Limits()), unheard, keep=kept.append)
     file.parent.mkdir(parents=True, exist_ok=True)
     part = file.with_suffix(f".{os.getpid()}")
-    part.write_bytes(recordings[0].to_bytes())
+    part.write_bytes(kept[0].recording.to_bytes())
     part.replace(file)

@@ -181,7 +181,7 @@ def test_two_distros_give_a_matrix(tmp_path: Path) -> None:
     )
     assert done.returncode == 0, done.stdout + done.stderr
     written = {p.name for p in (tmp_path / "o").rglob("*.json")}
-    assert written == {"report.json", "matrix.json"}
+    assert written == {"report.json", "evidence.json", "matrix.json"}
     assert len(list((tmp_path / "o").rglob("report.json"))) == 2
     assert "kilted" in done.stdout
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 
 from grader.batch.intake import IntakeItem
 from grader.batch.ledger import Ledger
 from grader.batch.model import Student
 from grader.package.intake.naming import sanitise
 from grader.report.model import Report
+from grader.verdict.evidence_file import EvidenceFile
 
 Pair = tuple[str, str]  # a student's key, and the key of a verdict
 
@@ -34,9 +36,17 @@ def share_group_verdicts(ledger: Ledger, items: Iterable[IntakeItem]) -> None:
         rows = [verdicts[pair] for pair in pairs if pair in verdicts and pair not in regrades]
         without = [item for pair, item in pairs.items() if pair not in verdicts]
         if rows and without:
-            report = ledger.report(max(row.id for row in rows))
+            verdict = max(row.id for row in rows)
             students = [item.handed_in.student for item in without]
-            ledger.record_for_all(group[0].key, reports_for(report, students))
+            ledger.record_for_all(
+                group[0].key,
+                reports_for(ledger.report(verdict), students),
+                evidence=partial(_evidence_for, ledger.evidence(verdict)),
+            )
+
+
+def _evidence_for(evidence: bytes, report: Report) -> bytes:
+    return EvidenceFile.from_bytes(evidence).for_report(report).to_bytes() if evidence else b""
 
 
 def reports_for(report: Report, students: Sequence[Student]) -> Mapping[str, Report]:

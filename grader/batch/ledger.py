@@ -9,13 +9,15 @@ import contextlib
 import os
 import sqlite3
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import astuple, dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 from types import TracebackType
 
 from grader.base.errors import SurroundingsError
+from grader.base.signing import PublicKey, SigningKey, own_key
+from grader.batch import ledger_chain
 from grader.batch.ledger_file import LedgerFile
 from grader.batch.model import Override, Student
 from grader.report.model import Report
@@ -66,6 +68,7 @@ class Ledger:
 
     def __init__(self, path: Path, *, makes: bool = True) -> None:
         """Open the ledger at `path`; `makes` and errors as in `LedgerFile`."""
+        self._signing = own_key()  # first: a key that cannot be used ends nothing half done
         self._file = LedgerFile(path, makes=makes)
         self._kept: dict[int, Report] = {}
         self.path = path
@@ -81,24 +84,31 @@ class Ledger:
     ) -> None:
         self._file.close()
 
-    def record(self, student: str, key: str, report: Report) -> int:
+    def record(self, student: str, key: str, report: Report, *, evidence: bytes = b"") -> int:
         """Record a verdict and return its id; it is on the disk when this returns.
 
         Completes a requested regrade. Raises AlreadyMarkedError if there is a verdict and no
         regrade was requested.
         """
         with self._file.write() as connection:
-            return _insert(connection, student, key, report)
+            return _insert(connection, student, key, report, evidence, self._signing)
 
-    def record_for_all(self, key: str, reports: Mapping[str, Report]) -> None:
+    def record_for_all(
+        self,
+        key: str,
+        reports: Mapping[str, Report],
+        *,
+        evidence: Callable[[Report], bytes] = lambda _: b"",
+    ) -> None:
         """Record the verdicts of a group's members, by their keys: all of them or none.
 
-        A member who already has a verdict, and no requested regrade, keeps it.
+        A member who already has a verdict, and no requested regrade, keeps it. `evidence` returns
+        the content of a report's evidence file, b"" if there is none.
         """
         with self._file.write() as connection:
             for student, report in reports.items():
                 with contextlib.suppress(AlreadyMarkedError):
-                    _insert(connection, student, key, report)
+                    _insert(connection, student, key, report, evidence(report), self._signing)
 
     def record_fault(self, student: str, key: str, message: str) -> None:
         """Record that the grader failed; an earlier verdict still counts."""
@@ -143,6 +153,34 @@ class Ledger:
         self._kept[verdict] = report
         return report
 
+    def evidence(self, verdict: int) -> bytes:
+        """Return the content of a verdict's evidence file, b"" if there is none."""
+        rows = self._file.rows("SELECT evidence FROM verdict WHERE id = ?", (verdict,))
+        if not rows or rows[0][0] is None:
+            return b""
+        try:
+            return zlib.decompress(rows[0][0])
+        except zlib.error as error:
+            raise SurroundingsError(
+                f"the ledger {self.path} holds evidence that cannot be read (verdict {verdict})"
+            ) from error
+
+    def verdict_of_report(self, report: Report) -> int:
+        """Return the id of the verdict with exactly this report; raise KeyError if there is none."""
+        rows = self._file.rows(
+            "SELECT id FROM verdict WHERE submission = ? ORDER BY id DESC",
+            (report.submission.sha256,),
+        )
+        for (verdict,) in rows:
+            if self.report(verdict) == report:
+                return int(verdict)
+        raise KeyError(report.submission.name)
+
+    def check_chain(self, key: PublicKey | None) -> ledger_chain.ChainCheck:
+        """Check the chain of all verdicts and corrections, and with a key their signatures."""
+        with self._file.write() as connection:  # so that nothing is added meanwhile
+            return ledger_chain.check_chain(connection, key)
+
     def _read(self, verdict: int) -> Report:
         rows = self._file.rows("SELECT report FROM verdict WHERE id = ?", (verdict,))
         if not rows:
@@ -154,6 +192,10 @@ class Ledger:
                 f"the ledger {self.path} holds a report that cannot be read (verdict {verdict})",
                 remedy="Mark that student again: --regrade NAME.",
             ) from error
+
+    def verdict_ids(self) -> list[int]:
+        """Return the ids of all verdicts, in the order in which they were recorded."""
+        return [int(row[0]) for row in self._file.rows("SELECT id FROM verdict ORDER BY id")]
 
     def count(self) -> int:
         """Return the number of verdicts recorded so far."""
@@ -233,7 +275,7 @@ class Ledger:
     def _put_override(self, assignment: str, override: Override, points: float | None) -> None:
         at = _text(override.at) or _now()
         with self._file.write() as connection:
-            connection.execute(
+            cursor = connection.execute(
                 "INSERT INTO override (student, assignment, check_id, points, because, by, at) "
                 "VALUES (?, ?, ?, ?, ?, ?, ?)",
                 (
@@ -241,6 +283,7 @@ class Ledger:
                     *(override.because, override.by, at),
                 ),
             )
+            ledger_chain.append(connection, "override", int(cursor.lastrowid or 0), self._signing)
 
     def overrides(self, assignment: str) -> list[Override]:
         """Return the corrections in force: the last one of each student and check."""
@@ -290,7 +333,14 @@ def path_text(path: Path) -> str:
     return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
-def _insert(connection: sqlite3.Connection, student: str, key: str, report: Report) -> int:
+def _insert(
+    connection: sqlite3.Connection,
+    student: str,
+    key: str,
+    report: Report,
+    evidence: bytes,
+    signing: SigningKey | None,
+) -> int:
     (rounds,) = connection.execute(
         "SELECT count(*) FROM verdict WHERE student = ? AND key = ?", (student, key)
     ).fetchone()
@@ -302,14 +352,17 @@ def _insert(connection: sqlite3.Connection, student: str, key: str, report: Repo
     content = zlib.compress(report.model_dump_json(by_alias=True).encode(), 6)
     cursor = connection.execute(
         "INSERT INTO verdict (student, key, round, assignment, submission, distro, score, "
-        "max_score, report, marked) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "max_score, report, evidence, marked) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
             *(student, key, rounds + 1, report.assignment.id, report.submission.sha256),
-            *(report.environment.distro, report.score, report.max_score, content, _now()),
+            *(report.environment.distro, report.score, report.max_score, content),
+            *(zlib.compress(evidence, 6) if evidence else None, _now()),
         ),
     )
+    verdict = int(cursor.lastrowid or 0)
+    ledger_chain.append(connection, "verdict", verdict, signing)
     connection.execute("DELETE FROM fault WHERE student = ? AND key = ?", (student, key))
-    return int(cursor.lastrowid or 0)
+    return verdict
 
 
 def _now() -> str:

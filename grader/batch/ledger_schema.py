@@ -6,11 +6,13 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Callable
+
+from grader.batch import ledger_chain
 
 APPLICATION = 0x524F5332  # "ROS2": tells a ledger from another program's database
 
-STEPS = (
-    """
+FIRST = """
     CREATE TABLE handed_in (
         id INTEGER PRIMARY KEY,
         student TEXT NOT NULL,
@@ -90,7 +92,24 @@ STEPS = (
         name TEXT PRIMARY KEY,
         value TEXT NOT NULL
     );
-    """,
+"""
+CHAIN = """
+    ALTER TABLE verdict ADD COLUMN evidence BLOB;
+
+    -- of each verdict and each correction, in the order in which they were recorded
+    CREATE TABLE link (
+        id INTEGER PRIMARY KEY,
+        place TEXT NOT NULL,
+        row INTEGER NOT NULL,
+        hash TEXT NOT NULL,
+        signature BLOB,
+        UNIQUE (place, row)
+    );
+"""
+# the tables of a step, and what is done with the rows that are there
+STEPS: tuple[tuple[str, Callable[[sqlite3.Connection], None] | None], ...] = (
+    (FIRST, None),
+    (CHAIN, ledger_chain.adopt),
 )
 
 
@@ -101,14 +120,21 @@ def bring_up_to_date(connection: sqlite3.Connection) -> bool:
     """
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     (application,) = connection.execute("PRAGMA application_id").fetchone()
-    (tables,) = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
-    if tables and application != APPLICATION:
+    (known,) = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    if known and application != APPLICATION:
         raise sqlite3.DatabaseError("it is the database of another program")
     if version > len(STEPS):
         return False
-    for number, step in enumerate(STEPS[version:], start=version + 1):
-        connection.executescript(
-            f"BEGIN IMMEDIATE; {step} PRAGMA application_id = {APPLICATION}; "
-            f"PRAGMA user_version = {number}; COMMIT;"
-        )
+    for number, (tables, fill) in enumerate(STEPS[version:], start=version + 1):
+        try:
+            connection.executescript(f"BEGIN IMMEDIATE; {tables}")
+            if fill is not None:
+                fill(connection)
+            connection.execute(f"PRAGMA application_id = {APPLICATION}")
+            connection.execute(f"PRAGMA user_version = {number}")
+        except BaseException:
+            if connection.in_transaction:
+                connection.execute("ROLLBACK")
+            raise
+        connection.execute("COMMIT")
     return True

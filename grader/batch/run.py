@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timezone
+from functools import partial
 
 from grader.base.errors import SurroundingsError
 from grader.batch.earlier_submissions import EarlierSubmissions
@@ -22,6 +23,7 @@ from grader.package.submission import Submission
 from grader.ros.distro import Distro
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
+from grader.verdict.evidence_file import Judged, evidence_bytes
 from grader.verdict.order import Order
 
 FAULTS_IN_A_ROW = 3  # after that many failures the sandbox is tried without a submission
@@ -175,7 +177,7 @@ def carry_out(
     running = pool.run(waiting, started=lambda task: listener.started(names[task.student]))
     with contextlib.closing(running):
         for done in running:
-            if _keep(ledger, done, plan.sharing):
+            if _keep(ledger, done, plan.sharing, setting.assignment):
                 reached, in_a_row = reached + 1, 0
             else:
                 faults, in_a_row = faults + 1, in_a_row + 1
@@ -237,14 +239,21 @@ def _plan(ledger: Ledger, items: list[IntakeItem]) -> ClassPlan:
     return plan
 
 
-def _keep(ledger: Ledger, done: Done, sharing: Mapping[Pair, list[Student]]) -> bool:
+def _keep(
+    ledger: Ledger, done: Done, sharing: Mapping[Pair, list[Student]], assignment: Assignment
+) -> bool:
     """Record a verdict; return False if there is none, so that an earlier one still counts."""
-    task, report = done.task, done.answer.report
+    task, report, recording = done.task, done.answer.report, done.answer.recording
     others = [one for one in sharing.get((task.student, task.key), ()) if one.key != task.student]
     if report is None:
         for student in (task.student, *(other.key for other in others)):
             ledger.record_fault(student, task.key, done.answer.fault)
         return False
     # a submission that changed back to a marked one while it waited keeps that verdict
-    ledger.record_for_all(task.key, {task.student: report, **reports_for(report, others)})
+    judged = Judged(task.submission, recording) if recording is not None else None
+    ledger.record_for_all(
+        task.key,
+        {task.student: report, **reports_for(report, others)},
+        evidence=partial(evidence_bytes, judged, assignment),
+    )
     return True

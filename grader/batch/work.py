@@ -6,6 +6,7 @@ folder has changed in the meantime.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import time
 import traceback
@@ -17,14 +18,16 @@ from grader.base.errors import GraderError
 from grader.base.i18n.message import joined
 from grader.base.i18n.translator import Translator
 from grader.base.unheard import unheard
-from grader.batch.submission_json import submission_from_json, submission_json
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
+from grader.package.submission_json import submission_from_json, submission_json
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
+from grader.verdict.evidence_file import Judged
 from grader.verdict.mark import mark
 from grader.verdict.order import Order
+from grader.verdict.recording import Recording, RecordingError
 
 TRIES = 3  # at most, if the grader itself fails on a submission
 MARGIN_SECONDS = 60.0  # on top of a verdict's time limit, before its worker counts as hung
@@ -84,16 +87,19 @@ class Task:
 
 @dataclass(frozen=True)
 class Answer:
-    """A report, or why the grader failed to make one; `seconds` is the time that it took."""
+    """A report and its evidence, or why the grader failed; `seconds` is the time that it took."""
 
     report: Report | None = None
     fault: str = ""
     seconds: float = 0
+    recording: Recording | None = None
 
     def to_text(self) -> str:
         """Return it as JSON on one line."""
         report = self.report.model_dump_json(by_alias=True) if self.report else None
-        return json.dumps({"report": report, "fault": self.fault, "seconds": self.seconds})
+        recording = _recording_text(self.recording)
+        rest = {"fault": self.fault, "seconds": self.seconds, "recording": recording}
+        return json.dumps({"report": report, **rest})
 
     @classmethod
     def from_text(cls, text: str) -> Answer:
@@ -101,9 +107,15 @@ class Answer:
         found = json.loads(text)
         try:
             report, fault, seconds = found["report"], str(found["fault"]), float(found["seconds"])
+            recording = found["recording"]
         except (KeyError, TypeError) as error:
             raise ValueError("not an answer") from error
-        return cls(Report.model_validate_json(report) if report else None, fault, seconds)
+        return cls(
+            Report.model_validate_json(report) if report else None,
+            fault,
+            seconds,
+            _recording(recording),
+        )
 
     @property
     def worth_retrying(self) -> bool:
@@ -122,6 +134,18 @@ class Answer:
         if self.report is None or other.report.inconclusive < self.report.inconclusive:
             return other
         return self
+
+
+def _recording_text(recording: Recording | None) -> str | None:
+    with contextlib.suppress(ValueError):  # nor does evidence that cannot be written
+        return recording.to_bytes().decode() if recording is not None else None
+    return None
+
+
+def _recording(text: str | None) -> Recording | None:
+    with contextlib.suppress(RecordingError):  # evidence that cannot be read loses no verdict
+        return Recording.from_bytes(text.encode()) if text else None
+    return None
 
 
 @dataclass(frozen=True)
@@ -194,11 +218,13 @@ def mark_task(job: Job, task: Task) -> Answer:
         lang=job.lang,
     )
     report, fault = None, ""
+    kept: list[Judged] = []
     try:
         # no progress of single verdicts: many run at once
-        report = mark(submission, order, unheard)
+        report = mark(submission, order, unheard, keep=kept.append)
     except GraderError as error:
         fault = Translator(job.lang)(joined(error.message, error.remedy, by="\n"))
     except Exception:  # a failure of the grader must not stop the other submissions
         fault = traceback.format_exc(limit=-6)
-    return Answer(report, fault, time.monotonic() - begin)
+    recording = kept[0].recording if kept else None
+    return Answer(report, fault, time.monotonic() - begin, recording)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.base.errors import UsageError
 from grader.base.gate import bytes_of
 from grader.batch.systems.known import report_forms
 
@@ -56,14 +55,6 @@ def _as_in(form: Callable[[Report, bool], str], show_hidden: bool, report: Repor
 
 
 def _read(path: Path) -> Report:
-    from pydantic import ValidationError  # noqa: PLC0415 - keeps --help fast
+    from grader.batch.find_evidence import read_report  # noqa: PLC0415 - keeps --help fast
 
-    from grader.report.model import Report  # noqa: PLC0415
-
-    try:
-        return Report.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise UsageError(f"{path} cannot be read: {error.strerror}") from None
-    except ValidationError as error:
-        first = error.errors()[0]
-        raise UsageError(f"{path} is not a report of this grader: {first['msg']}") from None
+    return read_report(path)

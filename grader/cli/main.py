@@ -57,6 +57,10 @@ COMMANDS = {
         "grader.cli.images:images",
         "Build the Docker images of a distro (--distro), and list all images with their sizes.",
     ),
+    "keygen": LazyCommand(
+        "grader.cli.keygen:keygen",
+        "Make the key with which this installation signs the evidence of its verdicts.",
+    ),
     "override": LazyCommand(
         "grader.cli.override:override",
         "Correct a verdict by hand: grader override STUDENT --check ID --points N --because WHY.",
@@ -65,9 +69,17 @@ COMMANDS = {
         "grader.cli.prefix:prefix",
         "Make the ROS prefix of a distro from PyPI's wheels unless it exists, and print its path.",
     ),
+    "replay": LazyCommand(
+        "grader.cli.replay:replay",
+        "Judge a report's evidence again, without running anything, and compare the verdicts.",
+    ),
     "validate": LazyCommand(
         "grader.cli.validate:validate",
         "Test an assignment: mark its solution, starter and mutants, and check the verdicts.",
+    ),
+    "verify": LazyCommand(
+        "grader.cli.verify:verify",
+        "Check that PATH (a report.json, its folder, or a ledger) is what the grader wrote.",
     ),
 }
 

@@ -1,5 +1,6 @@
 """Where reports are kept: `<out>/<student>/<distro>/report.json` and `<out>/<student>/matrix.json`.
 
+The evidence of a report is beside it, in `evidence.json`, with its signature if there is a key.
 Two submissions never share a folder: the reports in it name the submission. The second one's is
 `<student>-<8 hex digits of its path's SHA-256>`, the same in each run.
 """
@@ -17,11 +18,14 @@ from pathlib import Path
 from grader.base.errors import SurroundingsError
 from grader.base.folder import Folder
 from grader.base.i18n.message import say
+from grader.base.signing import own_key
 from grader.report.matrix import matrix_of
 from grader.report.model import Report
 
 REPORT = "report.json"
 MATRIX = "matrix.json"
+EVIDENCE = "evidence.json"
+SIGNATURE = "evidence.json.sig"
 NAME_BYTES = 255  # the longest file name on Linux and macOS
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 FORBIDDEN = (errno.EACCES, errno.EPERM, errno.EROFS)
@@ -33,10 +37,12 @@ def report_json(report: Report) -> str:
     return report.model_dump_json(by_alias=True, indent=2) + "\n"
 
 
-def write_report(report: Report, out: Path, student: str, *, durable: bool = True) -> Path:
+def write_report(
+    report: Report, out: Path, student: str, *, durable: bool = True, evidence: bytes = b""
+) -> Path:
     """Write a report below `out` (created if it is missing) and return the path of its file.
 
-    If the grader is killed, the file is the old report or the new one. Only its owner can read
+    `evidence` is the content of its evidence file, b"" for none. If the grader is killed, the file is the old report or the new one. Only its owner can read
     it; a link in its place or in that of its folders is not followed. ValueError if a name is not
     a file name; SurroundingsError if it cannot be written. `durable` as for a Folder.
     """
@@ -46,8 +52,21 @@ def write_report(report: Report, out: Path, student: str, *, durable: bool = Tru
         with folder.private(distro) as place:
             if locked:
                 place.sweep()
+            _replace_evidence(place, evidence)
             place.replace(REPORT, report_json(report).encode())
         return folder.path / distro / REPORT
+
+
+def _replace_evidence(place: Folder, evidence: bytes) -> None:
+    """Replace the evidence of the earlier report; a signature is never beside what it is not of."""
+    place.remove(SIGNATURE)
+    if not evidence:
+        place.remove(EVIDENCE)
+        return
+    key = own_key()
+    place.replace(EVIDENCE, evidence)
+    if key is not None:
+        place.replace(SIGNATURE, key.sign(evidence))
 
 
 def write_matrix(reports: Sequence[Report], out: Path, student: str) -> Path:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from datetime import datetime, timezone
+from typing import TYPE_CHECKING
 
 import grader
 from grader.base.i18n.message import say
@@ -25,11 +26,16 @@ from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
 from grader.verdict.order import Order
-from grader.verdict.recording import Recording, evidence_of, record
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence_file import Judged
+    from grader.verdict.recording import Recording
+
+Keep = Callable[["Judged"], None]
 
 
-def grade(order: Order, listener: events.Listener) -> model.Report:
-    """Mark one submission on one distro.
+def grade(order: Order, listener: events.Listener, *, keep: Keep | None = None) -> model.Report:
+    """Mark one submission on one distro; `keep` is called with its evidence.
 
     Raises UsageError if the path does not exist or cannot be read, SurroundingsError if the
     grader's own surroundings fail; everything else is in the report.
@@ -42,7 +48,7 @@ def grade(order: Order, listener: events.Listener) -> model.Report:
         name=order.name,
         modes_kept=order.modes_kept,
     )
-    return mark(submission, order, listener, intake=time.monotonic() - begin)
+    return mark(submission, order, listener, intake=time.monotonic() - begin, keep=keep)
 
 
 def mark(
@@ -51,12 +57,9 @@ def mark(
     listener: events.Listener,
     *,
     intake: float = 0,
-    keep: Callable[[Recording], None] | None = None,
+    keep: Keep | None = None,
 ) -> model.Report:
-    """Mark a submission whose intake took `intake` seconds; see `grade`.
-
-    `keep` is called with the recording of the evidence.
-    """
+    """Mark a submission whose intake took `intake` seconds; see `grade`."""
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
     assignment = order.assignment
@@ -77,7 +80,10 @@ def mark(
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:
-        keep(record(evidence, environment))
+        from grader.verdict.evidence_file import Judged  # noqa: PLC0415 - not before the build
+        from grader.verdict.recording import record  # noqa: PLC0415
+
+        keep(Judged(submission, record(evidence, environment)))
     timing = model.Timing(
         setup=round(setup, 3),
         intake=round(intake, 3),
@@ -109,6 +115,8 @@ def replay(
 
     Raises RecordingError if the recording is not of this submission and assignment.
     """
+    from grader.verdict.recording import evidence_of  # noqa: PLC0415 - slow
+
     translate = Translator(lang)
     evidence = evidence_of(recording, submission, assignment)
     return compose(

@@ -1,13 +1,14 @@
 """The evidence of one verdict as a file: what the build and the run showed, judged again later.
 
 A recording is canonical JSON: UTF-8, sorted keys, no white space, no NaN or infinity, a line end
-after it. So equal evidence is equal bytes. Its fields are in docs/recordings.md. Checks, diagnosis,
+after it. So equal evidence is equal bytes. Bytes of a name that are not UTF-8 are escaped. Its fields are in docs/recordings.md. Checks, diagnosis,
 fixes and the report work on it as they do on a build and a run; nothing is executed.
 """
 
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
@@ -35,6 +36,7 @@ from grader.verdict.evidence import Evidence
 EVENT_LISTS = ("events", "before_start", "early")  # of a Watch; they share their events
 EVENTS = TypeAdapter(list[Event])
 RUN = TypeAdapter(Run)
+SURROGATES = re.compile("[\ud800-\udfff]")  # they stand for bytes that are not UTF-8
 
 
 class RecordingError(UsageError):
@@ -162,7 +164,12 @@ def canonical_json(value: object) -> bytes:
     text = json.dumps(
         value, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")
     )
-    return f"{text}\n".encode()
+    return SURROGATES.sub(_escaped, f"{text}\n").encode()
+
+
+def _escaped(found: re.Match[str]) -> str:
+    """Return a backslash (itself escaped in JSON) and the byte in hexadecimal digits."""
+    return f"\\\\x{ord(found[0]) & 0xFF:02x}"
 
 
 def _asked(assignment: Assignment) -> Asked:

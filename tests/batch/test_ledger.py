@@ -15,6 +15,7 @@ import pytest
 
 from grader.base.errors import GraderError, SurroundingsError, UsageError
 from grader.batch.ledger import AlreadyMarkedError, HandedInRow, Ledger
+from grader.batch.ledger_schema import STEPS
 from grader.batch.model import Override, Student
 from grader.report.model import Report
 from tests.processes import ROOT
@@ -196,7 +197,7 @@ def test_the_ledger_of_a_newer_grader_is_refused_and_kept(path: Path) -> None:
     _database(path, "PRAGMA user_version = 1000")
     with pytest.raises(UsageError, match="newer grader"):
         Ledger(path)
-    _database(path, "PRAGMA user_version = 1")
+    _database(path, f"PRAGMA user_version = {len(STEPS)}")
     with Ledger(path) as ledger:
         assert ledger.report(row) == report()
 

@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from grader.batch.local_pool import LocalPool
-from grader.batch.submission_json import submission_from_json, submission_json
 from grader.batch.work import Done, Task
 from grader.package.submission import take_in
+from grader.package.submission_json import submission_from_json, submission_json
 from grader.report.model import Report
 from grader.ros.prefix import Ros
 from tests.batch.pool_tasks import CORPUS, JOB, own_workers, tasks
