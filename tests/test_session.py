@@ -12,7 +12,7 @@ from grader.base.unheard import unheard
 from grader.package.source.remarks import Remark
 from grader.run import session
 from grader.run.observer import Event, Watch
-from grader.run.probe_link import NodeSeen, ProbeError
+from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
 from grader.run.session import Session
 from grader.run.unforeseen import Unforeseen
@@ -54,17 +54,11 @@ def right_run(held: float = 0.02) -> Run:
 def runs(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Session]:
     """A function that makes a session whose runs and plain runs have given results."""
 
-    def make(*results: Run, plain: tuple[bool | None, ...] = ()) -> Session:
+    def make(*results: Run, plain: tuple[bool, ...] = ()) -> Session:
         left, plainly = iter(results), iter(plain)
 
-        def counts(*_: object, **__: object) -> bool | None:
-            found = next(plainly)
-            if found is None:
-                raise ProbeError("no answer")
-            return found
-
         monkeypatch.setattr(session, "observe", lambda *_, **__: next(left))
-        monkeypatch.setattr(session, "counts_plainly", counts)
+        monkeypatch.setattr(session, "counts_plainly", lambda *_, **__: next(plainly))
         monkeypatch.setattr(session, "ProbeLink", lambda _: NoProbe())
         return Session(cast("Sandbox", NoSandbox()), ASSIGNMENT)
 
@@ -100,13 +94,10 @@ def test_two_slow_steps_prove_nothing(runs: Callable[..., Session]) -> None:
         ((True,), True),
         ((False, True), True),
         ((False, False), False),
-        ((None, False), None),
-        ((False, None), None),
-        ((None, None), None),
     ],
 )
 def test_only_two_plain_runs_without_a_count_blame_the_node(
-    runs: Callable[..., Session], plain: tuple[bool | None, ...], confirmed: bool | None
+    runs: Callable[..., Session], plain: tuple[bool, ...], confirmed: bool
 ) -> None:
     opened = runs(right_run(), plain=plain)
     opened._remarks = [ASKS]

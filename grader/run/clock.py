@@ -103,6 +103,11 @@ class VirtualClock:
         if watch.missing or watch.early or not promptly or not driven:
             self._unmask(watch, on_event)
 
+    def go_on(self, seconds: float) -> None:
+        """Let ROS time pass without a barrier: the node is ending, and may need its next timer."""
+        self._at += round(seconds * SECOND)
+        self._observer.probe.ask("clock", at=self._at, until_log=0, patient=0)
+
     def _settle(self, watch: Watch) -> bool:
         """Start the clock at 1 ms; return whether a node answers, that is, whether it spins.
 
@@ -138,16 +143,18 @@ class VirtualClock:
                 watch.held.append(lap.own_seconds())
             lap = None if self._fine else Lap(self._pids)
             watch.events += early
-            found = self._wait_for_tick(due, k)
+            counts = any(event.n is not None for event in watch.events)
+            found = self._wait_for_tick(due, k, counts=counts)
             watch.early += _ticks_among(early, found)
             self._due, self._due_at = k, due
             watch.dues.append(due / SECOND)
             watch.events += found
             for event in found:
                 on_event(event)
-            if not found:
+            ticked = any(event.n is not None for event in found) if counts else bool(found)
+            if not ticked:
                 watch.missing.append(k)
-            if not found or watch.early or self._over():
+            if not ticked or watch.early or self._over():
                 return False
         return True
 
@@ -182,8 +189,11 @@ class VirtualClock:
                     events += self._step(between)
         return events + self._step(at)
 
-    def _wait_for_tick(self, due: int, k: int) -> list[Event]:
-        """Step to a due instant and return the events; [] only after enough barriers and time."""
+    def _wait_for_tick(self, due: int, k: int, *, counts: bool) -> list[Event]:
+        """Step to a due instant and return the events; without a tick only after enough barriers.
+
+        `counts` is whether a line of the expected form has come: then only such lines are ticks.
+        """
         began = time.monotonic()
         found: list[Event] = []
         for attempt in range(10 * TRIES):
@@ -192,9 +202,10 @@ class VirtualClock:
             found += [event if event.due is not None else replace(event, due=k) for event in events]
             if any(event.n is not None for event in found):
                 break
-            enough = TRIES / 4 if found else TRIES  # (another line came; the tick may follow)
+            other = bool(found) and not counts
+            enough = TRIES / 4 if other else TRIES  # (another line came; the tick may follow)
             seconds = UNASKED_SECONDS if self._unasked else TRY_SECONDS
-            if attempt >= enough and (found or time.monotonic() - began > seconds):
+            if attempt >= enough and (other or time.monotonic() - began > seconds):
                 break
             if self._over():
                 break
@@ -206,6 +217,7 @@ class VirtualClock:
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
         stop = self._at + 12 * self._period
+        counts = any(event.n is not None for event in watch.events)
         lines: list[Event] = []
         fresh: list[float] = []
         while self._at < stop and len(fresh) < 6 and not self._over():
@@ -214,7 +226,7 @@ class VirtualClock:
             for event in [e for e in events if e.n is not None] or events:
                 on_event(event)
             lines += events
-            fresh = [event.virtual for event in _ticks(lines)]
+            fresh = [event.virtual for event in _ticks(lines, counts=counts)]
         instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))
         if len(instants) > 1:
             gaps = [b - a for a, b in zip(instants, instants[1:])]
@@ -238,10 +250,15 @@ class VirtualClock:
             return
         kept = (watch.early, watch.missing, watch.dues)
         watch.early, watch.missing, watch.dues = [], [], []
+        before = watch.events
+        watch.events = []
         if self._at_due_instants(watch, at + self._period, on_event):
             watch.period = self._output.period
+            before = _without_dues(before)
         else:
             watch.early, watch.missing, watch.dues = kept
+            watch.events = _without_dues(watch.events)
+        watch.events = before + watch.events
 
     def _unmask(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Stop the clock for a while: lines that still come follow the wall clock."""
@@ -310,9 +327,19 @@ class VirtualClock:
         return stuck or self._observer.over or time.monotonic() > self._deadline
 
 
-def _ticks(events: Sequence[Event]) -> Sequence[Event]:
-    """Return the lines of the count: of the expected form, else those that recur, else all."""
+def _without_dues(events: Sequence[Event]) -> list[Event]:
+    """Return events of a try whose due instants do not count."""
+    return [event if event.due is None else replace(event, due=None) for event in events]
+
+
+def _ticks(events: Sequence[Event], *, counts: bool) -> Sequence[Event]:
+    """Return the lines of the count: of the expected form, else those that recur, else all.
+
+    Only those of the expected form if the node `counts`, that is, if one has come before.
+    """
     own = [event for event in events if event.n is not None]
+    if counts:
+        return own
     return own or recurring(events, on_wall=False) or events
 
 

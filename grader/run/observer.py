@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -121,6 +121,20 @@ def _logged_at(record: LogRecord) -> int:
     return record.stamp if agrees or not record.read else record.read
 
 
+def number_reader(output: Output) -> Callable[[str], int | None]:
+    """Return a function: the number in a line of the expected form, None for any other line."""
+    head, tail = output.text.split("{n}")
+    pattern = re.compile(re.escape(head) + r"(-?\d{1,18})" + re.escape(tail))
+
+    def number(text: str) -> int | None:
+        match = pattern.fullmatch(text)
+        if match is None or str(int(match.group(1))) != match.group(1):
+            return None  # 007 is not 7
+        return int(match.group(1))
+
+    return number
+
+
 class Observer:
     """Merges the lines of the terminal with the log records of ROS."""
 
@@ -128,8 +142,7 @@ class Observer:
         self.terminal = terminal
         self.probe = probe
         self.output = output
-        head, tail = output.text.split("{n}")
-        self._pattern = re.compile(re.escape(head) + r"(-?\d{1,18})" + re.escape(tail))
+        self.number = number_reader(output)
         self._unmatched: list[Line] = []
         self.records: list[LogRecord] = []
         self._shown: set[int] = set()  # the stamps of the records that the terminal showed
@@ -159,13 +172,6 @@ class Observer:
         """Note when the probe first saw a node's /rosout publisher: older records come late."""
         if self._linked is None and any(node.rosout for node in nodes):
             self._linked = time.time()
-
-    def number(self, text: str) -> int | None:
-        """Return the number in a line of the expected form, None for any other line."""
-        match = self._pattern.fullmatch(text)
-        if match is None or str(int(match.group(1))) != match.group(1):
-            return None  # 007 is not 7
-        return int(match.group(1))
 
     def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
         """Return the new events of a probe answer and of the terminal, in order."""

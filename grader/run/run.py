@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import shlex
 import time
@@ -12,11 +13,11 @@ from dataclasses import dataclass, field
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.run.clock import STILL, ForeignClock, VirtualClock, watch_wall
-from grader.run.observer import Event, Observer, Watch
+from grader.run.observer import Event, Observer, Watch, number_reader
 from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
 from grader.run.screen import stays
 from grader.run.terminal import Terminal
-from grader.sandbox.base import UNRUNNABLE, Sandbox
+from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 
 UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
 COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
@@ -24,7 +25,7 @@ OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
 FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
 TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
 SETTLE_SECONDS = 0.1  # wall time in which lines come that were logged before the time stood still
-PLAIN_SECONDS = 5.0  # wall time beyond two periods, in which a node logs twice
+PASSING_SECONDS = 0.25  # by which ROS time goes on at once while the node ends
 END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
 
@@ -109,9 +110,10 @@ def observe(
     probe.ready()
     begin = time.monotonic()
     longest = limits.run_seconds + limits.stop_seconds
-    terminal = _start(sandbox, run.command, probe)
+    terminal = _start(sandbox, run.command, probe.pipe)
     try:
         observer = Observer(terminal, probe, assignment.output)
+        clock: VirtualClock | None = None
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)
         if run.nodes and not terminal.ended:
             deadline = min(begin + limits.run_seconds, probe.until)
@@ -140,7 +142,7 @@ def observe(
         run.logged = observer.logged
         run.doubled = observer.doubled
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
-        _stop(run, terminal, limits.stop_seconds)
+        _stop(run, terminal, clock, limits.stop_seconds)
         run.watch.events += observer.take()
     except ProbeError:
         overdue = time.monotonic() - begin > longest
@@ -158,43 +160,38 @@ def observe(
 
 
 def counts_plainly(
-    sandbox: Sandbox, assignment: Assignment, probe: ProbeLink, *, until: float
-) -> bool | None:
+    sandbox: Sandbox, assignment: Assignment, *, patience: float, until: float
+) -> bool:
     """Return whether the node counts on the wall clock, without arguments: two lines are enough.
 
-    None if no node was seen within the time, which a busy machine can cause. The command is stopped
-    by Ctrl+C, and ends at `until` (by time.monotonic()) at the latest.
+    Nobody else is on its network, as at a person's first terminal. It has `patience` seconds for
+    the two lines; then, or at `until` (by time.monotonic()), the command is stopped by Ctrl+C.
     """
     output = assignment.output
-    probe.until = until
-    probe.ready()
-    terminal = _start(sandbox, ros2_run(assignment, plain=True), probe)
+    number = number_reader(output)
+    network = sandbox.probe(["cat"])  # it has a network of its own until its input ends
+    terminal = _start(sandbox, ros2_run(assignment, plain=True), network)
     try:
-        observer = Observer(terminal, probe, output)
-        lines: list[Event] = []
-        longest = 2 * output.period + PLAIN_SECONDS
-        until = min(until, time.monotonic() + sandbox.limits.start_seconds + longest)
-        seen = math.inf
-        while time.monotonic() < until:
-            answer = probe.ask("wait", seconds=0.2)
-            seen = min(seen, time.monotonic()) if answer.nodes else seen
-            lines += [event for event in observer.take(answer) if event.n is not None]
-            numbers = [event.n for event in observer.visible(lines)]
-            if numbers[:2] == [output.start, output.start + output.step]:
-                return True
-            if len(numbers) > 1 or observer.over or time.monotonic() - seen > longest:
-                return False
-        return None
+        numbers: list[int] = []
+        until = min(until, time.monotonic() + patience)
+        while time.monotonic() < until and not terminal.ended and not terminal.flooded:
+            for line in terminal.read(0.2):
+                texts = [part.text if part.log is None else part.log[3] for part in line.parts()]
+                numbers += [n for n in map(number, texts) if n is not None]
+            if len(numbers) > 1:
+                return numbers[:2] == [output.start, output.start + output.step]
+        return False
     finally:
         terminal.interrupt()
         terminal.finish(min(1.0, sandbox.limits.stop_seconds))
         terminal.close()
+        network.finish(1.0)
 
 
-def _start(sandbox: Sandbox, command: str, probe: ProbeLink) -> Terminal:
-    """Start the student's command in their workspace, as they do after the build."""
+def _start(sandbox: Sandbox, command: str, network: Pipe) -> Terminal:
+    """Start the student's command in their workspace, in the network of a pipe."""
     script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {command}'
-    console = sandbox.console(["bash", "-c", script], probe=probe.pipe)
+    console = sandbox.console(["bash", "-c", script], probe=network)
     return Terminal(console, most=int(sandbox.limits.output))
 
 
@@ -288,15 +285,23 @@ def _count_while_still(run: Run, observer: Observer) -> bool | None:
     return any(event.kind in kinds for event in still)
 
 
-def _stop(run: Run, terminal: Terminal, seconds: float) -> None:
-    """Press Ctrl+C and record how the node ends."""
+def _stop(run: Run, terminal: Terminal, clock: VirtualClock | None, seconds: float) -> None:
+    """Press Ctrl+C and record how the node ends; ROS time goes on, as it does for a person.
+
+    Python's own signal handlers run when the node's wait returns: at its next timer, for example.
+    """
     pressed = time.monotonic()
     if run.flooded:
         return
     if not terminal.ended:
         run.interrupted = True
         terminal.interrupt()
-    _, ended = terminal.finish(seconds)
+    _, ended = terminal.finish(min(seconds, PASSING_SECONDS))
+    while not ended and (left := pressed + seconds - time.monotonic()) > 0:
+        if clock is not None:
+            with contextlib.suppress(ProbeError):
+                clock.go_on(PASSING_SECONDS)
+        _, ended = terminal.finish(min(left, PASSING_SECONDS))
     if ended:
         run.stop_seconds = time.monotonic() - pressed
         run.status, run.signal = terminal.status

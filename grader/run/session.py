@@ -17,7 +17,7 @@ from grader.run.observer import Event
 from grader.run.probe_link import ProbeError, ProbeLink
 from grader.run.run import Run, counts_plainly, observe
 from grader.run.unforeseen import Unforeseen, unforeseen
-from grader.run.workspace import Build, build
+from grader.run.workspace import Build, build, restore, save
 from grader.sandbox.base import Sandbox
 from grader.sandbox.proof import prove_again
 
@@ -30,6 +30,8 @@ REFUSED = {
 LAST_OUTPUT = 20_000  # characters, in which a program says why it ended
 SAMPLE = 0.05  # of the packages without a remark are run plainly too
 CONFIRMING_RUNS = 2  # before a node counts as one that works only while it is marked
+PATIENCE = 3.0  # times the wall time that the first line took, for those of a plain run
+PLAIN_SECONDS = 5.0  # of wall time on top of that
 RUNS = 3  # attempts at a run if our own side fails
 AGREE = 0.1  # of the period: two runs on the wall clock that differ by more are inconsistent
 
@@ -52,6 +54,7 @@ class Session:
         self._probe: ProbeLink | None = None
         self._remarks: list[Remark] = []
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
+        self._built = b""  # the workspace after the build, for a plain run
         self._deadline = time.monotonic() + sandbox.limits.verdict_seconds
 
     def __enter__(self) -> Session:
@@ -80,6 +83,8 @@ class Session:
             made = build(self.sandbox, submission, package=self.assignment.package)
             if made.doubts_colcon:
                 prove_again(self.sandbox)
+            if made.status == 0 and self._is_confirmed():
+                self._built = save(self.sandbox)
         finally:
             self.timing["build"] += time.monotonic() - begin
         stopped_by = made.stopped_by or self._resource(made.status)
@@ -119,7 +124,7 @@ class Session:
         elif self._doubtful(run):
             return self._second_opinion(run, self._run(unheard, named, fine=True))
         elif self._may_only_work_here(run):
-            run.confirmed = self._confirm(named)
+            run.confirmed = self._confirm(run, named)
         return run
 
     def _run(
@@ -176,26 +181,31 @@ class Session:
         ]
         if not begins_right or run.ended_by_itself or not self._on_time(run):
             return False  # (it has failed already)
+        return self._is_confirmed()
+
+    def _is_confirmed(self) -> bool:
+        """Whether the package is run plainly too, if it counts."""
         if self.assignment.confirm != "sample":
             return self.assignment.confirm == "always"
         asks = any(remark.kind in ("asks", "hides") for remark in self._remarks)
         return asks or self._unforeseen.draw < SAMPLE
 
-    def _confirm(self, named: Assignment) -> bool | None:
-        """Return whether the node counts in a plain run; False only after two that show it."""
-        found: list[bool | None] = []
-        while len(found) < CONFIRMING_RUNS and self._has_time():
-            probe = ProbeLink(self.sandbox)
+    def _confirm(self, run: Run, named: Assignment) -> bool | None:
+        """Return whether the node counts in a plain run too; False only after two that show it.
+
+        Each begins in the workspace as it was built, so that an earlier run cannot prepare it. The
+        first line of `run` tells how long this machine needs for it now.
+        """
+        slow = PATIENCE * (run.first_line_seconds or self.sandbox.limits.start_seconds)
+        patience = 2 * named.output.period + PLAIN_SECONDS + slow
+        tries = 0
+        while tries < CONFIRMING_RUNS and self._has_time():
+            clean = not self._built or restore(self.sandbox, self._built)
             until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
-            try:
-                found.append(counts_plainly(self.sandbox, named, probe, until=until))
-            except ProbeError:
-                found.append(None)
-            finally:
-                probe.close()
-            if found[-1]:
+            if clean and counts_plainly(self.sandbox, named, patience=patience, until=until):
                 return True
-        return False if found.count(False) == CONFIRMING_RUNS else None
+            tries += 1
+        return False if tries == CONFIRMING_RUNS else None
 
     def _works(self) -> bool:
         """Whether a command that does nothing succeeds; if so, the node ended by itself."""

@@ -11,6 +11,7 @@ import contextlib
 import hashlib
 import io
 import re
+import shlex
 import tarfile
 import time
 from dataclasses import dataclass, field
@@ -25,6 +26,7 @@ SUMMARY = "\nSummary: "  # at the end of colcon's output, whether the packages w
 MOST_LISTED = 2_000_000  # bytes of the list of built files
 MOST_OUTPUT = 2_000  # characters of the output of a failed command of ours
 LAY_OUT_SECONDS = 60.0
+MOST_SAVED = 30_000_000  # bytes of a workspace that is kept to be restored
 INSPECT_SECONDS = 20.0
 HOOK = re.compile(r"^install/([^/]+)/share/\1/hook/ament_prefix_path\.")
 METADATA = re.compile(r"build/[^/]+/[^/]+\.egg-info/entry_points\.txt")
@@ -169,6 +171,25 @@ def lay_out(sandbox: Sandbox, files: bytes) -> None:
     script = f"tar -xf - && {_setup(sandbox)}"
     outcome = sandbox.run(["bash", "-c", script], stdin=files, seconds=LAY_OUT_SECONDS)
     _check_ours(outcome, say("the workspace could not be laid out"))
+
+
+def save(sandbox: Sandbox) -> bytes:
+    """Return the built workspace as a tar archive; b"" if it is too large to be kept."""
+    script = "exec 2>/dev/null; chmod -R u+rwX src build install; exec tar -cf - src build install"
+    outcome = sandbox.run(["sh", "-c", script], seconds=INSPECT_SECONDS, output=MOST_SAVED)
+    return outcome.output if outcome.status == 0 else b""
+
+
+def restore(sandbox: Sandbox, saved: bytes) -> bool:
+    """Make the workspace what it was after the build: nothing that a run left is in it.
+
+    Return False if that fails, which only what a run left behind can cause.
+    """
+    place = shlex.quote(sandbox.workspace)
+    script = (
+        f"chmod -R u+rwX {place}/* 2>/dev/null; find {place} -mindepth 1 -delete && exec tar -xpf -"
+    )
+    return sandbox.run(["sh", "-c", script], stdin=saved, seconds=LAY_OUT_SECONDS).status == 0
 
 
 def _setup(sandbox: Sandbox) -> str:

@@ -16,7 +16,9 @@ from grader.run.run import Run
 from grader.verdict.evidence import Evidence
 
 REMARKS = {
-    "asks": msg("To look at: {place} reads {what}, which can tell a program where it runs."),
+    "asks": msg(
+        "To look at: {place} reads {what}, which can tell a program that it is being marked."
+    ),
     "hides": msg("To look at: {place} has {what}: the source does not show what it does."),
     "rosout": msg("To look at: {place} has {what}: the node may publish log records by hand."),
 }

@@ -52,6 +52,29 @@ ASKS = {
     "getenv",
     "argv",
 }
+ASKS_BY_CALL = {  # who else is on the graph, and clocks that do not follow ROS time
+    "count_publishers",
+    "count_subscribers",
+    "get_node_names",
+    "get_node_names_and_namespaces",
+    "get_publishers_info_by_topic",
+    "get_subscriptions_info_by_topic",
+    "get_service_names_and_types",
+    "get_topic_names_and_types",
+    "get_publisher_names_and_types_by_node",
+    "get_subscriber_names_and_types_by_node",
+    "get_subscription_count",
+    "wait_for_node",
+    "monotonic",
+    "monotonic_ns",
+    "perf_counter",
+    "perf_counter_ns",
+    "process_time",
+    "time",
+    "time_ns",
+    "clock_gettime",
+}
+OTHER_CLOCKS = {"STEADY_TIME", "SYSTEM_TIME"}
 ASKED_TEXTS = re.compile(
     r"use_sim_time|^/clock$|^clock$|/proc\b|/etc/|/sys/|dockerenv|bwrap|grader"
 )
@@ -136,7 +159,7 @@ def _names(module: Module) -> Iterator[Remark]:
         if not isinstance(node, ast.Attribute | ast.Name) or not isinstance(node.ctx, ast.Load):
             continue
         name = dotted(node)
-        if name in ASKS and not _is_passed_on(module, node):
+        if (name in ASKS and not _is_passed_on(module, node)) or last_part(name) in OTHER_CLOCKS:
             yield Remark("asks", module.path, node.lineno, name)
 
 
@@ -168,6 +191,8 @@ def _calls(module: Module) -> Iterator[Remark]:
         last = last_part(name)
         if name == "compile" or last in HIDES:
             yield Remark("hides", module.path, call.lineno, name)
+        if last in ASKS_BY_CALL:
+            yield Remark("asks", module.path, call.lineno, name)
         if last in ENDS_ANYWHERE or (last in ENDS_IN_A_CLASS and _is_in_a_class(module, call)):
             yield Remark("ends", module.path, call.lineno, name)
     for node in module.nodes:

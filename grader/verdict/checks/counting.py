@@ -13,10 +13,11 @@ from grader.verdict.checks.faults import flood, line_of, node_file, resource, tr
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
-    from grader.run.observer import Event
+    from grader.run.observer import Event, Watch
     from grader.verdict.evidence import Evidence
 
 INFO = 20
+MISSED = 1.5  # periods after the last line, when the next one should have come
 LOST = 1.0  # seconds before a node ended, whose log records may be lost
 LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
@@ -68,6 +69,7 @@ def output(evidence: Evidence) -> Passed:
             where=line_of(evidence, events[0].record),
             words=words(evidence),
         )
+    _must_stay_a_count(evidence, expected)
     _must_go_on(evidence, expected)
     if run.confirmed is False:
         raise _only_when_marked(evidence, expected)
@@ -135,6 +137,43 @@ def _count_fault(evidence: Evidence, numbers: list[int]) -> tuple[str, str]:
         said = say("the count does not go up by {step} each time", step=wanted.step)
         return "run.wrong_step", said
     return "", ""
+
+
+def _must_stay_a_count(evidence: Evidence, expected: str) -> None:
+    """Raise Failed if other lines come in place of the count after some of its lines."""
+    watch = evidence.run.watch
+    other = _in_place_of_the_next(watch, evidence.assignment.output.period)
+    if other is None:
+        return
+    count = sum(event.n is not None and event.wall < other.wall for event in watch.counted)
+    difference = compared(other.text, evidence.assignment.output.line(count))
+    if difference:
+        raise Failed(
+            "run.wrong_text",
+            expected=expected,
+            actual=difference,
+            where=line_of(evidence, other.record),
+            params={"text": other.text[:200]},
+            words=words(evidence),
+        )
+    raise Failed(
+        "run.stops",
+        expected=say("{lines} until Ctrl+C", lines=expected),
+        actual=say("{count} lines, then no more came", count=count),
+        where=line_of(evidence, other.record),
+    )
+
+
+def _in_place_of_the_next(watch: Watch, period: float) -> Event | None:
+    """Return the first line that came when the count should have gone on, None if it did."""
+    own = [event for event in watch.counted if event.n is not None]
+    if watch.clock == "virtual":
+        last = max((event.due for event in own if event.due is not None), default=len(watch.dues))
+        late = [event for event in watch.events if event.due is not None and event.due > last]
+    else:
+        end = max(event.wall for event in own) + MISSED * period
+        late = [event for event in watch.events if event.wall > end]
+    return late[0] if late else None
 
 
 def _must_go_on(evidence: Evidence, expected: str) -> None:
