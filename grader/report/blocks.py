@@ -96,6 +96,8 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
     elif check.status == "error":
         ours = say("No points given or taken: this is a fault of the grader. Please report it.")
         page.field(say("points"), ours)
+        if check.fault:
+            page.code(say("details"), last_lines(check.fault, lines=2 * lines)[0])
     _field(page, say("fix"), check.fix, lines, style="bold")
     if check.patch.strip():
         patch = shown_patch(check.patch, page.translate)

@@ -61,6 +61,9 @@ class CheckResult(_Part):
         default="", description="an earlier check that failed because of the same mistake"
     )
     blocked_by: str = Field(default="", description="the check because of which it was skipped")
+    fault: str = Field(
+        default="", description="of a check with status error: our traceback, not for students"
+    )
     seconds: float = 0
 
 

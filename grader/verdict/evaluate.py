@@ -85,6 +85,7 @@ class _Result:
     where: Where | None = None
     consequence_of: str = ""
     blocked_by: str = ""
+    fault: str = ""
 
 
 def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator) -> CheckResult:
@@ -94,7 +95,11 @@ def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator
     except GraderError:
         raise
     except Exception:  # a bug in one check must not lose the results of the others
-        found = _Result(status="error", actual=traceback.format_exc(limit=-4))
+        found = _Result(
+            status="error",
+            actual=say("this check of the grader has a bug; the report has the details"),
+            fault=traceback.format_exc(limit=-4),
+        )
     return CheckResult(
         id=assigned.check.id,
         title=translate(assigned.check.title),
@@ -112,6 +117,7 @@ def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator
         depends=list(assigned.depends),
         consequence_of=found.consequence_of,
         blocked_by=found.blocked_by,
+        fault=found.fault,
         seconds=0 if found.status == "skipped" else round(time.monotonic() - begin, 3),
     )
 

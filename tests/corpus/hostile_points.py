@@ -161,6 +161,16 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             note="twelve records in a millisecond, their stamps a second apart"),
     hostile("stops_after_ten", _only_if("self.counter_ < 10"), failed=STOPS,
             undecided=TICKS | {"run.interrupt"}),
+    hostile("goes_on_with_other_lines",
+            Replace(NODE, f"        {LINE}\n",
+                    f"        if self.counter_ < 4:\n            {LINE}\n        else:\n"
+                    "            self.get_logger().info('and so on')\n"),
+            failed={"run.output": "run.stops"}, undecided=TICKS | {"run.spins"},
+            note="a line at each due instant, but not of the count"),
+    hostile("goes_on_in_hexadecimal",
+            Replace(NODE, LINE, "self.get_logger().info(f'Hello time: {self.counter_:x}')"),
+            failed={"run.output": "run.wrong_text"}, undecided=TICKS | {"run.spins"},
+            note="the first ten lines are right"),
     hostile("ends_after_ten", _imports("os"),
             Replace(NODE, f"        {STEP.strip()}\n",
                     f"        {STEP.strip()}\n        if self.counter_ == 10:\n"

@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+
+
+class Parts(Node):
+    def __init__(self):
+        super().__init__("my_first_node")
+        self.motor_log = self.get_logger().get_child("motor")
+        self.motor_log.info("motor ready")
+        self.i = 0
+        self.timer = self.create_timer(1, self.timer_cb)
+
+    def timer_cb(self):
+        self.get_logger().info("Hello time: " + str(self.i))
+        self.i += 1
+        self.motor_log.debug("turned")
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Parts()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

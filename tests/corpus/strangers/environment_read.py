@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+import os
+
+import rclpy
+from rclpy.node import Node
+
+
+class MyFirstNode(Node):
+    def __init__(self):
+        super().__init__("my_first_node")
+        self.robot = os.environ.get("ROBOT_NAME", "turtle")
+        self.get_logger().debug(f"robot {self.robot}")
+        self.counter = 0
+        self.create_timer(float(os.getenv("HELLO_PERIOD", "1.0")), self.on_timer)
+
+    def on_timer(self):
+        self.get_logger().info(f"Hello time: {self.counter}")
+        self.counter += 1
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,32 @@
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+
+
+class Quarters(Node):
+    def __init__(self):
+        super().__init__("my_first_node")
+        self.calls = 0
+        self.create_timer(0.25, self.call)
+
+    def call(self):
+        self.calls += 1
+        if self.calls % 4:
+            return
+        self.get_logger().info(f"Hello time: {self.calls // 4 - 1}")
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Quarters()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()
