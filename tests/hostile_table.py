@@ -73,7 +73,7 @@ def _cell(package: Package, column: str) -> tuple[Report | None, str]:
     try:
         assert_verdict(package, report)
     except AssertionError as error:
-        said = "not as expected: " + str(error).splitlines()[0].replace("|", "/")[:120]
+        said = "not as expected: " + f"{error}\n".splitlines()[0].replace("|", "/")[:120]
     left = [line for pid, line in processes.descendants().items() if pid not in before]
     return report, said or (f"left over: {left[0][:60]}" if left else "")
 

@@ -12,6 +12,5 @@ from tests.batch import in_process
 if __name__ == "__main__":
     with (
         mock.patch.object(mark, "mark", recorded.mark_submission),
-        mock.patch.object(work, "mark", recorded.mark_submission),
     ):
         raise SystemExit(in_process.run(work.mark_task))

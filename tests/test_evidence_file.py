@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.canonical_json import canonical_json
 from grader.report.files import EVIDENCE, REPORT, SIGNATURE
 from grader.verdict.evidence_file import EvidenceError, EvidenceFile, changed_files
-from grader.verdict.recording import canonical_json
 from tests import processes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write

@@ -77,20 +77,20 @@ def test_a_full_disk_loses_no_verdict_and_the_same_command_goes_on(
 @pytest.mark.full
 @pytest.mark.prefix
 def test_a_worker_without_memory_costs_only_its_own_submission(tmp_path: Path) -> None:
-    one, two = tasks(tmp_path, ["entry_missing", "solution"])
-    big = SourceFile("big.bin", "file", 0o644, b"x" * 60_000_000)
+    one, two = tasks(tmp_path, ["solution", "entry_missing"])
+    big = SourceFile("big.bin", "file", 0o644, b"x" * 120_000_000)
     large = replace(one.submission, files=(*one.submission.files, big))
-    limited = "ulimit -v 700000; exec " + shlex.join([sys.executable, "-c", START_WORKER])
+    limited = "ulimit -S -v 700000; exec " + shlex.join([sys.executable, "-c", START_WORKER])
     pool = LocalPool(JOB, 1, command=("bash", "-c", f'{limited} "$0"'))
     found = {
         done.task.student: done.answer
         for done in pool.run(iter([replace(one, submission=large), two]), started=lambda _: None)
     }
-    lost, other = found["entry_missing-0"], found["solution-1"]
+    lost, other = found["solution-0"], found["entry_missing-1"]
     assert lost.report is None
     assert "MemoryError" in lost.fault or "crashed" in lost.fault
     assert other.report is not None
-    assert other.report.score == 100
+    assert other.report.score == CORPUS["entry_missing"].expect_score
 
 
 @pytest.mark.full

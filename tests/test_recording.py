@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.canonical_json import canonical_json
 from grader.base.i18n.translator import Translator
 from grader.report.model import CheckResult, Report
 from grader.run.unforeseen import MORE_TICKS
 from grader.verdict.mark import replay
-from grader.verdict.recording import Recording, RecordingError, canonical_json, evidence_of
+from grader.verdict.recording import Recording, RecordingError, evidence_of
 from tests import recorded
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write

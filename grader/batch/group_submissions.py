@@ -11,7 +11,6 @@ from grader.batch.ledger import Ledger
 from grader.batch.model import Student
 from grader.package.intake.naming import sanitise
 from grader.report.model import Report
-from grader.verdict.evidence_file import EvidenceFile
 
 Pair = tuple[str, str]  # a student's key, and the key of a verdict
 
@@ -46,6 +45,8 @@ def share_group_verdicts(ledger: Ledger, items: Iterable[IntakeItem]) -> None:
 
 
 def _evidence_for(evidence: bytes, report: Report) -> bytes:
+    from grader.verdict.evidence_file import EvidenceFile  # noqa: PLC0415 - slow, rarely needed
+
     return EvidenceFile.from_bytes(evidence).for_report(report).to_bytes() if evidence else b""
 
 

@@ -13,8 +13,8 @@ import sqlite3
 import zlib
 from dataclasses import dataclass, field
 
+from grader.base.canonical_json import canonical_json
 from grader.base.signing import PublicKey, SigningKey, own_key
-from grader.verdict.recording import canonical_json
 
 START = "0" * 64
 COLUMNS = {

@@ -23,7 +23,6 @@ from grader.package.submission import Submission
 from grader.ros.distro import Distro
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
-from grader.verdict.evidence_file import Judged, evidence_bytes
 from grader.verdict.order import Order
 
 FAULTS_IN_A_ROW = 3  # after that many failures the sandbox is tried without a submission
@@ -250,6 +249,8 @@ def _keep(
             ledger.record_fault(student, task.key, done.answer.fault)
         return False
     # a submission that changed back to a marked one while it waited keeps that verdict
+    from grader.verdict.evidence_file import Judged, evidence_bytes  # noqa: PLC0415 - slow
+
     judged = Judged(task.submission, recording) if recording is not None else None
     ledger.record_for_all(
         task.key,

@@ -12,7 +12,7 @@ import time
 import traceback
 from collections.abc import Callable, Generator, Iterable
 from dataclasses import asdict, dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import joined
@@ -24,10 +24,11 @@ from grader.package.submission_json import submission_from_json, submission_json
 from grader.report.model import Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
-from grader.verdict.evidence_file import Judged
-from grader.verdict.mark import mark
 from grader.verdict.order import Order
-from grader.verdict.recording import Recording, RecordingError
+
+if TYPE_CHECKING:  # (slow to import, and an unchanged class needs none of it)
+    from grader.verdict.evidence_file import Judged
+    from grader.verdict.recording import Recording
 
 TRIES = 3  # at most, if the grader itself fails on a submission
 MARGIN_SECONDS = 60.0  # on top of a verdict's time limit, before its worker counts as hung
@@ -143,6 +144,8 @@ def _recording_text(recording: Recording | None) -> str | None:
 
 
 def _recording(text: str | None) -> Recording | None:
+    from grader.verdict.recording import Recording, RecordingError  # noqa: PLC0415 - slow
+
     with contextlib.suppress(RecordingError):  # evidence that cannot be read loses no verdict
         return Recording.from_bytes(text.encode()) if text else None
     return None
@@ -205,6 +208,8 @@ class Pool(Protocol):
 
 def mark_task(job: Job, task: Task) -> Answer:
     """Mark one submission in this process; a failure of the grader is part of the answer."""
+    from grader.verdict import mark  # noqa: PLC0415 - slow, for workers only
+
     submission = task.submission
     begin = time.monotonic()
     order = Order(
@@ -221,7 +226,7 @@ def mark_task(job: Job, task: Task) -> Answer:
     kept: list[Judged] = []
     try:
         # no progress of single verdicts: many run at once
-        report = mark(submission, order, unheard, keep=kept.append)
+        report = mark.mark(submission, order, unheard, keep=kept.append)
     except GraderError as error:
         fault = Translator(job.lang)(joined(error.message, error.remedy, by="\n"))
     except Exception:  # a failure of the grader must not stop the other submissions

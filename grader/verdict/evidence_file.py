@@ -15,13 +15,14 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.package.submission_json import submission_from_json, submission_json
 from grader.report.files import report_json
 from grader.report.model import CheckResult, Report
-from grader.verdict.recording import Recording, canonical_json
+from grader.verdict.recording import Recording
 
 MOST_BYTES = 200_000_000  # of a file: a submission's own limits are below
 

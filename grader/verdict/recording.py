@@ -7,8 +7,6 @@ fixes and the report work on it as they do on a build and a run; nothing is exec
 
 from __future__ import annotations
 
-import json
-import re
 from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
@@ -22,6 +20,7 @@ from pydantic import (
     ValidationError,
 )
 
+from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
 from grader.base.i18n.message import Message, say
 from grader.course.assignment import Assignment, Output
@@ -36,7 +35,6 @@ from grader.verdict.evidence import Evidence
 EVENT_LISTS = ("events", "before_start", "early")  # of a Watch; they share their events
 EVENTS = TypeAdapter(list[Event])
 RUN = TypeAdapter(Run)
-SURROGATES = re.compile("[\ud800-\udfff]")  # they stand for bytes that are not UTF-8
 
 
 class RecordingError(UsageError):
@@ -157,19 +155,6 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
         return recording.run
 
     return Evidence(assignment, submission, build=build, run=run)
-
-
-def canonical_json(value: object) -> bytes:
-    """Return a JSON value as bytes that are equal whenever the values are."""
-    text = json.dumps(
-        value, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")
-    )
-    return SURROGATES.sub(_escaped, f"{text}\n").encode()
-
-
-def _escaped(found: re.Match[str]) -> str:
-    """Return a backslash (itself escaped in JSON) and the byte in hexadecimal digits."""
-    return f"\\\\x{ord(found[0]) & 0xFF:02x}"
 
 
 def _asked(assignment: Assignment) -> Asked:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
-from grader.mistakes.catalogue import CATALOGUE
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, misplaced
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Text
@@ -28,6 +27,8 @@ def wanted_entry(evidence: Evidence) -> str:
 
 def title_of(mistake: str) -> Message:
     """Return a mistake's title in the catalogue."""
+    from grader.mistakes.catalogue import CATALOGUE  # noqa: PLC0415 - slow, rarely needed
+
     return Message(CATALOGUE[mistake].title)
 
 

@@ -100,6 +100,8 @@ def _wall_period(evidence: Evidence, expected: str) -> Passed:
     if abs(watch.period - wanted.period) <= slack:
         _must_use_ros_time(evidence)
         return Passed(actual=actual, advice=_advice(evidence))
+    if evidence.run.inconsistent and evidence.has_failed("run.output"):
+        raise Blocked(by="run.output")  # lines beside the count, whose gaps are chance
     if evidence.run.inconsistent:
         busy = say(
             "{actual}, but another run differed: the machine is too busy to tell", actual=actual
