@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -17,8 +18,9 @@ from grader.verdict.checks.spinning import spins
 from grader.verdict.checks.starting import interrupt
 from grader.verdict.checks.timing import period
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked, Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from tests.corpus.build import SOLUTION
+from tests.report.samples import check as check_result
 from tests.static_bench import BUILT, NODE, Bench
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
@@ -194,3 +196,53 @@ def test_callbacks_that_hold_up_the_clock_are_a_longer_period(bench: Bench) -> N
         ask(period, bench, counted(held_up=1.8))
     assert caught.value.mistake.id == "run.wrong_period"
     assert "1.80 s" in caught.value.actual
+
+
+def with_others(text: str, *, from_line: int) -> Run:
+    """Return a run in which another line comes at each due instant from one on."""
+    run = counted()
+    run.watch.events[from_line:] = [
+        replace(event, text=text.format(n=event.n), n=None)
+        for event in run.watch.events[from_line:]
+    ]
+    return run
+
+
+@pytest.mark.parametrize("clock", ["virtual", "wall"])
+@pytest.mark.parametrize(
+    ("text", "mistake"),
+    [("and so on", "run.stops"), ("Hello time: {n:x}h", "run.wrong_text")],
+    ids=["another line", "the line in another form"],
+)
+def test_a_count_must_go_on_and_other_lines_do_not_stand_for_it(
+    bench: Bench, text: str, mistake: str, clock: Literal["virtual", "wall"]
+) -> None:
+    run = with_others(text, from_line=4)
+    run.watch.clock = clock
+    if clock == "wall":
+        run.watch.events[:] = [replace(event, wall=event.virtual) for event in run.watch.events]
+    with pytest.raises(Failed) as caught:
+        ask(output, bench, run)
+    assert caught.value.mistake.id == mistake
+
+
+def test_other_lines_beside_the_count_cost_nothing(bench: Bench) -> None:
+    run = counted()
+    beside = [replace(event, text="working", n=None) for event in run.watch.events]
+    run.watch.events += beside
+    passed = ask(output, bench, run)
+    assert passed is not None
+    assert passed.advice
+
+
+def test_a_period_of_lines_that_are_no_count_is_not_blamed_on_the_machine(bench: Bench) -> None:
+    run = counted(inconsistent=True)
+    run.watch.clock, run.watch.period = "wall", 0.3
+    bench.write(NODE, RIGHT)
+    static = bench.evidence()
+    evidence = Evidence(static.assignment, static.submission, build=lambda: BUILT, run=lambda: run)
+    with pytest.raises(Inconclusive):
+        period.function(evidence)
+    evidence.results["run.output"] = check_result("run.output", "failed")
+    with pytest.raises(Blocked):
+        period.function(evidence)
