@@ -52,9 +52,13 @@ def test_a_usual_node_has_no_remark() -> None:
     [
         ("if '--ros-args' in sys.argv: pass", ("asks", "sys.argv")),
         ("x = os.environ.get('HOME')", ("asks", "os.environ")),
-        ("x = open('/proc/self/cmdline').read()", ("asks", "/proc/self/cmdline")),
         ("x = self.get_parameter('use_sim_time')", ("asks", "use_sim_time")),
         ("self.create_subscription(Clock, '/clock', print, 10)", ("asks", "/clock")),
+        ("x = self.count_publishers('/topic')", ("asks", "self.count_publishers")),
+        ("x = time.perf_counter_ns()", ("asks", "time.perf_counter_ns")),
+        ("x = Clock(clock_type=ClockType.STEADY_TIME)", ("asks", "ClockType.STEADY_TIME")),
+        ("x = pathlib.Path('marked').is_file()", ("asks", "pathlib.Path().is_file")),
+        ("x = getattr(os, 'envi' + 'ron')", ("hides", "getattr")),
         ("os._exit(0)", ("ends", "os._exit")),
         ("rclpy.shutdown()", ("ends", "rclpy.shutdown")),
         ("raise SystemExit", ("ends", "raise")),
@@ -69,6 +73,15 @@ def test_what_asks_ends_or_hides_is_found_with_its_line(code: str, remark: tuple
     (found,) = remarks_on([file(text)])
     assert (found.kind, found.what) == remark
     assert found.line == text.splitlines().index(f"        {code}") + 1
+
+
+def test_an_attribute_that_is_named_in_the_source_hides_nothing() -> None:
+    assert kinds(NODE.replace("        pass\n", "        getattr(self, 'n', 0)\n")) == set()
+
+
+def test_a_file_of_the_system_is_named_as_it_is_written() -> None:
+    text = NODE.replace("        pass\n", "        x = open('/proc/self/cmdline').read()\n")
+    assert kinds(text) == {("asks", "/proc/self/cmdline"), ("asks", "open")}
 
 
 def test_setup_tests_and_launch_files_are_not_the_node() -> None:

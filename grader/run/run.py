@@ -172,14 +172,16 @@ def counts_plainly(
     network = sandbox.probe(["cat"])  # it has a network of its own until its input ends
     terminal = _start(sandbox, ros2_run(assignment, plain=True), network)
     try:
-        numbers: list[int] = []
+        wanted = [output.start, output.start + output.step]
         until = min(until, time.monotonic() + patience)
         while time.monotonic() < until and not terminal.ended and not terminal.flooded:
             for line in terminal.read(0.2):
                 texts = [part.text if part.log is None else part.log[3] for part in line.parts()]
-                numbers += [n for n in map(number, texts) if n is not None]
-            if len(numbers) > 1:
-                return numbers[:2] == [output.start, output.start + output.step]
+                for text in texts:
+                    if wanted and number(text) == wanted[0]:
+                        del wanted[0]
+            if not wanted:
+                return True
         return False
     finally:
         terminal.interrupt()

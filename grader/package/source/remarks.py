@@ -52,7 +52,16 @@ ASKS = {
     "getenv",
     "argv",
 }
-ASKS_BY_CALL = {  # who else is on the graph, and clocks that do not follow ROS time
+ASKS_BY_CALL = {  # files, programs, who else is on the graph, clocks that do not follow ROS time
+    "check_output",
+    "exists",
+    "is_dir",
+    "is_file",
+    "iterdir",
+    "open",
+    "popen",
+    "read_bytes",
+    "read_text",
     "count_publishers",
     "count_subscribers",
     "get_node_names",
@@ -189,7 +198,7 @@ def _texts(module: Module) -> Iterator[Remark]:
 def _calls(module: Module) -> Iterator[Remark]:
     for call, name in calls_in(module.tree):
         last = last_part(name)
-        if name == "compile" or last in HIDES:
+        if name == "compile" or last in HIDES or (last == "getattr" and _is_made_up(call)):
             yield Remark("hides", module.path, call.lineno, name)
         if last in ASKS_BY_CALL:
             yield Remark("asks", module.path, call.lineno, name)
@@ -198,6 +207,11 @@ def _calls(module: Module) -> Iterator[Remark]:
     for node in module.nodes:
         if isinstance(node, ast.Raise) and _is_in_a_class(module, node):
             yield Remark("ends", module.path, node.lineno, "raise")
+
+
+def _is_made_up(call: ast.Call) -> bool:
+    """Whether the name that getattr gets is not written in the source as it is."""
+    return len(call.args) > 1 and not isinstance(call.args[1], ast.Constant)
 
 
 def _is_in_a_class(module: Module, node: ast.AST) -> bool:
