@@ -6,33 +6,13 @@ Each bounds itself in case the sandbox fails: at most 3,000 processes, 3 GB of m
 
 from __future__ import annotations
 
-from grader.package.edit.tree import Delete, Edit, Link, Replace, Write
+from grader.package.edit.tree import Delete, Link, Replace, Write
 
+from .hostile_edits import first, imports, made, third
 from .model import AFTER_START, INNER, NODE, RUN, SETUP, TICKS, hostile
-from .right_node import CATCH, STEP
+from .right_node import CATCH
 
-MADE = "    node = MyFirstNode()\n"
 INTERRUPT = frozenset({"run.interrupt"})
-
-
-def _imports(*names: str) -> Edit:
-    lines = "".join(f"import {name}\n" for name in names)
-    return Replace(NODE, "import rclpy\nfrom", f"{lines}\nimport rclpy\nfrom")
-
-
-def _first(code: str) -> Edit:
-    """Run the code before rclpy.init."""
-    return Replace(NODE, "    rclpy.init(args=args)\n", code + "    rclpy.init(args=args)\n")
-
-
-def _made(code: str) -> Edit:
-    """Run the code when the node is made."""
-    return Replace(NODE, MADE, MADE + code)
-
-
-def _third(code: str) -> Edit:
-    """Run one line of code after the third tick."""
-    return Replace(NODE, STEP, f"{STEP}\n        if self.counter_ == 3:\n            {code}")
 
 
 FORKS = """\
@@ -178,54 +158,54 @@ EVENTS = (
 )
 
 NODES = (
-    hostile("prints_megabytes", _third("for _ in range(300_000): print('x' * 1000)"),
+    hostile("prints_megabytes", third("for _ in range(300_000): print('x' * 1000)"),
             failed={"run.output": "run.too_much_output"},
             skipped=TICKS | INTERRUPT | {"run.spins"},
             note="when the flood ends the run is chance, so nothing else is decided"),
-    hostile("prints_megabytes_first", _first(FLOOD), failed={"run.starts": "run.too_much_output"},
+    hostile("prints_megabytes_first", first(FLOOD), failed={"run.starts": "run.too_much_output"},
             skipped=AFTER_START),
-    hostile("one_endless_line", _imports("sys"), _first(LONG),
+    hostile("one_endless_line", imports("sys"), first(LONG),
             failed={"run.starts": "run.too_much_output"}, skipped=AFTER_START),
-    hostile("fork_bomb", _imports("os", "time"), _first(FORKS), undecided=RUN,
+    hostile("fork_bomb", imports("os", "time"), first(FORKS), undecided=RUN,
             note="continues when fork fails; 3,000 sleepers at most"),
-    hostile("eats_memory", _imports("os"), _first(MEMORY), undecided=RUN, note="3 GB at most"),
-    hostile("eats_disk", _first(DISK), undecided=RUN, note="3 GB at most, in the workspace"),
-    hostile("many_files", _first(FILES), undecided=RUN),
-    hostile("deaf_to_signals", _imports("os", "signal", "threading"), _made(DEAF),
+    hostile("eats_memory", imports("os"), first(MEMORY), undecided=RUN, note="3 GB at most"),
+    hostile("eats_disk", first(DISK), undecided=RUN, note="3 GB at most, in the workspace"),
+    hostile("many_files", first(FILES), undecided=RUN),
+    hostile("deaf_to_signals", imports("os", "signal", "threading"), made(DEAF),
             failed={"run.interrupt": "run.ignores_interrupt"}),
-    hostile("deaf_and_prints_dots", _imports("os", "signal", "threading", "time"),
-            _made(DEAF + DOTS), failed={"run.interrupt": "run.ignores_interrupt"},
+    hostile("deaf_and_prints_dots", imports("os", "signal", "threading", "time"),
+            made(DEAF + DOTS), failed={"run.interrupt": "run.ignores_interrupt"},
             note="output without a line end must not extend any wait"),
-    hostile("raw_terminal", _imports("tty"), _made("    tty.setraw(0)\n"),
+    hostile("raw_terminal", imports("tty"), made("    tty.setraw(0)\n"),
             failed={"run.interrupt": "run.ignores_interrupt"},
             note="Ctrl+C is then an ordinary character: it ends nothing on a real terminal either"),
-    hostile("outlives_us", _imports("os", "signal", "time"), _first(DAEMON),
+    hostile("outlives_us", imports("os", "signal", "time"), first(DAEMON),
             failed={"run.output": None, "run.logger": None},
             undecided=frozenset({"run.spins", "run.period"}),
             note="a right node, and a child that prints 99 on its terminal, at any instant"),
-    hostile("respawns", _imports("os", "time"), Replace(NODE, CATCH, RESPAWN),
+    hostile("respawns", imports("os", "time"), Replace(NODE, CATCH, RESPAWN),
             note="Ctrl+C ends it, a sleeper stays"),
-    hostile("stops_itself", _imports("os", "signal"),
-            _third("os.kill(os.getpid(), signal.SIGSTOP)"),
+    hostile("stops_itself", imports("os", "signal"),
+            third("os.kill(os.getpid(), signal.SIGSTOP)"),
             failed={"run.output": "run.stops", "run.interrupt": "run.ignores_interrupt"},
             undecided=TICKS),
-    hostile("kills_parent", _imports("os", "signal"),
-            _third("os.kill(os.getppid(), signal.SIGKILL)"),
+    hostile("kills_parent", imports("os", "signal"),
+            third("os.kill(os.getppid(), signal.SIGKILL)"),
             undecided=TICKS | INTERRUPT | {"run.output"}, note="ros2 run ends, the node goes on"),
-    hostile("kills_its_group", _imports("os", "signal"),
-            _first("    os.killpg(0, signal.SIGKILL)\n"), failed={"run.starts": None},
+    hostile("kills_its_group", imports("os", "signal"),
+            first("    os.killpg(0, signal.SIGKILL)\n"), failed={"run.starts": None},
             skipped=AFTER_START),
-    hostile("kills_all_it_sees", _imports("os", "signal", "sys"),
-            _first(f"    {INSIDE}{KILL_ALL}    os.kill(os.getpid(), signal.SIGKILL)\n"),
+    hostile("kills_all_it_sees", imports("os", "signal", "sys"),
+            first(f"    {INSIDE}{KILL_ALL}    os.kill(os.getpid(), signal.SIGKILL)\n"),
             failed={"run.starts": None}, skipped=AFTER_START,
             note="looks for HOME=/home/student first, the one of the sandbox"),
-    hostile("closes_its_output", _imports("os"), _made("    os.close(1)\n    os.close(2)\n"),
+    hostile("closes_its_output", imports("os"), made("    os.close(1)\n    os.close(2)\n"),
             failed={"run.output": "run.no_lines"}, skipped=TICKS,
             note="the lines still come on /rosout, but not on the terminal"),
-    hostile("publishes_clock", _imports("time", "rclpy.clock"),
+    hostile("publishes_clock", imports("time", "rclpy.clock"),
             Replace(NODE, "from rclpy.node import Node\n", "from rclpy.node import Node\n"
                     "from rclpy.time import Time\nfrom rosgraph_msgs.msg import Clock\n"),
-            _made(CLOCK), undecided=frozenset({"run.output", "run.period"}),
+            made(CLOCK), undecided=frozenset({"run.output", "run.period"}),
             note="its own clock, ten times as fast; without use_sim_time it is a right node"),
     hostile("forged_lines", Write(NODE, FORGERY), failed={"run.starts": "node.no_ros"},
             skipped=AFTER_START, note="right lines from a shell, and no node"),
@@ -233,10 +213,10 @@ NODES = (
             Write("rclpy/node.py", FAKE_NODE),
             failed={"run.starts": "run.no_node"}, skipped=AFTER_START,
             note="an rclpy in the overlay hides the real one from the node, not from the probe"),
-    hostile("escape_sequences", _third(ESCAPES), failed={"run.output": "run.erased"},
+    hostile("escape_sequences", third(ESCAPES), failed={"run.output": "run.erased"},
             note="clears the screen; terminal codes, markup, a formula, control characters"),
-    hostile("not_text", _imports("os"), _third(BYTES)),
-    hostile("forged_events", _third(EVENTS), note="lines in our own format"),
+    hostile("not_text", imports("os"), third(BYTES)),
+    hostile("forged_events", third(EVENTS), note="lines in our own format"),
     hostile("node_is_a_link_out", Delete(NODE), Link(NODE, "/etc/passwd"),
             failed={"source.node_file": None},
             undecided=RUN | {"source.exec_bit", "source.shebang", "build.colcon",

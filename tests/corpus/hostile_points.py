@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from grader.package.edit.tree import Edit, Replace, Write
 
+from .hostile_edits import imports, in_setup, made, only_if
 from .model import AFTER_START, INNER, NODE, SETUP, TICKS, Package, hostile
 from .right_node import LINE, STEP
 
-CALL = "\nsetup(\n"
-MADE = "    node = MyFirstNode()\n"
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
 COUNTER = "        self.counter_ = 0\n"
 NO_ROS = "#!/usr/bin/env python3\nimport time\n\n\ndef main(args=None):\n    time.sleep(60)\n"
@@ -116,26 +115,8 @@ DEAF_FOR_A_WHILE = """\
 """
 
 
-def _imports(*names: str) -> Edit:
-    lines = "".join(f"import {name}\n" for name in names)
-    return Replace(NODE, "import rclpy\nfrom", f"{lines}import rclpy\nfrom")
-
-
-def _setup(code: str) -> Edit:
-    return Replace(SETUP, CALL, code + CALL)
-
-
 def _after_setup(code: str) -> Edit:
     return Replace(SETUP, "    },\n)\n", "    },\n)\n" + code)
-
-
-def _made(code: str) -> Edit:
-    return Replace(NODE, MADE, MADE + code)
-
-
-def _only_if(condition: str) -> Edit:
-    """Log only if the condition holds."""
-    return Replace(NODE, f"        {LINE}\n", f"        if {condition}:\n            {LINE}\n")
 
 
 ONLY_HERE = {"run.output": "run.only_when_marked"}
@@ -145,21 +126,21 @@ STOPS = {"run.output": None}
 ENDS = {"run.output": None}
 
 POINTS_ATTACKS: tuple[Package, ...] = (
-    hostile("node_left_by_setup", _setup(LEFT_BEHIND), Write(NODE, NO_ROS),
+    hostile("node_left_by_setup", in_setup(LEFT_BEHIND), Write(NODE, NO_ROS),
             failed={"run.starts": "node.no_ros"}, skipped=AFTER_START,
             note="a right node, started by setup.py; the program itself only sleeps"),
-    hostile("records_sent_ahead", _setup(SENT_AHEAD), Write(NODE, NO_ROS),
+    hostile("records_sent_ahead", in_setup(SENT_AHEAD), Write(NODE, NO_ROS),
             failed={"run.starts": "node.no_ros"}, skipped=AFTER_START,
             note="records published while the package was built"),
     hostile("records_by_hand", IMPORT_LOG, Replace(NODE, COUNTER, PUBLISHER),
             Replace(NODE, f"        {LINE}\n", BY_HAND.format(level=LEVEL)),
             failed={"run.logger": "run.faked_log"},
             note="a publisher on /rosout beside that of the logger"),
-    hostile("records_in_a_burst", IMPORT_LOG, _made(BURST),
+    hostile("records_in_a_burst", IMPORT_LOG, made(BURST),
             Replace(NODE, f"        {LINE}\n", ""),
             failed={"run.output": None}, undecided=TICKS | {"run.spins", "run.interrupt"},
             note="twelve records in a millisecond, their stamps a second apart"),
-    hostile("stops_after_ten", _only_if("self.counter_ < 10"), failed=STOPS,
+    hostile("stops_after_ten", only_if("self.counter_ < 10"), failed=STOPS,
             undecided=TICKS | {"run.interrupt"}),
     hostile("goes_on_with_other_lines",
             Replace(NODE, f"        {LINE}\n",
@@ -171,22 +152,22 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             Replace(NODE, LINE, "self.get_logger().info(f'Hello time: {self.counter_:x}')"),
             failed={"run.output": "run.wrong_text"}, undecided=TICKS | {"run.spins"},
             note="the first ten lines are right"),
-    hostile("ends_after_ten", _imports("os"),
+    hostile("ends_after_ten", imports("os"),
             Replace(NODE, f"        {STEP.strip()}\n",
                     f"        {STEP.strip()}\n        if self.counter_ == 10:\n"
                     "            os._exit(0)\n"),
             failed=ENDS, undecided=TICKS, skipped=frozenset({"run.interrupt"})),
-    hostile("gone_after_two_seconds", _imports("os", "threading"),
-            _made("    threading.Timer(2.0, os._exit, [0]).start()\n"),
+    hostile("gone_after_two_seconds", imports("os", "threading"),
+            made("    threading.Timer(2.0, os._exit, [0]).start()\n"),
             failed=ENDS, undecided=TICKS, skipped=frozenset({"run.interrupt"}),
             note="ten seconds of ROS time take less than two of wall time"),
-    hostile("only_with_arguments", _imports("sys"), _only_if("len(sys.argv) > 1"),
+    hostile("only_with_arguments", imports("sys"), only_if("len(sys.argv) > 1"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
     hostile("only_with_its_command_line",
-            _only_if("'sim_time' in open('/proc/self/cmdline').read()"),
+            only_if("'sim_time' in open('/proc/self/cmdline').read()"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
     hostile("only_if_use_sim_time_is_set",
-            _only_if("self.get_parameter('use_sim_time').value"),
+            only_if("self.get_parameter('use_sim_time').value"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
     hostile("clock_instead_of_a_timer",
             Replace(NODE, "from rclpy.node import Node\n",
@@ -196,7 +177,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
     hostile("other_script_installed", _after_setup(REWRITES_SCRIPT),
             failed={"entry_point.executable": "entry_point.other_installed"},
             skipped=AFTER_START | {"run.starts"}),
-    hostile("source_changed_by_setup", _setup(REWRITES_SOURCE),
+    hostile("source_changed_by_setup", in_setup(REWRITES_SOURCE),
             Replace(NODE, "'Hello time: '", "'Hallo time: '"),
             failed={"entry_point.executable": "entry_point.other_installed"},
             skipped=AFTER_START | {"run.starts"}),
@@ -204,7 +185,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             Write(f"{INNER}/other.py", "from .my_first_node import main\n"),
             failed={"entry_point.executable": "entry_point.other_installed"},
             skipped=AFTER_START | {"run.starts"}),
-    hostile("sleeps_twice", _imports("time"),
+    hostile("sleeps_twice", imports("time"),
             Replace(NODE, f"        {LINE}\n",
                     f"        nap = 0.9\n        time.sleep(nap)\n        {LINE}\n"
                     "        time.sleep(nap)\n"),
@@ -214,20 +195,20 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             Replace(NODE, f"        {STEP}\n",
                     f"        {STEP}\n        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n"),
             failed={"run.output": "run.erased"}, skipped=TICKS),
-    hostile("records_of_ten_megabytes", _imports("threading"),
-            _made("    def flood():\n        while True:\n"
+    hostile("records_of_ten_megabytes", imports("threading"),
+            made("    def flood():\n        while True:\n"
                   "            node.get_logger().info('x' * 10_000_000)\n\n"
                   "    threading.Thread(target=flood, daemon=True).start()\n"),
             failed={"run.output": "run.too_much_output"}, skipped=FLOODED,
             note="fills the probe's memory, if nothing bounds it"),
-    hostile("records_at_full_speed", _imports("threading"),
+    hostile("records_at_full_speed", imports("threading"),
             Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom rcl_interfaces.msg import Log\nfrom"),
-            _made("    records = node.create_publisher(Log, '/rosout', 1000)\n\n"
+            made("    records = node.create_publisher(Log, '/rosout', 1000)\n\n"
                   "    def flood():\n        while True:\n"
                   "            records.publish(Log(name='my_first_node', msg='x' * 1000))\n\n"
                   "    threading.Thread(target=flood, daemon=True).start()\n"),
             failed={"run.logger": "run.faked_log"}),
-    hostile("deaf_for_fifteen_seconds", _imports("os", "signal", "threading", "time"),
-            _made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "run.ignores_interrupt"},
+    hostile("deaf_for_fifteen_seconds", imports("os", "signal", "threading", "time"),
+            made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "run.ignores_interrupt"},
             note="dots after Ctrl+C, then it ends by itself"),
 )  # fmt: skip

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from grader.package.edit.tree import Replace
+from .hostile_edits import in_setup
+from .model import BUILT, INSTALLED, Package, hostile
 
-from .model import BUILT, INSTALLED, SETUP, Package, hostile
-
-CALL = "\nsetup(\n"
 ESCAPED = "corpus-escaped"  # a file of this name outside the sandbox is proof of an escape
 OUTSIDE = f"""
 import os
@@ -95,30 +93,26 @@ if 'develop' in sys.argv and '--help' not in sys.argv:
 """
 
 
-def _setup(code: str) -> Replace:
-    return Replace(SETUP, CALL, code + CALL)
-
-
 SETUPS: tuple[Package, ...] = (
-    hostile("setup_writes_outside", _setup(OUTSIDE),
+    hostile("setup_writes_outside", in_setup(OUTSIDE),
             note=f"writes {ESCAPED} wherever it can"),
-    hostile("setup_reads_secrets", _setup(SECRETS)),
-    hostile("setup_outlives_us", _setup(DAEMON), note="a daemon that sleeps"),
-    hostile("setup_holds_the_build", _setup(HOLDER), failed={"build.colcon": "build.timeout"},
+    hostile("setup_reads_secrets", in_setup(SECRETS)),
+    hostile("setup_outlives_us", in_setup(DAEMON), note="a daemon that sleeps"),
+    hostile("setup_holds_the_build", in_setup(HOLDER), failed={"build.colcon": "build.timeout"},
             skipped=INSTALLED,
             note="a child keeps setup.py's output open, and colcon waits for its end"),
-    hostile("setup_forges_a_report", _setup(FORGED), failed={"build.colcon": "build.exited"},
+    hostile("setup_forges_a_report", in_setup(FORGED), failed={"build.colcon": "build.exited"},
             skipped=INSTALLED),
-    hostile("setup_prints_megabytes", _setup(FLOOD), undecided=BUILT),
-    hostile("setup_fork_bomb", _setup(FORKS), undecided=BUILT),
-    hostile("setup_eats_memory", _setup(MEMORY), undecided=BUILT, note="3 GB at most"),
-    hostile("setup_deaf", _setup(DEAF), failed={"build.colcon": "build.timeout"},
+    hostile("setup_prints_megabytes", in_setup(FLOOD), undecided=BUILT),
+    hostile("setup_fork_bomb", in_setup(FORKS), undecided=BUILT),
+    hostile("setup_eats_memory", in_setup(MEMORY), undecided=BUILT, note="3 GB at most"),
+    hostile("setup_deaf", in_setup(DEAF), failed={"build.colcon": "build.timeout"},
             skipped=INSTALLED),
-    hostile("setup_kills_its_group", _setup(KILL), failed={"build.colcon": None},
+    hostile("setup_kills_its_group", in_setup(KILL), failed={"build.colcon": None},
             skipped=INSTALLED, note="kills colcon as well"),
-    hostile("setup_paints_and_ends_with_250", _setup(PAINTS.format(status=250)),
+    hostile("setup_paints_and_ends_with_250", in_setup(PAINTS.format(status=250)),
             failed={"build.colcon": "build.failed"}, skipped=INSTALLED,
             note="a forged score, escape sequences, and a status that was the grader's own"),
-    hostile("setup_paints_and_ends_with_251", _setup(PAINTS.format(status=251)),
+    hostile("setup_paints_and_ends_with_251", in_setup(PAINTS.format(status=251)),
             failed={"build.colcon": "build.failed"}, skipped=INSTALLED),
 )  # fmt: skip

@@ -5,14 +5,12 @@ They are bounded as in hostile_node.
 
 from __future__ import annotations
 
-from grader.package.edit.tree import Edit, Replace, Write
+from grader.package.edit.tree import Replace, Write
 
-from .model import INSTALLED, MANIFEST, NODE, RUN, SETUP, TICKS, Package, hostile
-from .right_node import LINE, STEP
+from .hostile_edits import first, imports, in_setup, made, only_if
+from .model import INSTALLED, MANIFEST, NODE, RUN, TICKS, Package, hostile
+from .right_node import STEP
 
-CALL = "\nsetup(\n"
-MADE = "    node = MyFirstNode()\n"
-INIT = "    rclpy.init(args=args)\n"
 SPUN = "        rclpy.try_shutdown()\n"
 ONLY_HERE = {"run.output": "run.only_when_marked"}
 NOT_JUDGED = frozenset({"run.spins", "run.logger", "run.period"})
@@ -171,63 +169,39 @@ ENTITIES = """\
 """
 
 
-def _imports(*names: str) -> Edit:
-    lines = "".join(f"import {name}\n" for name in names)
-    return Replace(NODE, "import rclpy\nfrom", f"{lines}import rclpy\nfrom")
-
-
-def _first(code: str) -> Edit:
-    return Replace(NODE, INIT, code + INIT)
-
-
-def _made(code: str) -> Edit:
-    return Replace(NODE, MADE, MADE + code)
-
-
-def _setup(code: str) -> Edit:
-    return Replace(SETUP, CALL, code + CALL)
-
-
-def _only_if(condition: str, before: str = "") -> Edit:
-    """Log only if the condition holds."""
-    return Replace(
-        NODE, f"        {LINE}\n", f"{before}        if {condition}:\n            {LINE}\n"
-    )
-
-
 WORLD: tuple[Package, ...] = (
-    hostile("only_with_company", _only_if("len(self.get_node_names()) > 1"),
+    hostile("only_with_company", only_if("len(self.get_node_names()) > 1"),
             failed=ONLY_HERE, skipped=NOT_JUDGED, note="the probe is a node too"),
-    hostile("only_with_a_clock_publisher", _only_if("self.count_publishers('/clock') > 0"),
+    hostile("only_with_a_clock_publisher", only_if("self.count_publishers('/clock') > 0"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
-    hostile("only_when_time_flies", _imports("time"), _only_if("fast", FAST),
+    hostile("only_when_time_flies", imports("time"), only_if("fast", FAST),
             failed={"run.output": None}, undecided=NOT_JUDGED,
             note="ROS time is faster than the wall clock only while it is marked"),
-    hostile("repairs_itself", _imports("os", "sys"), _only_if("len(sys.argv) > 1"),
+    hostile("repairs_itself", imports("os", "sys"), only_if("len(sys.argv) > 1"),
             Replace(NODE, SPUN, SPUN + REPAIRS), failed=ONLY_HERE, skipped=NOT_JUDGED,
             note="after the marked run it would also work without arguments"),
-    hostile("remembers_being_marked", _imports("os", "sys"), _only_if("self.speaks"),
-            _made(REMEMBERS), failed=ONLY_HERE, skipped=NOT_JUDGED),
-    hostile("looks_for_the_answers", _imports("os", "sys"), _first(ANSWERS)),
-    hostile("looks_at_processes", _imports("os", "sys"), _first(PROCESSES)),
-    hostile("writes_into_the_system", _imports("os", "sys"), _first(SYSTEM)),
-    hostile("connects_out", _imports("socket", "sys"), _first(CONNECTS)),
-    hostile("takes_all_descriptors", _imports("os"), _first(DESCRIPTORS), undecided=RUN),
-    hostile("threads_without_end", _imports("threading", "time"), _first(THREADS), undecided=RUN),
-    hostile("fills_memory_files", _first(SHARED_MEMORY), undecided=RUN),
-    hostile("takes_all_terminals", _imports("os", "time"), _first(TERMINALS), undecided=RUN,
+    hostile("remembers_being_marked", imports("os", "sys"), only_if("self.speaks"),
+            made(REMEMBERS), failed=ONLY_HERE, skipped=NOT_JUDGED),
+    hostile("looks_for_the_answers", imports("os", "sys"), first(ANSWERS)),
+    hostile("looks_at_processes", imports("os", "sys"), first(PROCESSES)),
+    hostile("writes_into_the_system", imports("os", "sys"), first(SYSTEM)),
+    hostile("connects_out", imports("socket", "sys"), first(CONNECTS)),
+    hostile("takes_all_descriptors", imports("os"), first(DESCRIPTORS), undecided=RUN),
+    hostile("threads_without_end", imports("threading", "time"), first(THREADS), undecided=RUN),
+    hostile("fills_memory_files", first(SHARED_MEMORY), undecided=RUN),
+    hostile("takes_all_terminals", imports("os", "time"), first(TERMINALS), undecided=RUN,
             note="the kernel has 4,096 of them, for everybody"),
-    hostile("floods_the_discovery", _imports("os", "socket", "threading", "time"),
-            _made(DISCOVERY), undecided=RUN, note="noise on the ports of DDS"),
-    hostile("a_hundred_and_fifty_nodes", _made(MANY_NODES), undecided=RUN),
+    hostile("floods_the_discovery", imports("os", "socket", "threading", "time"),
+            made(DISCOVERY), undecided=RUN, note="noise on the ports of DDS"),
+    hostile("a_hundred_and_fifty_nodes", made(MANY_NODES), undecided=RUN),
     hostile("number_of_five_thousand_digits",
             Replace(NODE, f"        {STEP}\n",
                     f"        {STEP}\n        if self.counter_ == 4:\n"
                     "            self.counter_ = 10 ** 4_200\n"),
             failed={"run.output": None}, undecided=TICKS | {"run.spins"}),
-    hostile("setup_makes_odd_files", _setup(ODD_FILES)),
-    hostile("setup_makes_unreadable_folders", _setup(UNREADABLE), _imports("sys"),
-            _only_if("len(sys.argv) > 1"), failed=ONLY_HERE, skipped=NOT_JUDGED,
+    hostile("setup_makes_odd_files", in_setup(ODD_FILES)),
+    hostile("setup_makes_unreadable_folders", in_setup(UNREADABLE), imports("sys"),
+            only_if("len(sys.argv) > 1"), failed=ONLY_HERE, skipped=NOT_JUDGED,
             note="so that its workspace cannot be saved or restored"),
     hostile("manifest_of_entities", Write(MANIFEST, ENTITIES),
             failed={"package.manifest": None}, undecided=INSTALLED | {"build.colcon"},

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import argparse
 import sys
 
@@ -31,7 +30,3 @@ def main(args=None):
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -21,19 +20,3 @@ class Computes(Node):
         primes(8_000)
         self.get_logger().info(f"Hello time: {self.counter}")
         self.counter += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Computes()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rcl_interfaces.srv import ListParameters
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -39,7 +38,3 @@ def main(args=None):
         pass
     finally:
         rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -15,19 +14,3 @@ class Parts(Node):
         self.get_logger().info("Hello time: " + str(self.i))
         self.i += 1
         self.motor_log.debug("turned")
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Parts()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

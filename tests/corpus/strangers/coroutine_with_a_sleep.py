@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import asyncio
 import threading
 
@@ -24,19 +23,3 @@ class Async(Node):
         future = asyncio.run_coroutine_threadsafe(self.text(), self.loop)
         self.get_logger().info(future.result(timeout=0.5))
         self.count += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Async()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

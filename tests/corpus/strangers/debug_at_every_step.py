@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -21,19 +20,3 @@ class Chatty(Node):
         self.get_logger().info(f"Hello time: {self.n}")
         self.n += 1
         self.get_logger().debug("callback ends")
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Chatty()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

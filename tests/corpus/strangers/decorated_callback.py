@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import functools
 
 import rclpy
@@ -26,19 +25,3 @@ class MyFirstNode(Node):
     def timer_callback(self):
         self.get_logger().info(f"Hello time: {self.counter_}")
         self.counter_ += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from builtin_interfaces.msg import Time
 from rclpy.node import Node
@@ -20,19 +19,3 @@ class Talker(Node):
     def hello(self):
         self.get_logger().info(f"Hello time: {self.count}")
         self.count += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Talker()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 
 
@@ -19,7 +18,3 @@ def main(args=None):
     node.destroy_timer(timer)
     node.destroy_node()
     rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import threading
 
 import rclpy
@@ -32,7 +31,3 @@ def main():
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

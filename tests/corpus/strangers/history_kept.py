@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import collections
 
 import rclpy
@@ -19,19 +18,3 @@ class MyFirstNode(Node):
         self.history.append(text)
         self.total += 1
         self.get_logger().info(self.history[-1])
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

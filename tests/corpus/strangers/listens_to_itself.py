@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from builtin_interfaces.msg import Time
 from rclpy.node import Node
@@ -20,19 +19,3 @@ class Echo(Node):
 
     def heard(self, message):
         self.get_logger().info("Hello time: " + str(message.sec))
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Echo()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

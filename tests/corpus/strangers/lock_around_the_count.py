@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import threading
 
 import rclpy
@@ -41,7 +40,3 @@ def main(args=None):
     finally:
         executor.shutdown()
         node.destroy_node()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.logging import LoggingSeverity, get_logger, set_logger_level
 from rclpy.node import Node
@@ -16,19 +15,3 @@ class MyFirstNode(Node):
         self.log.debug("not shown")
         self.log.info(f"Hello time: {self.counter}")
         self.counter += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

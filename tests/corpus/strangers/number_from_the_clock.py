@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -16,19 +15,3 @@ class SecondsSince(Node):
         if self.first is None:
             self.first = now
         self.get_logger().info("Hello time: %d" % round((now - self.first) / 1e9))
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = SecondsSince()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

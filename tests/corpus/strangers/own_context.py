@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -30,7 +29,3 @@ def main(args=None):
     finally:
         node.destroy_node()
         context.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

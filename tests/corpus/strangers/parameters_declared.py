@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
@@ -24,19 +23,3 @@ class MyFirstNode(Node):
     def on_timer(self):
         self.get_logger().info(self.get_parameter("prefix").value + str(self.number))
         self.number += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

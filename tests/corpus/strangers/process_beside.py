@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import subprocess
 import sys
 
@@ -39,7 +38,3 @@ def main(args=None):
         node.helper.terminate()
         node.helper.wait()
         rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

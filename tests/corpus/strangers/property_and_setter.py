@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -22,19 +21,3 @@ class MyFirstNode(Node):
     def timer_callback(self):
         self.get_logger().info(f"Hello time: {self.counter}")
         self.counter += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

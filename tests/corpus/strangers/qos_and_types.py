@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 from __future__ import annotations
 
 import rclpy
@@ -27,19 +26,3 @@ class MyFirstNode(Node):
         self.get_logger().info(f"Hello time: {self.seconds}")
         self.seconds += 1
         self.publisher.publish(Duration(sec=self.seconds))
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

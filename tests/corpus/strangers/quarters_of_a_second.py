@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -14,19 +13,3 @@ class Quarters(Node):
         if self.calls % 4:
             return
         self.get_logger().info(f"Hello time: {self.calls // 4 - 1}")
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Quarters()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

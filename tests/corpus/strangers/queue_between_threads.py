@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A thread prepares the texts, the timer takes one a second."""
 
 import queue
@@ -28,19 +27,3 @@ class HelloTime(Node):
 
     def tell(self):
         self.get_logger().info(self.texts.get())
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = HelloTime()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import time
 
 import rclpy
@@ -15,19 +14,3 @@ class Slow(Node):
         self.get_logger().info(f"Hello time: {self.counter}")
         self.counter += 1
         time.sleep(0.3)
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Slow()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

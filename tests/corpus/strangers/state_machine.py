@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import enum
 
 import rclpy
@@ -28,19 +27,3 @@ class Machine(Node):
     def count(self):
         self.get_logger().info(f"Hello time: {self.number}")
         self.number += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Machine()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import time
 
 import rclpy
@@ -23,19 +22,3 @@ class Measuring(Node):
         time.sleep(0.01)
         self.get_logger().info("Hello time: " + repr(self.counter))
         self.counter += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Measuring()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

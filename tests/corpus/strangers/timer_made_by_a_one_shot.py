@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
 
@@ -18,19 +17,3 @@ class Later(Node):
     def hello(self):
         self.get_logger().info("Hello time: " + str(self.counter))
         self.counter += 1
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = Later()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import signal
 import sys
 
@@ -27,7 +26,3 @@ def main(args=None):
     signal.signal(signal.SIGINT, stop)
     node = MyFirstNode()
     rclpy.spin(node)
-
-
-if __name__ == "__main__":
-    main()

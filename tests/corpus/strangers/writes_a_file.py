@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 import pathlib
 import tempfile
 
@@ -26,19 +25,3 @@ class MyFirstNode(Node):
     def destroy_node(self):
         self.file.close()
         super().destroy_node()
-
-
-def main(args=None):
-    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()
