@@ -102,6 +102,17 @@ def test_keygen_says_where_the_files_are_and_never_shows_the_key(tmp_path: Path)
     assert "there is a key already" in again.stderr
 
 
+def test_a_key_that_cannot_be_used_is_said_before_anything_is_marked(tmp_path: Path) -> None:
+    make_key(tmp_path)
+    (tmp_path / PRIVATE_FILE).chmod(0o644)
+    words = ("grade", processes.ROOT / "grader/keys/hello_time/solution", "--out", tmp_path / "out")
+    done = processes.run(processes.replaying(*words), env={"GRADER_STATE": str(tmp_path)})
+    assert done.returncode == 3
+    assert "chmod 600" in done.stderr
+    assert "building" not in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     done = processes.run(

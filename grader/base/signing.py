@@ -99,7 +99,7 @@ def make_key(folder: Path | None = None) -> PublicKey:
 
 
 def own_key(folder: Path | None = None) -> SigningKey | None:
-    """Return the key of this installation, None if there is none.
+    """Return the key of this installation, None if there is none in a folder of this user's.
 
     Raises SurroundingsError if it cannot be read, is not an Ed25519 key, or others could read it.
     """
@@ -110,6 +110,8 @@ def own_key(folder: Path | None = None) -> SigningKey | None:
     except FileNotFoundError:
         return None
     except OSError as error:
+        if not os.access(file.parent, os.X_OK):
+            return None  # (the folder of another user: it cannot be known what is in it)
         raise SurroundingsError(f"the key {file} cannot be read: {error.strerror}") from error
     if mode & OF_OTHERS:
         raise SurroundingsError(

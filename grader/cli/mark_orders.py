@@ -12,6 +12,7 @@ import click
 
 from grader.base.i18n.message import say, say_plural
 from grader.base.i18n.translator import Translator
+from grader.base.signing import own_key
 from grader.report import events
 from grader.report.live import LiveProgress
 from grader.report.model import Report
@@ -31,6 +32,8 @@ def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hi
 
     The reports and their evidence are written to `out` unless it is None.
     """
+    if out is not None:
+        own_key()  # a key that cannot be used is said before anything is marked
     translate = Translator(orders[0].lang)
     reports: list[Report] = []
     for order in orders:
