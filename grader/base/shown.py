@@ -1,8 +1,15 @@
-"""A student's text made safe for one line."""
+"""A student's text made safe: on one line, or as a name that JSON and SQLite can store."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 LONGEST = 120
+
+
+def utf8_name(name: str | Path) -> str:
+    """Return a file's name, whole, as text that can be stored: bytes that are not UTF-8 escaped."""
+    return str(name).encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 def shown(text: str) -> str:

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from grader.base.errors import UsageError
 from grader.batch.ledger import Ledger
 from grader.batch.override import LEDGER
-from grader.report.files import EVIDENCE, REPORT, SIGNATURE
+from grader.report.files import EVIDENCE, REPORT, SIGNATURE, read_report
 from grader.report.model import Report
 
 
@@ -60,17 +58,6 @@ def find_evidence(path: Path, *, ledger: Path | None = None) -> FoundEvidence:
             remedy="It was marked by an older grader. To mark it again: grader grade-all --regrade.",
         )
     return FoundEvidence(report, file, found, ledger=place)
-
-
-def read_report(file: Path) -> Report:
-    """Read a report; raise UsageError for anything else."""
-    try:
-        return Report.model_validate_json(file.read_bytes())
-    except OSError as error:
-        raise UsageError(f"{file} cannot be read: {error.strerror}") from None
-    except ValidationError as error:
-        first = error.errors()[0]
-        raise UsageError(f"{file} is not a report of this grader: {first['msg']}") from None
 
 
 def _ledger_above(file: Path) -> Path | None:

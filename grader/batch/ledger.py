@@ -6,7 +6,6 @@ A student has one verdict for each key (see `verdict_key`), and one more for eac
 from __future__ import annotations
 
 import contextlib
-import os
 import sqlite3
 import zlib
 from collections.abc import Callable, Iterable, Mapping
@@ -326,11 +325,6 @@ class Ledger:
             connection.execute(
                 "INSERT OR REPLACE INTO setting (name, value) VALUES (?, ?)", (name, value)
             )
-
-
-def path_text(path: Path) -> str:
-    """Return a path as the text that the ledger stores; bytes that are not UTF-8 are escaped."""
-    return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
 def _insert(

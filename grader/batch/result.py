@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 
+from grader.base.shown import utf8_name
 from grader.batch.earlier_submissions import EarlierSubmissions
 from grader.batch.intake import IntakeItem
-from grader.batch.ledger import HandedInRow, Ledger, VerdictRow, path_text
+from grader.batch.ledger import HandedInRow, Ledger, VerdictRow
 from grader.batch.model import (
     ClassFolder,
     ClassResult,
@@ -167,7 +168,7 @@ def _earlier(
     here = {(item.student, item.submission) for item in items}
     places: dict[str, set[str]] = defaultdict(set)
     for item in items:
-        places[path_text(item.handed_in.path)].add(item.student)
+        places[utf8_name(item.handed_in.path)].add(item.student)
     found: dict[str, list[HandedInRow]] = defaultdict(list)
     for row in rows:
         others = row.path in places and row.student not in places[row.path]
@@ -184,7 +185,7 @@ def _report(ledger: Ledger, row: VerdictRow | None) -> Report | None:
 
 def _paths(items: Iterable[IntakeItem]) -> dict[tuple[str, str], str]:
     """Return the path of each submission, by student and hash."""
-    return {(i.student, i.submission): path_text(i.handed_in.path) for i in items if i.submission}
+    return {(i.student, i.submission): utf8_name(i.handed_in.path) for i in items if i.submission}
 
 
 def _identical(

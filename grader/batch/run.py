@@ -10,10 +10,11 @@ from datetime import datetime, timezone
 from functools import partial
 
 from grader.base.errors import SurroundingsError
+from grader.base.shown import utf8_name
 from grader.batch.earlier_submissions import EarlierSubmissions
 from grader.batch.group_submissions import Pair, by_submission, reports_for, share_group_verdicts
 from grader.batch.intake import IntakeItem, take_in_class, tasks
-from grader.batch.ledger import HandedInRow, Ledger, Regrade, path_text
+from grader.batch.ledger import HandedInRow, Ledger, Regrade
 from grader.batch.model import ClassFolder, Student
 from grader.batch.similar import fingerprint
 from grader.batch.verdict_key import surroundings_key
@@ -212,7 +213,7 @@ def _record_attempts(ledger: Ledger, items: Sequence[IntakeItem], assignment: st
             submission=item.submission,
             submitted=given.submitted,
             late=given.late,
-            path=path_text(given.path),
+            path=utf8_name(given.path),
             first_seen=before.first_seen if before else now,
         )
         if row != before:

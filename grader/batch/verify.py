@@ -12,7 +12,7 @@ from grader.base.signing import PublicKey
 from grader.batch.find_evidence import FoundEvidence
 from grader.batch.ledger import Ledger
 from grader.package.submission import take_in
-from grader.verdict.evidence_file import EvidenceError, EvidenceFile, changed_files, differences
+from grader.verdict.evidence_file import EvidenceFile, changed_files, differences
 
 
 @dataclass
@@ -138,7 +138,7 @@ def _verify_evidence(
             evidence = EvidenceFile.from_bytes(content)
             changes = list(differences(evidence, ledger.report(verdict)))
             fault = f"its report differs: {'; '.join(changes)}" if changes else ""
-        except (EvidenceError, GraderError) as error:
+        except GraderError as error:
             fault = error.message
         if fault:
             findings.say("evidence", f"verdict {verdict}: {fault}", wrong=True)

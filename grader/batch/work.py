@@ -138,7 +138,7 @@ class Answer:
 
 
 def _recording_text(recording: Recording | None) -> str | None:
-    with contextlib.suppress(ValueError):  # nor does evidence that cannot be written
+    with contextlib.suppress(ValueError):  # evidence that cannot be written loses no verdict
         return recording.to_bytes().decode() if recording is not None else None
     return None
 
@@ -146,7 +146,7 @@ def _recording_text(recording: Recording | None) -> str | None:
 def _recording(text: str | None) -> Recording | None:
     from grader.verdict.recording import Recording, RecordingError  # noqa: PLC0415 - slow
 
-    with contextlib.suppress(RecordingError):  # evidence that cannot be read loses no verdict
+    with contextlib.suppress(RecordingError):  # nor does evidence that cannot be read
         return Recording.from_bytes(text.encode()) if text else None
     return None
 

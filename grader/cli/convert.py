@@ -55,6 +55,6 @@ def _as_in(form: Callable[[Report, bool], str], show_hidden: bool, report: Repor
 
 
 def _read(path: Path) -> Report:
-    from grader.batch.find_evidence import read_report  # noqa: PLC0415 - keeps --help fast
+    from grader.report.files import read_report  # noqa: PLC0415 - keeps --help fast
 
     return read_report(path)

@@ -15,7 +15,9 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from grader.base.errors import SurroundingsError
+from pydantic import ValidationError
+
+from grader.base.errors import SurroundingsError, UsageError
 from grader.base.folder import Folder
 from grader.base.i18n.message import say
 from grader.base.signing import own_key
@@ -35,6 +37,17 @@ IN_THE_WAY = (errno.ELOOP, errno.ENOTDIR, errno.EISDIR)
 def report_json(report: Report) -> str:
     """Return a report in its published form, which `report.schema.json` describes."""
     return report.model_dump_json(by_alias=True, indent=2) + "\n"
+
+
+def read_report(file: Path) -> Report:
+    """Read a report; raise UsageError for anything else."""
+    try:
+        return Report.model_validate_json(file.read_bytes())
+    except OSError as error:
+        raise UsageError(f"{file} cannot be read: {error.strerror}") from None
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise UsageError(f"{file} is not a report of this grader: {first['msg']}") from None
 
 
 def write_report(

@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
+from grader.base.shown import utf8_name
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.package.submission_json import submission_from_json, submission_json
@@ -84,7 +85,7 @@ class EvidenceFile(_Part):
         return cls(
             assignment=assignment,
             files={
-                shown(file.path): hashlib.sha256(file.data).hexdigest()
+                utf8_name(file.path): hashlib.sha256(file.data).hexdigest()
                 for file in submission.files
                 if file.kind == "file"
             },
@@ -146,11 +147,6 @@ def report_digest(report: Report) -> str:
     return hashlib.sha256(report_json(report).encode()).hexdigest()
 
 
-def shown(path: str) -> str:
-    """Return a name as text that JSON can hold: bytes that are not UTF-8 are escaped."""
-    return path.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
-
-
 def differences(ours: EvidenceFile, report: Report) -> Iterator[str]:
     """Yield a line for each check whose verdict in a report is not that of the evidence."""
     theirs = {result.id: CheckVerdict.of(result) for result in report.checks}
@@ -168,7 +164,7 @@ def changed_files(ours: Submission, theirs: Submission) -> list[str]:
     """Return the names of the files that two versions of a submission do not share, sorted."""
     one = {(file.path, file.kind, file.mode & 0o100, file.data) for file in ours.files}
     other = {(file.path, file.kind, file.mode & 0o100, file.data) for file in theirs.files}
-    return sorted({shown(entry[0]) for entry in one ^ other})
+    return sorted({utf8_name(entry[0]) for entry in one ^ other})
 
 
 def _said(check: CheckVerdict) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from grader.mistakes.example import SPIN_UNTIL_CTRL_C
 from grader.package.edit.tree import Replace, Write
 
 from .model import INNER, NODE, right
@@ -11,15 +12,7 @@ LINE = f"self.get_logger().info({TEXT})"
 TIMER = "self.create_timer(1.0, self.timer_callback)"
 COUNT = "self.counter_ = 0"
 STEP = "self.counter_ += 1"
-CATCH = """\
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-"""
+CATCH = SPIN_UNTIL_CTRL_C
 CATCH_ANY = """\
     try:
         rclpy.spin(node)
