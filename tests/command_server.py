@@ -28,7 +28,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("grader", "lab")
 # programs of their own, modules of ROS, and Dask
-NOT_IMPORTED = ("__main__", "bootstrap", "probe", "ros2_command", "cluster", "cluster_worker")
+NOT_IMPORTED = (
+    "__main__",
+    "bootstrap",
+    "probe",
+    "in_probe",
+    "ros2_command",
+    "cluster",
+    "cluster_worker",
+)
 # what the tests' own commands import
 OTHERS = ("tests.recorded", "tests.batch.in_process", "tests.report.samples")
 PIPE_BYTES = 65_536  # what a pipe holds (pipe(7))

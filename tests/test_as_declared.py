@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.course.assignment import CheckUse
 from grader.report.model import CheckResult
 from grader.run.run import Run
 from grader.run.workspace import Build, Installed
@@ -42,7 +43,7 @@ def build(**more: object) -> Build:
 def ask(bench: Bench, made: Build) -> Passed | None:
     static = bench.evidence()
     evidence = Evidence(static.assignment, static.submission, build=lambda: made, run=no_run)
-    outcome = mapping.evaluate(evidence)
+    outcome = mapping.evaluate(evidence, CheckUse(id=mapping.id, points=1))
     assert isinstance(outcome, Passed)
     evidence.results[mapping.id] = passed(mapping.id)
     return executable.function(evidence)

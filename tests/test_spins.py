@@ -8,7 +8,7 @@ from typing import Literal
 
 import pytest
 
-from grader.course.assignment import Assignment
+from grader.course.assignment import Assignment, CheckUse
 from grader.run.observer import Event, Watch
 from grader.run.probe_link import LogRecord, NodeSeen
 from grader.run.run import Run, counting_node
@@ -63,7 +63,8 @@ def outcome_of(
     bench.write(NODE, source)
     asked: Assignment = bench.assignment.model_copy(update=assignment)
     submission = bench.evidence().submission
-    return check.evaluate(Evidence(asked, submission, build=lambda: BUILT, run=lambda: run))
+    evidence = Evidence(asked, submission, build=lambda: BUILT, run=lambda: run)
+    return check.evaluate(evidence, CheckUse(id=check.id, points=1))
 
 
 def mistake_of(outcome: Passed | Outcome) -> str:

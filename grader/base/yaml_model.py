@@ -37,7 +37,7 @@ def validated(document: Document, model: type[M], keys: Keys) -> M:
     try:
         return model.model_validate(document.content, strict=True)
     except ValidationError as error:
-        raise error_of(document, _type_faults(error, keys)) from None
+        raise error_of(document, model_faults(error, keys)) from None
 
 
 def error_of(document: Document, faults: Iterable[Fault]) -> AssignmentError:
@@ -53,7 +53,7 @@ def broken(text: str) -> PydanticCustomError:
     return PydanticCustomError(RULE, "{text}", {"text": text})
 
 
-def _type_faults(error: ValidationError, keys: Keys) -> Iterator[Fault]:
+def model_faults(error: ValidationError, keys: Keys) -> Iterator[Fault]:
     """Yield pydantic's errors in our words; a misspelt key is not reported as missing too."""
     meant: set[Loc] = set()
     rest = []
@@ -103,7 +103,7 @@ def _wrong_value(loc: Loc, item: Any) -> str:
 
 
 def _choices(bounds: Any) -> list[str]:
-    return re.findall(r"'([^']+)'", str(bounds.get("expected", "")))
+    return [name for name in re.findall(r"'([^']*)'", str(bounds.get("expected", ""))) if name]
 
 
 def _shown(value: Any) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from grader.course.policy import Policy
+from grader.course.scenario import Node, RunPlan
 from grader.report.model import Visibility
 
 
@@ -29,17 +30,78 @@ class Output(_Part):
 
 
 class CheckUse(_Part):
-    """A check of the assignment: its points, and who sees it."""
+    """A check of the assignment: its points, and who sees it.
+
+    `check` is the kind of check, the same as `id` unless it is given. The rest is for kinds that
+    take it: `with_` their parameters, `of` a node, `run` the run that is judged, and `during` the
+    first and the last instant (s of ROS time) that count, from the stimulus `after` if it is given.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
 
     id: str
     points: float = Field(ge=0, allow_inf_nan=False)
     visibility: Visibility = "visible"
+    check: str = ""
+    of: str = ""
+    run: str = ""
+    after: str = ""
+    during: tuple[float, float] | None = None
+    with_: dict[str, Any] = Field(default_factory=dict, alias="with")
+
+    @property
+    def kind(self) -> str:
+        """The kind of check."""
+        return self.check or self.id
+
+
+class Lesson(_Part):
+    """The content of an assignment's file of schema 2: nodes, and runs in which they are judged."""
+
+    schema_: Literal[2] = Field(alias="schema")
+    id: str
+    title: str
+    package: str
+    nodes: dict[str, Node]
+    runs: tuple[RunPlan, ...]
+    modes: Literal["accept-unknown", "require"] = "accept-unknown"
+    hidden_checks: int = Field(default=0, ge=0)
+    limits: dict[str, float] = Field(default_factory=dict)
+    checks: tuple[CheckUse, ...]
+    policy: Policy = Field(default_factory=Policy)
+
+    def assignment(self) -> Assignment:
+        """Return the assignment; its main node is the first that the first run starts."""
+        main = self.nodes[self.runs[0].start[0].node]
+        return Assignment(
+            schema=2,
+            id=self.id,
+            title=self.title,
+            package=self.package,
+            node_file=main.file,
+            node_name=main.name,
+            executable=main.executable,
+            target=main.target,
+            output=Output(text="{n}"),
+            modes=self.modes,
+            confirm="never",
+            hidden_checks=self.hidden_checks,
+            limits=self.limits,
+            checks=self.checks,
+            policy=self.policy,
+            nodes=self.nodes,
+            runs=self.runs,
+        )
 
 
 class Assignment(_Part):
-    """One assignment; `course/load.py` reads it from a file."""
+    """One assignment; `course/load.py` reads it from a file.
 
-    schema_: Literal[1] = Field(alias="schema")
+    Of schema 1, it has one node that counts (`output`) and no `nodes` and `runs`; of schema 2, the
+    names are those of the main node.
+    """
+
+    schema_: Literal[1, 2] = Field(alias="schema")
     id: str
     title: str
     package: str
@@ -56,6 +118,8 @@ class Assignment(_Part):
     checks: tuple[CheckUse, ...]
     policy: Policy = Field(default_factory=Policy)
     sha256: str = ""
+    nodes: dict[str, Node] = Field(default_factory=dict)
+    runs: tuple[RunPlan, ...] = ()
 
     @property
     def function(self) -> str:
@@ -66,6 +130,10 @@ class Assignment(_Part):
     def folder(self) -> str:
         """The inner folder: the Python package that the target names."""
         return self.target.partition(":")[0].partition(".")[0]
+
+    def plan(self, name: str) -> RunPlan:
+        """Return a run's plan; the first one if the name is ""."""
+        return next((plan for plan in self.runs if plan.name == name), self.runs[0])
 
     @property
     def max_score(self) -> float:

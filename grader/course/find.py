@@ -1,21 +1,37 @@
 """Finds the course folder and the assignment in it; used by the commands, the guide and the lab.
 
-A course is a folder of lessons; a lesson is a folder with an assignment.yaml.
+A course is a folder of lessons; a lesson is a folder with an assignment.yaml. A course.yaml beside
+them gives the order of the lessons, of which the first is the default.
 """
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
+from grader.base.positioned_yaml import read_yaml
 from grader.base.project import CHECKOUT, PACKAGE, SHARES
+from grader.base.yaml_model import validated
 
 COURSE = "GRADER_COURSE"  # the path of another course folder
 LESSON = "GRADER_ASSIGNMENT"  # the lesson to use; the lab sets it for its programs
 FILE = "assignment.yaml"
+ORDER = "course.yaml"
 KEYS = PACKAGE / "keys"
+
+
+class Course(BaseModel):
+    """The content of a course.yaml."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    schema_: Literal[1] = Field(alias="schema")
+    lessons: tuple[str, ...] = Field(min_length=1)
 
 
 def course_folder() -> Path:
@@ -31,8 +47,26 @@ def own_course() -> Path:
 
 
 def lessons_of(course: Path) -> list[str]:
-    """Return the ids of a course's lessons, sorted."""
-    return sorted(file.parent.name for file in course.glob(f"*/{FILE}"))
+    """Return the ids of a course's lessons: in the order of its course.yaml, then by name."""
+    found = sorted(file.parent.name for file in course.glob(f"*/{FILE}"))
+    order = {name: place for place, name in enumerate(order_of(course))}
+    return sorted(found, key=lambda name: (order.get(name, len(order)), name))
+
+
+def order_of(course: Path) -> tuple[str, ...]:
+    """Return the lessons that a course.yaml names, in its order; none if there is no such file.
+
+    Raises AssignmentError if the file is not as it must be, or names a lesson that is not there.
+    """
+    file = course / ORDER
+    if not is_file(file):
+        return ()
+    document = read_yaml(file)
+    names = validated(document, Course, {(): tuple(Course.model_fields)}).lessons
+    for n, name in enumerate(names):
+        if not is_file(course / name / FILE):
+            raise document.error(("lessons", n), f"there is no lesson '{name}'")
+    return names
 
 
 def names_a_file(assignment: str) -> bool:
@@ -48,15 +82,16 @@ def is_file(path: Path) -> bool:
 def chosen(assignment: str | None) -> str:
     """Return the assignment to use, an id or a file's path.
 
-    It is the one of the command line, else $GRADER_ASSIGNMENT, else the course's only lesson.
-    Raises UsageError, with a list of the lessons, if the course has several or none.
+    It is the one of the command line, else $GRADER_ASSIGNMENT, else the first of the course.yaml,
+    else the course's only lesson. Raises UsageError, with a list of the lessons, if the course has
+    none, or several and no course.yaml.
     """
     named = assignment or os.environ.get(LESSON)
     if named:
         return named
     course = course_folder()
     known = lessons_of(course)
-    if len(known) == 1:
+    if len(known) == 1 or (known and order_of(course)):
         return known[0]
     if not known:
         raise _no_course(course)

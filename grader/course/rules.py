@@ -5,15 +5,17 @@ from __future__ import annotations
 import keyword
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Protocol
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from grader.base.nearest import meant_or_known
 from grader.base.positioned_yaml import Document, Loc
-from grader.base.yaml_model import Fault, error_of, validated
-from grader.course.assignment import Assignment, CheckUse, Output
+from grader.base.yaml_model import Fault, error_of, model_faults, validated
+from grader.course.assignment import Assignment, CheckUse, Lesson, Output
 from grader.course.policy import Late, Policy, policy_faults
+from grader.course.scenario import Call, ClockPlan, Node, Publish, RunPlan, Start, Stimulus
 
 # REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
 NAMES = {  # key: its pattern, and the pattern in words
@@ -35,6 +37,22 @@ NAMES = {  # key: its pattern, and the pattern in words
 }
 
 
+SCHEMA_2 = ("nodes", "runs")  # keys of Assignment that schema 1 does not have
+TOPIC = r"[/~]?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*"
+TYPE = r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*"
+
+
+class KnownCheck(Protocol):
+    """What the loader asks of a kind of check."""
+
+    @property
+    def parameters(self) -> type[BaseModel] | None:
+        """The model of its `with:`, None if it takes none."""
+
+
+KnownChecks = Mapping[str, KnownCheck]
+
+
 class HiddenChecks(BaseModel):
     """The instructor's file of hidden checks."""
 
@@ -46,13 +64,17 @@ class HiddenChecks(BaseModel):
 def check_content(
     document: Document,
     *,
-    known_checks: Sequence[str] | None,
+    known_checks: KnownChecks | None,
     known_limits: Sequence[str] | None,
 ) -> Assignment:
     """Return the assignment in a document; AssignmentError lists all faults."""
     content = document.content
-    if isinstance(content, dict) and "sha256" in content:
-        raise document.error(("sha256",), "unknown key 'sha256'")
+    if isinstance(content, dict) and content.get("schema") == 2:
+        return _lesson(document, known_checks=known_checks, known_limits=known_limits)
+    for key in ("sha256", *SCHEMA_2):
+        if isinstance(content, dict) and key in content:
+            hint = "" if key == "sha256" else " (it is of schema 2)"
+            raise document.error((key,), f"unknown key '{key}'{hint}")
     assignment = validated(document, Assignment, _keys(Assignment))
     found = [
         *_names(assignment),
@@ -69,12 +91,154 @@ def check_content(
     return assignment
 
 
+def _lesson(
+    document: Document,
+    *,
+    known_checks: KnownChecks | None,
+    known_limits: Sequence[str] | None,
+) -> Assignment:
+    lesson = validated(document, Lesson, _lesson_keys(document.content))
+    found = list(_runs(lesson))
+    if found:
+        raise error_of(document, found)
+    assignment = lesson.assignment()
+    found = [
+        *_names(assignment),
+        *_limits(assignment.limits, known_limits),
+        *_check_uses(assignment.checks, known_checks),
+        *_uses_of_runs(lesson),
+        *(
+            (("policy", *place), f"policy.{text}")
+            for place, text in policy_faults(assignment.policy)
+        ),
+    ]
+    if found:
+        raise error_of(document, found)
+    return _with_topics(assignment, document)
+
+
+def _with_topics(assignment: Assignment, document: Document) -> Assignment:
+    """Return the assignment with the topics of its checks among those that its runs record.
+
+    Raises AssignmentError for a topic without a type, or with two.
+    """
+    topics = {plan.name: dict(plan.topics) for plan in assignment.runs}
+    places = [
+        (i, use, topics[assignment.plan(use.run).name]) for i, use in enumerate(assignment.checks)
+    ]
+    found: list[Fault] = []
+    for i, use, known in places:
+        topic, kind = use.with_.get("topic"), use.with_.get("type")
+        if topic and kind and known.setdefault(topic, kind) != kind:
+            text = f"{topic} has the type {known[topic]} elsewhere in this run, not {kind}"
+            found.append((("checks", i, "with", "type"), text))
+    for i, use, known in places:
+        topic = use.with_.get("topic")
+        if topic and topic not in known:
+            text = f"the type of {topic} is not known: add `topics: {{{topic}: …}}` to the run"
+            found.append((("checks", i, "with", "topic"), text))
+    if found:
+        raise error_of(document, found)
+    periods: dict[str, dict[str, float]] = {plan.name: {} for plan in assignment.runs}
+    for use in assignment.checks:
+        topic, period = use.with_.get("topic"), use.with_.get("period")
+        if topic and period:
+            periods[assignment.plan(use.run).name][topic] = float(period)
+    runs = tuple(
+        plan.model_copy(update={"topics": topics[plan.name], "periods": periods[plan.name]})
+        for plan in assignment.runs
+    )
+    return assignment.model_copy(update={"runs": runs})
+
+
+def _lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
+    """Return the known keys of each place of a file of schema 2."""
+    keys = _keys(Lesson)
+    keys["policy",] = tuple(Policy.model_fields)
+    keys["policy", "late"] = tuple(Late.model_fields)
+    nodes = content.get("nodes")
+    for name in nodes if isinstance(nodes, Mapping) else ():
+        keys["nodes", str(name)] = tuple(Node.model_fields)
+    keys["runs", "*"] = tuple(name for name in RunPlan.model_fields if name != "periods")
+    keys["runs", "*", "clock"] = tuple(ClockPlan.model_fields)
+    keys["runs", "*", "start", "*"] = tuple(Start.model_fields)
+    keys["runs", "*", "do", "*"] = tuple(Stimulus.model_fields)
+    keys["runs", "*", "do", "*", "publish"] = tuple(Publish.model_fields)
+    keys["runs", "*", "do", "*", "call"] = tuple(Call.model_fields)
+    return keys
+
+
+def _runs(lesson: Lesson) -> Iterator[Fault]:
+    """Yield what is wrong with nodes and runs."""
+    names = [plan.name for plan in lesson.runs]
+    if not names:
+        yield ("runs",), "runs is empty: an assignment of schema 2 needs at least one run"
+    for i, plan in enumerate(lesson.runs):
+        place: Loc = ("runs", i)
+        if not plan.start:
+            yield (*place, "start"), f"the run '{plan.name}' starts no node"
+        if names.index(plan.name) != i:
+            yield (*place, "name"), f"the run '{plan.name}' is listed twice"
+        for j, begin in enumerate(plan.start):
+            if begin.node not in lesson.nodes:
+                hint = meant_or_known(begin.node, tuple(lesson.nodes))
+                yield (*place, "start", j, "node"), f"unknown node '{begin.node}'{hint}"
+        yield from _stimuli(plan, lesson, place)
+
+
+def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
+    end = plan.clock.period * plan.clock.ticks
+    done = [one.name for one in plan.do]
+    for j, one in enumerate(plan.do):
+        here: Loc = (*place, "do", j)
+        if done.index(one.name) != j:
+            yield (*here, "name"), f"'{one.name}' is listed twice"
+        if one.at >= end:
+            yield (
+                (*here, "at"),
+                f"'{one.name}' comes at {one.at:g} s, the run ends at {end:g} s",
+            )
+        for node in one.set or {}:
+            if node not in lesson.nodes:
+                hint = meant_or_known(node, tuple(lesson.nodes))
+                yield (*here, "set", node), f"unknown node '{node}'{hint}"
+        for key, what in (("publish", one.publish), ("call", one.call)):
+            if what is not None and not re.fullmatch(TYPE, what.type):
+                text = f"type must be such as std_msgs/msg/String, not '{what.type}'"
+                yield (*here, key, "type"), text
+
+
+def _uses_of_runs(lesson: Lesson) -> Iterator[Fault]:
+    """Yield what is wrong with the run, the node and the window that checks name."""
+    names = tuple(plan.name for plan in lesson.runs)
+    for i, use in enumerate(lesson.checks):
+        place: Loc = ("checks", i)
+        if use.run and use.run not in names:
+            yield (*place, "run"), f"unknown run '{use.run}'{meant_or_known(use.run, names)}"
+            continue
+        if use.of and use.of not in lesson.nodes:
+            hint = meant_or_known(use.of, tuple(lesson.nodes))
+            yield (*place, "of"), f"unknown node '{use.of}'{hint}"
+        plan = next((plan for plan in lesson.runs if plan.name == use.run), lesson.runs[0])
+        done = tuple(one.name for one in plan.do)
+        if use.after and use.after not in done:
+            yield (
+                (*place, "after"),
+                f"unknown stimulus '{use.after}'{meant_or_known(use.after, done)}",
+            )
+        if use.during is not None and use.during[0] > use.during[1]:
+            yield (
+                (*place, "during"),
+                "during must be [first, last] in s, the first not above the last",
+            )
+
+
 def merge_hidden(
     assignment: Assignment,
     document: Document,
     hidden: Document,
     *,
-    known_checks: Sequence[str] | None,
+    known_checks: KnownChecks | None,
 ) -> Assignment:
     """Return the assignment with the hidden checks added after the visible ones."""
     extra = validated(hidden, HiddenChecks, _keys(HiddenChecks)).checks
@@ -89,22 +253,29 @@ def merge_hidden(
     marked = tuple(
         use if "visibility" in use.model_fields_set else _as_hidden(use) for use in extra
     )
-    return assignment.model_copy(update={"checks": assignment.checks + marked})
+    merged = assignment.model_copy(update={"checks": assignment.checks + marked})
+    return _with_topics(merged, hidden) if merged.runs else merged
 
 
 def _as_hidden(use: CheckUse) -> CheckUse:
-    return CheckUse(id=use.id, points=use.points, visibility="hidden")
+    return use.model_copy(update={"visibility": "hidden"})
 
 
 def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:
     """Return the known keys of each place."""
-    own = tuple(f.alias or name for name, f in model.model_fields.items() if name != "sha256")
-    keys: dict[Loc, tuple[str, ...]] = {(): own, ("checks", "*"): tuple(CheckUse.model_fields)}
+    own = _aliases(model)
+    if model is Assignment:
+        own = tuple(name for name in own if name not in ("sha256", *SCHEMA_2))
+    keys: dict[Loc, tuple[str, ...]] = {(): own, ("checks", "*"): _aliases(CheckUse)}
     if "output" in own:
         keys["output",] = tuple(Output.model_fields)
         keys["policy",] = tuple(Policy.model_fields)
         keys["policy", "late"] = tuple(Late.model_fields)
     return keys
+
+
+def _aliases(model: type[BaseModel]) -> tuple[str, ...]:
+    return tuple(field.alias or name for name, field in model.model_fields.items())
 
 
 def _names(assignment: Assignment) -> Iterator[Fault]:
@@ -142,17 +313,32 @@ def _limits(limits: dict[str, float], known: Sequence[str] | None) -> Iterator[F
 
 
 def _check_uses(
-    uses: Sequence[CheckUse], known: Sequence[str] | None, taken: Sequence[str] = ()
+    uses: Sequence[CheckUse], known: KnownChecks | None, taken: Sequence[str] = ()
 ) -> Iterator[Fault]:
     if not uses and not taken:
         yield ("checks",), "checks is empty: an assignment needs at least one check"
     seen = set(taken)
     for i, use in enumerate(uses):
-        if known is not None and use.id not in known:
+        if known is not None and use.kind not in known:
             yield (
-                ("checks", i, "id"),
-                f"unknown check '{use.id}'{meant_or_known(use.id, known)}",
+                ("checks", i, "check" if use.check else "id"),
+                f"unknown check '{use.kind}'{meant_or_known(use.kind, tuple(known))}",
             )
         elif use.id in seen:
             yield ("checks", i, "id"), f"the check '{use.id}' is listed twice"
+        elif known is not None:
+            yield from _parameters(use, known[use.kind].parameters, ("checks", i, "with"))
         seen.add(use.id)
+
+
+def _parameters(use: CheckUse, model: type[BaseModel] | None, place: Loc) -> Iterator[Fault]:
+    """Yield what is wrong with the parameters of a check."""
+    if model is None:
+        if use.with_:
+            yield place, f"the check '{use.kind}' takes no parameters"
+        return
+    try:
+        model.model_validate(use.with_, strict=True)
+    except ValidationError as error:
+        for loc, text in model_faults(error, {(): _aliases(model)}):
+            yield (*place, *loc), text

@@ -31,6 +31,7 @@ from grader.mistakes import (
     submission,
     terminal,
     timer,
+    topics,
     values,
 )
 from grader.mistakes.example import Example
@@ -48,6 +49,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             build,
             entry_points,
             other_language,
+            topics,
             scope,
             classes,
             objects,

@@ -35,6 +35,10 @@ Stage = Literal[
     "text",
     "logger",
     "spin",
+    "topic",
+    "parameter",
+    "service",
+    "world",
     "shutdown",
     "limits",
 ]

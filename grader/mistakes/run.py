@@ -300,6 +300,20 @@ KINDS = (
         link=links.EXECUTORS,
     ),
     _run(
+        "stuck",
+        "callback",
+        msg("The node no longer answers"),
+        msg(
+            "A node runs one callback after another. A callback that waits for something that only "
+            "another callback brings, such as the answer of a service, waits for ever."
+        ),
+        msg(
+            "Do not wait or spin in a callback: use call_async and add_done_callback, and let the "
+            "callback return."
+        ),
+        links.EXECUTORS,
+    ),
+    _run(
         "stops",
         "timer",
         msg("The lines stop coming"),

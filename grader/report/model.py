@@ -145,6 +145,29 @@ class Observed(_Part):
     due: list[float] = Field(default_factory=list)
 
 
+class TopicInfo(_Part):
+    """A topic that was recorded: its type, and how many messages came."""
+
+    name: str
+    type: str
+    count: int
+
+
+class RunInfo(_Part):
+    """One run of a scenario: what was observed, and where its turtles drove.
+
+    `instants` is how many instants of ROS time the clock showed, `period` s apart (`observed`);
+    `path` has points in metres by the turtle's name.
+    """
+
+    name: str
+    world: str = ""
+    observed: Observed = Field(default_factory=Observed)
+    instants: int = 0
+    topics: list[TopicInfo] = Field(default_factory=list)
+    path: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)
+
+
 class Evidence(_Part):
     """The texts on which the verdict is based, cut in the middle to a bounded length."""
 
@@ -178,7 +201,12 @@ class Report(_Part):
     lang: str = "en"
     attempts: int = 1
     checks: list[CheckResult]
-    observed: Observed = Field(default_factory=Observed)
+    observed: Observed = Field(
+        default_factory=Observed, description="of the first run, if there are several"
+    )
+    runs: list[RunInfo] = Field(
+        default_factory=list, description="the runs of an assignment of schema 2"
+    )
     evidence: Evidence = Field(default_factory=Evidence)
     timing: Timing = Field(default_factory=Timing)
     started: str

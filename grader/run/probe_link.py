@@ -103,15 +103,26 @@ class ProbeLink:
             self._read(START_SECONDS)
             self._ready = True
 
+    def extend(self, source: Path) -> None:
+        """Add the commands of a module of `in_probe` to the probe."""
+        self.ask("extend", seconds=1, name=source.stem, text=source.read_text(encoding="utf-8"))
+
     def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
         """Send one command and return the answer; ProbeError if none comes."""
+        return self.answer_of(self.said(do, seconds=seconds, **more))
+
+    def said(self, do: str, *, seconds: float = 0, **more: object) -> dict[str, Any]:
+        """Send one command and return the answer as it came; ProbeError if none comes."""
         self.ready()
         try:
             command = {"do": do, "seconds": seconds, **more}
             self.pipe.write(json.dumps(command).encode() + b"\n")
         except OSError as error:
             raise self._lost("it has ended") from error
-        said = self._read(seconds + PATIENCE)
+        return self._read(seconds + PATIENCE)
+
+    def answer_of(self, said: dict[str, Any]) -> Answer:
+        """Return what every answer has; ProbeError if it does not have that."""
         try:
             return Answer(
                 barrier=said["barrier"],

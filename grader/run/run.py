@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.run.clock import STILL, ForeignClock, VirtualClock, watch_wall
+from grader.run.observations import Observations
 from grader.run.observer import Event, Observer, Watch, number_reader
 from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
 from grader.run.screen import stays
@@ -39,7 +40,7 @@ class Run:
     person would run it, None if it was not run so. `doubled` is a node with two publishers on
     /rosout: its records prove nothing. `erased` is above 0 if the terminal no longer shows lines of
     the count. `held_up` is the median of the seconds for which the node held up its steps in two
-    runs, 0 if it was at most a period.
+    runs, 0 if it was at most a period. `name` and `seen` are of a run of a scenario.
     """
 
     command: str
@@ -64,6 +65,8 @@ class Run:
     seconds: float = 0
     node_seconds: float | None = None
     first_line_seconds: float | None = None
+    name: str = ""
+    seen: Observations | None = None
 
     @property
     def counting_node(self) -> NodeSeen | None:
@@ -110,7 +113,7 @@ def observe(
     probe.ready()
     begin = time.monotonic()
     longest = limits.run_seconds + limits.stop_seconds
-    terminal = _start(sandbox, run.command, probe.pipe)
+    terminal = start(sandbox, run.command, probe.pipe)
     try:
         observer = Observer(terminal, probe, assignment.output)
         clock: VirtualClock | None = None
@@ -142,7 +145,8 @@ def observe(
         run.logged = observer.logged
         run.doubled = observer.doubled
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
-        _stop(run, terminal, clock, limits.stop_seconds)
+        go_on = clock.go_on if clock is not None else None
+        press_ctrl_c(run, terminal, go_on, limits.stop_seconds)
         run.watch.events += observer.take()
     except ProbeError:
         overdue = time.monotonic() - begin > longest
@@ -170,7 +174,7 @@ def counts_plainly(
     output = assignment.output
     number = number_reader(output)
     network = sandbox.probe(["cat"])  # it has a network of its own until its input ends
-    terminal = _start(sandbox, ros2_run(assignment, plain=True), network)
+    terminal = start(sandbox, ros2_run(assignment, plain=True), network)
     try:
         wanted = [output.start, output.start + output.step]
         until = min(until, time.monotonic() + patience)
@@ -190,8 +194,8 @@ def counts_plainly(
         network.finish(1.0)
 
 
-def _start(sandbox: Sandbox, command: str, network: Pipe) -> Terminal:
-    """Start the student's command in their workspace, in the network of a pipe."""
+def start(sandbox: Sandbox, command: str, network: Pipe) -> Terminal:
+    """Return a terminal with the student's command in their workspace, in the network of a pipe."""
     script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {command}'
     console = sandbox.console(["bash", "-c", script], probe=network)
     return Terminal(console, most=int(sandbox.limits.output))
@@ -287,7 +291,9 @@ def _count_while_still(run: Run, observer: Observer) -> bool | None:
     return any(event.kind in kinds for event in still)
 
 
-def _stop(run: Run, terminal: Terminal, clock: VirtualClock | None, seconds: float) -> None:
+def press_ctrl_c(
+    run: Run, terminal: Terminal, go_on: Callable[[float], None] | None, seconds: float
+) -> None:
     """Press Ctrl+C and record how the node ends; ROS time goes on, as it does for a person.
 
     Python's own signal handlers run when the node's wait returns: at its next timer, for example.
@@ -300,9 +306,9 @@ def _stop(run: Run, terminal: Terminal, clock: VirtualClock | None, seconds: flo
         terminal.interrupt()
     _, ended = terminal.finish(min(seconds, PASSING_SECONDS))
     while not ended and (left := pressed + seconds - time.monotonic()) > 0:
-        if clock is not None:
+        if go_on is not None:
             with contextlib.suppress(ProbeError):
-                clock.go_on(PASSING_SECONDS)
+                go_on(PASSING_SECONDS)
         _, ended = terminal.finish(min(left, PASSING_SECONDS))
     if ended:
         run.stop_seconds = time.monotonic() - pressed

@@ -7,12 +7,15 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from types import TracebackType
 
 from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
+from grader.course.scenario import RunPlan
 from grader.package.source.remarks import Remark, remarks_on
 from grader.package.submission import Submission
+from grader.run.conduct import conduct
 from grader.run.observer import Event
 from grader.run.probe_link import ProbeError, ProbeLink
 from grader.run.run import Run, counts_plainly, observe
@@ -54,7 +57,8 @@ class Session:
         self._probe: ProbeLink | None = None
         self._remarks: list[Remark] = []
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
-        self._built = b""  # the workspace after the build, for a plain run
+        self._built = b""  # the workspace after the build, for a plain run or another scenario
+        self._planned = False  # whether a run of a scenario was made
         self._deadline = time.monotonic() + sandbox.limits.verdict_seconds
 
     def __enter__(self) -> Session:
@@ -83,7 +87,7 @@ class Session:
             made = build(self.sandbox, submission, package=self.assignment.package)
             if made.doubts_colcon:
                 prove_again(self.sandbox)
-            if made.status == 0 and self._is_confirmed():
+            if made.status == 0 and (self._is_confirmed() or len(self.assignment.runs) > 1):
                 self._built = save(self.sandbox)
         finally:
             self.timing["build"] += time.monotonic() - begin
@@ -112,6 +116,23 @@ class Session:
         finally:
             self.timing["run"] += time.monotonic() - begin
 
+    def run_plan(
+        self, plan: RunPlan, on_event: Callable[[Event], None], *, named: Assignment | None = None
+    ) -> Run:
+        """Make one run of a scenario, in the workspace as it was built; raises as `run` does."""
+        begin = time.monotonic()
+        named = named or self.assignment
+        try:
+            if self._planned:
+                restore(self.sandbox, self._built)
+            self._planned = True
+            run = self._observed(partial(conduct, self.sandbox, named, plan), on_event)
+            if run.doubts_ros2:
+                prove_again(self.sandbox)
+            return run
+        finally:
+            self.timing["run"] += time.monotonic() - begin
+
     def _compared(self, run: Run, named: Assignment) -> Run:
         """Return a run after another one, if one run does not say enough about the node."""
         # the second run reports no ticks: the listener already has those of the first
@@ -130,6 +151,18 @@ class Session:
     def _run(
         self, on_event: Callable[[Event], None], named: Assignment, *, fine: bool = False
     ) -> Run:
+        observed = partial(
+            observe,
+            self.sandbox,
+            named,
+            fine=fine,
+            more_ticks=self._unforeseen.more_ticks,
+            stay_seconds=self._unforeseen.stay_seconds,
+        )
+        return self._observed(observed, on_event)
+
+    def _observed(self, observed: Callable[..., Run], on_event: Callable[[Event], None]) -> Run:
+        """Return a run, made again if our own side fails."""
         failure: ProbeError | None = None
         tries = 0
         while tries < RUNS and self._has_time():
@@ -137,16 +170,7 @@ class Session:
             self._probe = self._probe or ProbeLink(self.sandbox)
             until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
             try:
-                run = observe(
-                    self.sandbox,
-                    named,
-                    self._probe,
-                    on_event,
-                    until=until,
-                    fine=fine,
-                    more_ticks=self._unforeseen.more_ticks,
-                    stay_seconds=self._unforeseen.stay_seconds,
-                )
+                run = observed(self._probe, on_event, until=until)
             except ProbeError as error:
                 failure = error
                 continue

@@ -17,7 +17,7 @@ from grader.package.edit.tree import Tree, write_tree
 from grader.package.submission import Submission, take_in
 from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult, CheckStatus
-from grader.verdict.checks.all import CHECKS, STATIC
+from grader.verdict.checks.all import STATIC
 from grader.verdict.order import Order
 from grader.verdict.static import evaluate_static
 
@@ -40,13 +40,13 @@ class Marked:
 
     @property
     def failed(self) -> tuple[str, ...]:
-        """The checks that failed, in the order in which they run."""
-        return tuple(check for check in CHECKS if self.status.get(check) == "failed")
+        """The checks that failed, in the order of the assignment."""
+        return tuple(check for check, status in self.status.items() if status == "failed")
 
     @property
     def unknown(self) -> tuple[str, ...]:
         """The checks that could not be decided."""
-        return tuple(check for check in CHECKS if self.status.get(check) in UNDECIDED)
+        return tuple(check for check, status in self.status.items() if status in UNDECIDED)
 
     @property
     def first_mistake(self) -> str:

@@ -17,7 +17,6 @@ from grader.validate.marking import Marked, mark_all, mark_files, submit, submit
 from grader.validate.matrix import Matrix, MutantResult, as_json
 from grader.validate.mutant import Mutant
 from grader.validate.named import MUTANTS, MutantsFile, read_mutants
-from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import Order
 
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
@@ -60,7 +59,7 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
     rows = tuple(MutantResult(m, marked[m.name]) for m in chosen if m.name in marked)
     return Matrix(
         assignment=assignment.id,
-        checks=tuple(c for c in CHECKS if c in {use.id for use in assignment.checks}),
+        checks=tuple(use.id for use in assignment.checks),
         max_score=assignment.max_score,
         rows=rows,
         left_out=len(mutants) - len(rows),

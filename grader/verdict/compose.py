@@ -9,6 +9,7 @@ from pathlib import Path
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.i18n.translator import Translator
+from grader.course.assignment import Assignment
 from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
@@ -22,6 +23,7 @@ REMARKS = {
     "hides": msg("To look at: {place} has {what}: the source does not show what it does."),
     "rosout": msg("To look at: {place} has {what}: the node may publish log records by hand."),
 }
+MOST_POINTS = 400  # of a turtle's path
 MOST_EVIDENCE = 40_000  # characters, of the build log and of the transcript each
 
 
@@ -39,6 +41,7 @@ def compose(
     assignment, submission = evidence.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None
+    transcripts = [made.transcript for made in evidence.runs] or ([run.transcript] if run else [])
     open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
     unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
     return model.Report(
@@ -63,9 +66,10 @@ def compose(
         max_score=assignment.max_score,
         checks=list(results),
         observed=_observed(run, assignment.output.period),
+        runs=[_run_info(made, assignment) for made in evidence.runs],
         evidence=model.Evidence(
             build_log=_cut(build.log, translate) if build else "",
-            transcript=_cut(run.transcript, translate) if run else "",
+            transcript=_cut("\n".join(transcripts), translate),
         ),
         timing=timing,
         started=started.isoformat(),
@@ -121,6 +125,36 @@ def _observed(run: Run | None, period: float) -> model.Observed:
             seconds=None if run.stop_seconds is None else round(run.stop_seconds, 3),
         ),
     )
+
+
+def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
+    plan, seen = assignment.plan(run.name), run.seen
+    observed = _observed(run, plan.clock.period)
+    if seen is None:
+        return model.RunInfo(name=run.name, world=plan.world, observed=observed)
+    topics = [
+        model.TopicInfo(name=topic, type=kind, count=seen.counts.get(topic, 0))
+        for topic, kind in plan.topics.items()
+    ]
+    turtles = dict.fromkeys(pose.turtle for pose in seen.path)
+    return model.RunInfo(
+        name=run.name,
+        world=plan.world,
+        observed=observed.model_copy(update={"ticks": [], "due": []}),
+        instants=len(seen.instants),
+        topics=topics,
+        path={
+            turtle: _thinned([(p.x, p.y) for p in seen.path if p.turtle == turtle])
+            for turtle in turtles
+        },
+    )
+
+
+def _thinned(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return at most MOST_POINTS of the points, the last one included."""
+    step = max(1, -(-len(points) // MOST_POINTS))
+    kept = points[::step]
+    return [(round(x, 3), round(y, 3)) for x, y in kept]
 
 
 def _cut(text: str, translate: Translator) -> str:

@@ -8,9 +8,9 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from grader.base.errors import GraderError
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
-from grader.course.assignment import Assignment
+from grader.course.assignment import Assignment, CheckUse
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
@@ -24,9 +24,23 @@ class AssignedCheck:
     """A check of an assignment; `depends` has those of its dependencies that are assigned too."""
 
     check: Check
-    points: float
-    visibility: Visibility
+    use: CheckUse
     depends: tuple[str, ...]
+
+    @property
+    def points(self) -> float:
+        """The points that it is worth."""
+        return self.use.points
+
+    @property
+    def visibility(self) -> Visibility:
+        """Who sees its result."""
+        return self.use.visibility
+
+    @property
+    def title(self) -> Message:
+        """Its title, with the values of its parameters."""
+        return self.check.title_of(self.use)
 
 
 Announce = Callable[[AssignedCheck], None]
@@ -34,16 +48,17 @@ Announce = Callable[[AssignedCheck], None]
 
 def assigned_checks(assignment: Assignment) -> list[AssignedCheck]:
     """Return an assignment's checks, each after those that it depends on."""
-    uses = {use.id: use for use in assignment.checks}
+    uses: dict[str, list[CheckUse]] = {}
+    for use in assignment.checks:
+        uses.setdefault(use.kind, []).append(use)
     return [
         AssignedCheck(
             check,
-            uses[check.id].points,
-            uses[check.id].visibility,
-            tuple(dependency for dependency in check.depends if dependency in uses),
+            use,
+            tuple(found.id for needed in check.depends for found in uses.get(needed, ())),
         )
         for check in CHECKS.values()
-        if check.id in uses
+        for use in uses.get(check.id, ())
     ]
 
 
@@ -61,7 +76,7 @@ def evaluate_checks(
     any other exception that is not an outcome becomes a result with the status `error`.
     """
     for assigned in assigned_checks(evidence.assignment):
-        if only is not None and assigned.check.id not in only:
+        if only is not None and assigned.use.id not in only:
             continue
         if announce is not None:
             announce(assigned)
@@ -101,8 +116,8 @@ def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator
             fault=traceback.format_exc(limit=-4),
         )
     return CheckResult(
-        id=assigned.check.id,
-        title=translate(assigned.check.title),
+        id=assigned.use.id,
+        title=translate(assigned.title),
         status=found.status,
         score=found.score,
         max_score=assigned.points,
@@ -124,7 +139,7 @@ def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator
 
 def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
     blocker = _blocker(assigned, evidence)
-    outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence)
+    outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
     if isinstance(outcome, Passed):
         return _Result(
             status="passed", score=assigned.points, actual=outcome.actual, advice=outcome.advice
@@ -134,7 +149,7 @@ def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
     if isinstance(outcome, Blocked):
         return _skipped(assigned, outcome.by, evidence)
     if not outcome.blocks:
-        evidence.not_blocking.add(assigned.check.id)
+        evidence.not_blocking.add(assigned.use.id)
     diagnosis = diagnose(outcome, evidence)
     return _Result(
         status="failed",
@@ -150,7 +165,7 @@ def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
 
 
 def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
-    for dependency in assigned.check.depends:
+    for dependency in assigned.depends:
         result = evidence.results.get(dependency)
         if dependency in evidence.not_blocking:
             continue
@@ -162,7 +177,8 @@ def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
 def _skipped(assigned: AssignedCheck, by: str, evidence: Evidence) -> _Result:
     cause = evidence.results.get(by)
     root = (cause.blocked_by if cause is not None else "") or by
-    title = CHECKS[root].title if root in CHECKS else root
+    titles = {one.use.id: one.title for one in assigned_checks(evidence.assignment)}
+    title = titles.get(root) or (CHECKS[root].title if root in CHECKS else root)
     if evidence.is_hidden(root) and assigned.visibility == "visible":
         title = say("a hidden check")
     actual = say("skipped because of: {title}", title=title)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import cached_property
 
 from grader.course.assignment import Assignment
+from grader.course.scenario import RunPlan
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.run.run import Run
@@ -29,6 +30,7 @@ class Evidence:
         *,
         build: Callable[[], Build],
         run: Callable[[], Run],
+        run_of: Callable[[RunPlan], Run] | None = None,
     ) -> None:
         self.asked = assignment
         self.assignment = with_own_names(assignment, submission)
@@ -37,7 +39,10 @@ class Evidence:
         self.not_blocking: set[str] = set()
         self._make_build = build
         self._make_run = run
+        self._make_run_of = run_of
         self._run: Run | None = None
+        self._runs: dict[str, Run] = {}
+        self._runs_failed: dict[str, Inconclusive] = {}
         self.run_failed: Inconclusive | None = None
 
     @cached_property
@@ -56,6 +61,8 @@ class Evidence:
     @property
     def run(self) -> Run:
         """The run; made on first access. Raises Inconclusive if our own side failed."""
+        if self.assignment.runs:
+            return self.run_of(self.assignment.runs[0].name)
         if self._run is None:
             if self.run_failed is not None:
                 raise self.run_failed
@@ -67,9 +74,36 @@ class Evidence:
                 raise self.run_failed from failure
         return self._run
 
+    def run_of(self, name: str) -> Run:
+        """Return a run of a scenario; made on first access. Raises Inconclusive as `run` does."""
+        if name in self._runs_failed:
+            raise self._runs_failed[name]
+        if name not in self._runs:
+            assert self._make_run_of is not None
+            try:
+                _ = self.build
+                self._runs[name] = self._make_run_of(self.assignment.plan(name))
+            except Unobserved as failure:
+                self._runs_failed[name] = Inconclusive(str(failure))
+                raise self._runs_failed[name] from failure
+        return self._runs[name]
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """The runs of scenarios that were made, in the order of the assignment."""
+        names = [plan.name for plan in self.assignment.runs]
+        return tuple(self._runs[name] for name in names if name in self._runs)
+
+    @property
+    def unobserved(self) -> dict[str, str]:
+        """Why runs of scenarios could not be observed, by the run's name."""
+        return {name: failed.reason for name, failed in self._runs_failed.items()}
+
     @property
     def has_run(self) -> bool:
-        """Whether the run was made."""
+        """Whether the run was made; of a scenario, the first one."""
+        if self.assignment.runs:
+            return self.assignment.runs[0].name in self._runs
         return self._run is not None
 
     @property

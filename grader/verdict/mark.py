@@ -153,6 +153,7 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
         submission,
         build=lambda: session.build(submission),
         run=lambda: session.run(tick, named=evidence.named),
+        run_of=lambda plan: session.run_plan(plan, tick, named=evidence.named),
     )
     return evidence
 
@@ -180,13 +181,15 @@ class _Stages:
         self._begin = 0.0
 
     def announce(self, assigned: AssignedCheck) -> None:
-        check, stage = assigned.check, assigned.check.stage
+        stage = assigned.check.stage
         if stage.name != self._stage:
             self.finish()
             self._stage, self._begin = stage.name, time.monotonic()
             self._listener(events.StageStarted(stage.name, self._translate(stage.title)))
         self._listener(
-            events.CheckStarted(check.id, self._translate(check.title), assigned.visibility)
+            events.CheckStarted(
+                assigned.use.id, self._translate(assigned.title), assigned.visibility
+            )
         )
 
     def finish(self) -> None:

@@ -18,12 +18,14 @@ from pydantic import (
     PlainValidator,
     TypeAdapter,
     ValidationError,
+    model_serializer,
 )
 
 from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
 from grader.base.i18n.message import Message, say
 from grader.course.assignment import Assignment, Output
+from grader.course.scenario import Node, RunPlan
 from grader.package.submission import Submission
 from grader.report.model import Environment
 from grader.run.observer import Event, Watch
@@ -55,6 +57,8 @@ def _run_as_json(run: Run) -> dict[str, Any]:
     found["watch"]["seen"] = EVENTS.dump_python(seen, mode="json")
     note = run.watch.note
     found["watch"]["note"] = note.template if isinstance(note, Message) else note
+    if run.seen is None:  # a run that is no scenario's
+        del found["seen"], found["name"]
     return found
 
 
@@ -86,6 +90,16 @@ class Asked(_Part):
     package: str
     executable: str
     output: Output
+    nodes: dict[str, Node] = Field(default_factory=dict)
+    runs: tuple[RunPlan, ...] = ()
+
+    @model_serializer(mode="wrap")
+    def _without_scenarios(self, handler: Any) -> dict[str, Any]:
+        """Leave out the keys of schema 2 in a recording of schema 1."""
+        found: dict[str, Any] = handler(self)
+        if not self.runs:
+            del found["nodes"], found["runs"]
+        return found
 
 
 class Recording(_Part):
@@ -93,6 +107,7 @@ class Recording(_Part):
 
     `build` and `run` are None if no check needed them; `unobserved` is the reason if the run was
     tried and could not be observed. In JSON, `run` lists its events once (see `_run_as_json`).
+    `scenarios` are the runs of an assignment of schema 2, and `unobserved_runs` the reasons by name.
     """
 
     schema_: Literal[1] = Field(default=1, alias="schema")
@@ -102,6 +117,16 @@ class Recording(_Part):
     build: Build | None = None
     run: RecordedRun | None = None
     unobserved: str = ""
+    scenarios: tuple[RecordedRun, ...] = ()
+    unobserved_runs: dict[str, str] = Field(default_factory=dict)
+
+    @model_serializer(mode="wrap")
+    def _without_scenarios(self, handler: Any) -> dict[str, Any]:
+        """Leave out the keys of schema 2 in a recording of schema 1."""
+        found: dict[str, Any] = handler(self)
+        if not self.asked.runs:
+            del found["scenarios"], found["unobserved_runs"]
+        return found
 
     def to_bytes(self) -> bytes:
         """Return the recording as canonical JSON.
@@ -126,7 +151,9 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         submission=evidence.submission.sha256,
         environment=environment,
         build=evidence.build if evidence.was_built else None,
-        run=evidence.run if evidence.has_run else None,
+        run=evidence.run if evidence.has_run and not evidence.asked.runs else None,
+        scenarios=evidence.runs,
+        unobserved_runs=evidence.unobserved,
         unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
     )
 
@@ -154,7 +181,15 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
             raise RecordingError("the recording has no run")
         return recording.run
 
-    return Evidence(assignment, submission, build=build, run=run)
+    def run_of(plan: RunPlan) -> Run:
+        if plan.name in recording.unobserved_runs:
+            raise Unobserved(recording.unobserved_runs[plan.name])
+        for found in recording.scenarios:
+            if found.name == plan.name:
+                return found
+        raise RecordingError(f"the recording has no run '{plan.name}'")
+
+    return Evidence(assignment, submission, build=build, run=run, run_of=run_of)
 
 
 def _asked(assignment: Assignment) -> Asked:
@@ -163,4 +198,6 @@ def _asked(assignment: Assignment) -> Asked:
         package=assignment.package,
         executable=assignment.executable,
         output=assignment.output,
+        nodes=assignment.nodes,
+        runs=assignment.runs,
     )

@@ -66,7 +66,7 @@ class Package:
         """The checks that are skipped: the blocked ones, and all that depend on a lost check."""
         lost = {*self.expect_failed, *self.blocked}
         for check in CHECKS.values():  # in the order of their dependencies
-            if (lost - self.not_blocking) & set(check.depends):
+            if check.id in POINTS and (lost - self.not_blocking) & set(check.depends):
                 lost.add(check.id)
         return frozenset(lost) - set(self.expect_failed) - self.undecided
 

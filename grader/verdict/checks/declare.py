@@ -3,20 +3,33 @@
 A check is a function of a verdict's evidence. It returns `Passed` (or None, which means the same)
 or raises `Failed`, `Blocked` or `Inconclusive`; it prints nothing. All that the grader knows about
 a check is in its declaration; `all.py` finds the declarations of the modules beside this one.
+
+A kind of check with parameters is a function of its use in the assignment (`grader.verdict.use.Use`,
+which has the evidence): one assignment may use it several times, under different ids.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
+
+from pydantic import BaseModel, ConfigDict
 
 from grader.base.i18n.message import Message, say
 from grader.report.model import Quote
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
+    from grader.course.assignment import CheckUse
     from grader.verdict.evidence import Evidence
+    from grader.verdict.use import Use
+
+
+class Parameters(BaseModel):
+    """The parameters of a kind of check: the keys of its `with:`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 CheckFunction = Callable[["Evidence"], "Passed | None"]
@@ -42,24 +55,42 @@ RUN = Stage(2, "run", say("running the node"), "run")
 class Check:
     """A declared check; `title` is the first line of the function's docstring.
 
+    For a kind with `parameters`, the title may have their names as placeholders.
+
     It is skipped unless the checks in `depends` passed. It is evaluated after those in `after`,
     because it uses their results, or because they name the cause of a mistake that both find.
     `needs` is what usually decides it, `quotes` what of the evidence shows why it failed.
     """
 
     id: str
-    title: str
+    title: str  # a template of `grader.base.i18n.message`
     stage: Stage
     needs: Needs
     depends: tuple[str, ...]
     after: tuple[str, ...]
     quotes: Quote | None
-    function: CheckFunction = field(repr=False)
+    function: Callable[..., Passed | None] = field(repr=False)
+    parameters: type[Parameters] | None = None
 
-    def evaluate(self, evidence: Evidence) -> Passed | Failed | Blocked | Inconclusive:
+    def title_of(self, use: CheckUse) -> Message:
+        """Return the title of a use, with the values of its parameters."""
+        if self.parameters is None:
+            return Message(self.title)
+        given = self.parameters.model_validate(use.with_)
+        values = {name: _as_word(getattr(given, name)) for name in self.parameters.model_fields}
+        return Message(self.title, {**values, "node": use.of})
+
+    def evaluate(
+        self, evidence: Evidence, use: CheckUse
+    ) -> Passed | Failed | Blocked | Inconclusive:
         """Return the outcome for this evidence. Any other exception is a bug of ours."""
         try:
-            return self.function(evidence) or Passed()
+            if self.parameters is None:
+                return self.function(evidence) or Passed()
+            from grader.verdict.use import Use  # noqa: PLC0415 - it needs the evidence of a run
+
+            given = self.parameters.model_validate(use.with_)
+            return self.function(Use(use, given, evidence)) or Passed()
         except (Failed, Blocked, Inconclusive) as outcome:
             return outcome
 
@@ -74,12 +105,39 @@ def check(
     quotes: Quote | None = None,
 ) -> Callable[[CheckFunction], Check]:
     """Declare a check, as `Check` describes it; `needs` is the stage's unless it is given."""
+    return _declare(check_id, stage, needs, depends, after, quotes, None)
 
-    def declare(function: CheckFunction) -> Check:
+
+def kind(
+    check_id: str,
+    parameters: type[Parameters],
+    *,
+    depends: Sequence[str] = (),
+    after: Sequence[str] = (),
+) -> Callable[[Callable[[Use[Any]], Passed | None]], Check]:
+    """Declare a kind of check with parameters; it judges a run of a scenario."""
+    return _declare(check_id, RUN, None, depends, after, "before_ctrl_c", parameters)
+
+
+def _as_word(value: object) -> str | int | float:
+    return value if isinstance(value, str | int | float) else str(value)
+
+
+def _declare(
+    check_id: str,
+    stage: Stage,
+    needs: Needs | None,
+    depends: Sequence[str],
+    after: Sequence[str],
+    quotes: Quote | None,
+    parameters: type[Parameters] | None,
+) -> Callable[[Callable[..., Passed | None]], Check]:
+    def declare(function: Callable[..., Passed | None]) -> Check:
         title = (function.__doc__ or check_id).strip().splitlines()[0].rstrip(".")
         return Check(
             id=check_id,
-            title=Message(title),
+            parameters=parameters,
+            title=title,
             stage=stage,
             needs=needs or stage.needs,
             depends=tuple(depends),

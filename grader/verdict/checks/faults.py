@@ -97,6 +97,11 @@ def words(evidence: Evidence) -> dict[str, Value]:
     return placeholder_values(evidence.assignment, source_of_node(evidence))
 
 
+def going_on(evidence: Evidence) -> str:
+    """Return the check that says why a run did not go on to its end."""
+    return "run.stays" if evidence.assignment.runs else "run.output"
+
+
 def flood(evidence: Evidence, expected: str) -> Failed:
     """Return the failure of a node that printed more than the limit."""
     run = evidence.run

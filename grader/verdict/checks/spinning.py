@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import line_of, node_file, words
+from grader.verdict.checks.faults import going_on, line_of, node_file, words
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
@@ -26,7 +26,7 @@ def spins(evidence: Evidence) -> Passed:
     run = evidence.run
     # a flood ends the run: whether the node answered before that would be chance
     if run.confirmed is False or run.flooded:
-        raise Blocked(by="run.output")
+        raise Blocked(by=going_on(evidence))
     if not _answers(run) and not _follows(run):
         raise _never(evidence)
     if not run.watch.while_still:
@@ -47,7 +47,7 @@ def _never(evidence: Evidence) -> Failed | Blocked | Inconclusive:
     """Return the outcome of a node of which nothing answered."""
     run = evidence.run
     if run.resource or run.ended_by_itself:
-        return Blocked(by="run.output")
+        return Blocked(by=going_on(evidence))
     node = run.counting_node
     if node is not None and not node.services and not node.clock:
         return Inconclusive(

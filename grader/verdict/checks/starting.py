@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
+from grader.verdict.checks.faults import flood, going_on, node_file, resource, traceback_of, words
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def interrupt(evidence: Evidence) -> Passed:
     """Ctrl+C ends the node."""
     run = evidence.run
     if not run.interrupted:
-        raise Blocked(by="run.output")
+        raise Blocked(by=going_on(evidence))
     expected = say("the node ends soon after Ctrl+C")
     if run.stop_seconds is None:
         raise Failed(

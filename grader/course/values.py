@@ -1,0 +1,116 @@
+"""The forms that a value of a message, a parameter or an answer can have.
+
+A form is data: a plain value (equal to it), or one of `{about, within}`, `{between: [a, b]}`,
+`{one_of: […]}`, `{matches: pattern}` and `{contains: text}`. Nothing of it is evaluated.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, model_validator
+
+from grader.base.yaml_model import broken
+
+FLOAT32 = 1e-6  # the relative error of a value that went through a float32 field
+KEYS = ("equal", "about", "between", "one_of", "matches", "contains")
+
+
+class Form(BaseModel):
+    """A form; exactly one of its keys is set (`within` belongs to `about`)."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    equal: Any = None
+    about: float | None = None
+    within: float | None = None
+    between: tuple[float, float] | None = None
+    one_of: tuple[Any, ...] | None = None
+    matches: str | None = None
+    contains: str | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _plain(cls, value: Any) -> Any:
+        return value if isinstance(value, Mapping | Form) else {"equal": value}
+
+    @model_validator(mode="after")
+    def _one(self) -> Form:
+        given = [key for key in KEYS if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise broken(f"a value is plain or has exactly one of {', '.join(KEYS)}")
+        if (self.within is None) != (self.about is None):
+            raise broken("about and within belong together: {about: 1.0, within: 0.01}")
+        if self.matches is not None:
+            try:
+                re.compile(self.matches)
+            except re.error as error:
+                raise broken(f"matches is not a regular expression: {error}") from None
+        return self
+
+    def fits(self, value: Any) -> bool:
+        """Whether a value has this form."""
+        if self.about is not None and self.within is not None:
+            return _is_number(value) and abs(value - self.about) <= self.within * (1 + FLOAT32)
+        if self.between is not None:
+            return _is_number(value) and self.between[0] <= value <= self.between[1]
+        if self.one_of is not None:
+            return any(_equal(value, one) for one in self.one_of)
+        if self.matches is not None:
+            return isinstance(value, str) and re.search(self.matches, value) is not None
+        if self.contains is not None:
+            return isinstance(value, str) and self.contains in value
+        return _equal(value, self.equal)
+
+    def __str__(self) -> str:
+        """Return the form as a person would write it."""
+        if self.about is not None:
+            return f"{self.about:g} ± {self.within:g}"
+        if self.between is not None:
+            return f"{self.between[0]:g} … {self.between[1]:g}"
+        if self.one_of is not None:
+            return " | ".join(shown_value(one) for one in self.one_of)
+        if self.matches is not None:
+            return f"/{self.matches}/"
+        if self.contains is not None:
+            return f"…{self.contains}…"
+        return shown_value(self.equal)
+
+
+def shown_value(value: Any) -> str:
+    """Return a value as text for a reader."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return repr(value) if isinstance(value, str) else str(value)[:200]
+
+
+def at_path(values: Any, path: str) -> Any:
+    """Return the value of a field such as `linear.x` or `ranges[0]`; KeyError if it is not there."""
+    for part in re.findall(r"[^.\[\]]+|\[\d+\]", path):
+        if part.startswith("["):
+            index = int(part[1:-1])
+            if not isinstance(values, list | tuple) or index >= len(values):
+                raise KeyError(path)
+            values = values[index]
+        elif isinstance(values, Mapping) and part in values:
+            values = values[part]
+        else:
+            raise KeyError(path)
+    return values
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _equal(value: Any, wanted: Any) -> bool:
+    if isinstance(wanted, bool) or isinstance(value, bool):
+        return value is wanted
+    if _is_number(value) and _is_number(wanted):
+        return math.isclose(value, wanted, rel_tol=FLOAT32, abs_tol=1e-9)
+    return bool(value == wanted)

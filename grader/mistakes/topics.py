@@ -1,0 +1,414 @@
+"""The catalogue: topics, services, parameters and the world, as a run shows them from outside."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.package.source.names import last_part
+
+UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
+OTHER_TYPE = r"Expected <class '[\w.]*\.(?P<wanted>\w+)'>, got <class '[\w.]*?(?P<name>\w+)'>"
+NO_TEXT = r"rclpy_resolve_name\(\): incompatible function arguments"
+INVALID_NAME = r"Invalid(?:Topic|Service)NameException: Invalid (?:topic|service) name"
+OF_CLASS = r"'(?:property|member_descriptor|getset_descriptor)' object has no attribute"
+OPERAND = r"unsupported operand type\(s\) for .*'Parameter'|'Parameter' and '|must be real number, not Parameter"
+ENDS = ("create_publisher", "create_subscription", "create_service", "create_client")
+
+
+def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """A parameter is used that the node has not declared."""
+    words = {**raised.words, "name": match["name"], "close": "", "type": ""}
+    return RecognisedMistake(kind="parameter.not_declared", words=words, where=raised.where)
+
+
+def _other_type(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    return raised.finding("other_message", name=match["name"], wanted=match["wanted"])
+
+
+def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call that makes an end of a topic or service has something else in place of the name."""
+    del match
+    for call, name in raised.source.calls:
+        if last_part(name) in ENDS and call.lineno == raised.line:
+            return raised.finding("end_arguments", at=call, name=last_part(name))
+    return None
+
+
+def _invalid_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    del match
+    return raised.finding("topic_name_invalid")
+
+
+def _of_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A variable was set to a message's class without parentheses."""
+    del match
+    types = {
+        alias.asname or alias.name
+        for node in raised.module.nodes
+        if isinstance(node, ast.ImportFrom) and (node.module or "").endswith((".msg", ".srv"))
+        for alias in node.names
+    }
+    for node in raised.module.nodes:
+        named = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(named, ast.Name) and named.id in types:
+            return raised.finding("message_class", name=named.id)
+    return None
+
+
+def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    del match
+    return raised.finding("parameter_object")
+
+
+NAMED = msg(
+    "Nodes find each other by the name of the topic alone: a publisher and a subscription meet if "
+    "their names are equal, to the letter."
+)
+TYPED = msg(
+    "A topic has one type. A publisher and a subscription of different types never exchange a "
+    "message, and neither of them reports an error."
+)
+
+_node = Family("node", links.FIRST_NODE)
+_topic = Family("topic", links.TOPICS)
+_parameter = Family("parameter", links.PARAMETERS)
+_service = Family("service", links.SERVICES)
+_world = Family("world", links.TOPICS)
+_log = Family("log", links.LOGGING)
+KINDS = (
+    _node(
+        "other_message",
+        "topic",
+        msg("The message has another type than its publisher"),
+        msg("A publisher sends messages of the type that create_publisher gets, and no other."),
+        msg("Make the message with {wanted}(), or pass {name} to create_publisher."),
+        raised={OTHER_TYPE: _other_type},
+    ),
+    _node(
+        "end_arguments",
+        "topic",
+        msg("The type and the name are in the wrong order"),
+        msg(
+            "create_publisher, create_subscription, create_service and create_client take the type "
+            "first, then the name as a text."
+        ),
+        msg("Write {name}(Type, 'name', …): first the type, then the name in quotes."),
+        raised={NO_TEXT: _swapped},
+    ),
+    _node(
+        "topic_name_invalid",
+        "topic",
+        msg("ROS does not allow this name"),
+        msg(
+            "Names of topics and services consist of letters, digits and _, with / between the "
+            "parts; no part begins with a digit."
+        ),
+        msg("Remove spaces and other characters from the name."),
+        links.NAMES,
+        raised={INVALID_NAME: _invalid_name},
+    ),
+    _node(
+        "message_class",
+        "topic",
+        msg("The type of the message is used in place of a message"),
+        msg("A message is an object: the parentheses after the type make one."),
+        msg("Write {name}() with parentheses."),
+        raised={OF_CLASS: _of_class},
+    ),
+    _node(
+        "parameter_object",
+        "parameter",
+        msg(".value is missing after get_parameter"),
+        msg("get_parameter returns an object that has the name, the type and the value."),
+        msg("Write self.get_parameter('…').value."),
+        links.PARAMETERS,
+        raised={OPERAND: _parameter_object},
+    ),
+    _topic(
+        "int_in_float",
+        "topic",
+        msg("A whole number is in a field for floating-point numbers"),
+        msg(
+            "ROS copies the value to a field of the type float without a conversion: a whole number "
+            "arrives as a number near 0."
+        ),
+        msg("Write a number with a point, such as 2.0, or float(…)."),
+    ),
+    _topic(
+        "no_publisher",
+        "topic",
+        msg("The node has no publisher"),
+        NAMED,
+        msg(
+            "Write self.publisher_ = self.create_publisher({short}, '{topic}', 10) in __init__, and "
+            "import {short}."
+        ),
+    ),
+    _topic(
+        "no_subscription",
+        "topic",
+        msg("The node has no subscription"),
+        NAMED,
+        msg(
+            "Write self.create_subscription({short}, '{topic}', self.callback, 10) in __init__, and "
+            "import {short}."
+        ),
+    ),
+    _topic(
+        "wrong_name",
+        "topic",
+        msg("The topic has a different name"),
+        NAMED,
+        msg(
+            "Use '{topic}' in place of '{name}'. A name without a slash in front begins with the "
+            "node's namespace."
+        ),
+    ),
+    _topic(
+        "wrong_type",
+        "topic",
+        msg("The topic has a different type"),
+        TYPED,
+        msg("Pass {short} as the first argument, and import it ({wanted})."),
+    ),
+    _topic(
+        "never_published",
+        "topic",
+        msg("Nothing is ever published"),
+        msg(
+            "create_publisher only announces the topic. A message goes out each time publish() is "
+            "called."
+        ),
+        msg(
+            "Call self.publisher_.publish(message) in the callback of the timer or of the "
+            "subscription, with parentheses."
+        ),
+    ),
+    _topic(
+        "too_few",
+        "topic",
+        msg("Too few messages"),
+        msg("A message goes out each time publish() is called."),
+        msg("Make sure that every call of the callback reaches publish()."),
+    ),
+    _topic(
+        "several_at_once",
+        "topic",
+        msg("Several messages at the same instant"),
+        msg("Each call of publish() is a message, and each timer calls its callback."),
+        msg("Call publish() once in the callback, and create the timer once."),
+    ),
+    _topic(
+        "wrong_period",
+        "topic",
+        msg("The messages come at a different rate"),
+        msg("The first argument of create_timer is the period in seconds: 2 Hz is 0.5 s."),
+        msg("Write create_timer({wanted}, …)."),
+    ),
+    _topic(
+        "stops",
+        "topic",
+        msg("The messages stop"),
+        msg("A timer calls its callback until the node ends, unless it is cancelled."),
+        msg("Look for a condition, a counter or a cancel() that ends the publishing."),
+    ),
+    _topic(
+        "wrong_value",
+        "topic",
+        msg("A message has a different value"),
+        msg("Fields that are not set are 0. Velocities are in m/s and rad/s, distances in m."),
+        msg("Set the field so that it is {wanted}, each time before publish()."),
+        whys={
+            "changed": msg(
+                "A value that is read in __init__ stays as it was. The callback has to read it "
+                "each time to see a change."
+            )
+        },
+        fixes={
+            "changed": msg(
+                "Read the value in the callback, for example with "
+                "self.get_parameter('…').value, and set the field so that it is {wanted}."
+            )
+        },
+    ),
+    _topic(
+        "none_then",
+        "topic",
+        msg("No message at that time"),
+        msg("A message goes out each time publish() is called."),
+        msg("Make sure that the callback publishes at that time too."),
+    ),
+    _topic(
+        "no_reaction",
+        "topic",
+        msg("The node does not react to a message"),
+        msg("A subscription calls its callback for each message, while the node spins."),
+        msg("Publish on {topic} in the callback of the subscription."),
+    ),
+    _topic(
+        "qos_mismatch",
+        "topic",
+        msg("The QoS of publisher and subscription do not fit"),
+        msg(
+            "A subscription that asks for more than the publisher offers gets nothing: reliable "
+            "does not fit best effort, transient local does not fit volatile."
+        ),
+        msg(
+            "Create the subscription with the QoS that the publisher offers; for sensors this is "
+            "qos_profile_sensor_data from rclpy.qos."
+        ),
+        links.QOS,
+    ),
+    _topic(
+        "wrong_qos",
+        "topic",
+        msg("The topic has a different QoS"),
+        msg(
+            "The QoS says whether messages may be lost, and whether late subscribers get old ones."
+        ),
+        msg("Pass a QoSProfile with {wanted} in place of the depth."),
+        links.QOS,
+    ),
+    _parameter(
+        "not_declared",
+        "parameter",
+        msg("The parameter is not declared"),
+        msg(
+            "A node has only the parameters that it declares. A value from the command line or a "
+            "file counts only for a declared parameter."
+        ),
+        msg("Write self.declare_parameter('{name}', …) in __init__, with the default value."),
+        close=msg("The name is '{name}', not '{close}'."),
+        raised={UNDECLARED: _undeclared},
+    ),
+    _parameter(
+        "wrong_type",
+        "parameter",
+        msg("The parameter has a different type"),
+        msg(
+            "The default value decides the type: 2 is an integer, 2.0 a double, '2.0' a string. A "
+            "value of another type is refused later."
+        ),
+        msg("Declare '{name}' with a default value of the type {type}."),
+    ),
+    _parameter(
+        "wrong_value",
+        "parameter",
+        msg("The parameter has a different value"),
+        msg("Without a value from the command line, a parameter has its default value."),
+        msg("Declare '{name}' with the default value {wanted}."),
+    ),
+    _parameter(
+        "refused",
+        "parameter",
+        msg("The node refuses to change the parameter"),
+        msg(
+            "A node can refuse a change: the parameter is read-only, the value has another type or "
+            "is out of range, or a callback of the node does not return a successful result."
+        ),
+        msg(
+            "Let '{name}' be changed. A callback for changes must return "
+            "SetParametersResult(successful=True)."
+        ),
+    ),
+    _service(
+        "missing",
+        "service",
+        msg("The node does not offer the service"),
+        msg("A service exists as soon as create_service is called; clients find it by its name."),
+        msg("Write self.create_service({short}, '{service}', self.callback) in __init__."),
+    ),
+    _service(
+        "no_client",
+        "service",
+        msg("The node has no client of the service"),
+        msg("A client finds a service by its name and type."),
+        msg("Write self.client_ = self.create_client({short}, '{service}') in __init__."),
+    ),
+    _service(
+        "wrong_name",
+        "service",
+        msg("The service has a different name"),
+        msg("A client and a service meet if their names are equal, to the letter."),
+        msg("Use '{service}' in place of '{name}'."),
+    ),
+    _service(
+        "wrong_type",
+        "service",
+        msg("The service has a different type"),
+        msg("A client and a service of different types never meet."),
+        msg("Pass {short} as the first argument of {make}."),
+    ),
+    _service(
+        "no_answer",
+        "service",
+        msg("The service does not answer"),
+        msg(
+            "The answer goes out when the callback returns. A callback that waits for something "
+            "which only spinning brings waits for ever."
+        ),
+        msg("Let the callback of {service} return the response, without waiting in it."),
+    ),
+    _service(
+        "wrong_answer",
+        "service",
+        msg("The service answers something else"),
+        msg("The callback fills the response that it gets, and returns it."),
+        msg("Set the fields of the response in the callback of {service}, and return it."),
+    ),
+    _world(
+        "off_path",
+        "world",
+        msg("The turtle drives another way"),
+        msg(
+            "With a speed v and a turning speed w, a robot drives on a circle with the radius v / w."
+        ),
+        msg("Choose angular.z so that linear.x divided by angular.z is {radius}."),
+    ),
+    _world(
+        "stands_still",
+        "world",
+        msg("The turtle does not move"),
+        msg(
+            "A velocity command holds for one second. Without a new one, and with a speed of 0, the "
+            "turtle stands still."
+        ),
+        msg("Publish a velocity for {turtle} again and again, with linear.x above 0."),
+    ),
+    _world(
+        "hits_wall",
+        "world",
+        msg("The turtle hits the wall"),
+        msg(
+            "The turtle goes on with its last command until the next one comes: it has to turn "
+            "early enough before the wall."
+        ),
+        msg("Turn earlier, or drive more slowly near the wall."),
+    ),
+    _log(
+        "missing",
+        "text",
+        msg("A log line is missing"),
+        msg("A line is logged each time the logger is called, with the text that it gets."),
+        msg("Log the text with self.get_logger().info(…) when it is due."),
+    ),
+    _log(
+        "too_often",
+        "text",
+        msg("A log line comes too often"),
+        msg("A callback runs for each message and each tick, and logs each time unless it checks."),
+        msg("Log only when something changes: keep the last state in an attribute and compare."),
+    ),
+    _log(
+        "forbidden",
+        "text",
+        msg("A log line that must not come"),
+        msg("Warnings and errors in the log say that something went wrong."),
+        msg("Find what makes the node log this line."),
+    ),
+)

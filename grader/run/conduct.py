@@ -1,0 +1,339 @@
+"""One run of a scenario: its nodes on terminals, the world and the clock in the probe, then Ctrl+C."""
+
+from __future__ import annotations
+
+import shlex
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
+from grader.course.assignment import Assignment
+from grader.course.scenario import RunPlan, Start, Stimulus
+from grader.run.observations import STEP, Done, End, Message, Observations, Parameter, Pose
+from grader.run.observer import SECOND, Event, Observer
+from grader.run.probe_link import ProbeError, ProbeLink
+from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Run, press_ctrl_c, start
+from grader.run.terminal import Terminal
+from grader.sandbox.base import Sandbox
+
+IN_PROBE = Path(__file__).with_name("in_probe")
+MILLISECOND = 1_000_000
+PREPARE_SECONDS = 5.0  # wall time to make the probe's ends
+STEP_SECONDS = 2.0  # wall time for one step
+SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
+FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
+UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
+LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
+MOST_MESSAGES = 20_000  # of a run
+MOST_POSES = 2_000  # of a run's path
+
+
+def command_of(assignment: Assignment, begin: Start) -> str:
+    """Return the `ros2 run` command that starts a node of a plan."""
+    node = assignment.nodes[begin.node]
+    words = ["ros2", "run", assignment.package, node.executable]
+    return shlex.join([*words, "--ros-args", *begin.arguments()])
+
+
+def full_name(assignment: Assignment, begin: Start) -> str:
+    """Return the full name of a node that a plan starts."""
+    space = "/" + begin.namespace.strip("/")
+    name = begin.name or assignment.nodes[begin.node].name
+    return f"{space.rstrip('/')}/{name}"
+
+
+def conduct(
+    sandbox: Sandbox,
+    assignment: Assignment,
+    plan: RunPlan,
+    probe: ProbeLink,
+    on_event: Callable[[Event], None],
+    *,
+    until: float,
+) -> Run:
+    """Start the nodes, drive clock and world through the plan, press Ctrl+C, return the result.
+
+    The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
+    failed, UsageError if the plan names a type or a field that ROS does not have.
+    """
+    limits = sandbox.limits
+    seen = Observations(plan.clock.period)
+    commands = [command_of(assignment, begin) for begin in plan.start]
+    run = Run(command=commands[0], name=plan.name, seen=seen)
+    probe.until = until - limits.stop_seconds - END_SECONDS
+    probe.ready()
+    probe.extend(IN_PROBE / "scenario.py")
+    _prepare(probe, plan)
+    begin = time.monotonic()
+    terminals: list[Terminal] = []
+    try:
+        terminals += [start(sandbox, command, probe.pipe) for command in commands]
+        observer = Observer(terminals[0], probe, assignment.output)
+        scene = _Scene(assignment, plan, probe, observer, terminals, run, on_event)
+        scene.deadline = min(begin + limits.run_seconds, probe.until)
+        scene.play(begin, limits.start_seconds)
+        _end(run, scene, limits.stop_seconds)
+    except ProbeError:
+        run.resource = sandbox.probe_limit_hit()
+        if not run.resource:
+            raise
+    finally:
+        for terminal in terminals:
+            terminal.read()
+            terminal.close()
+        run.transcript = "\n".join(terminal.transcript for terminal in terminals)
+        run.flooded = run.flooded or any(terminal.flooded for terminal in terminals)
+        run.seconds = time.monotonic() - begin
+    return run
+
+
+def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
+    """Make the ends that the plan needs; UsageError for what ROS does not have."""
+    world = {}
+    if plan.world:
+        source = IN_PROBE / f"{plan.world}.py"
+        world = {"name": plan.world, "text": source.read_text(encoding="utf-8")}
+    said = probe.said(
+        "prepare",
+        seconds=PREPARE_SECONDS,
+        watch=[[topic, kind, []] for topic, kind in plan.topics.items()],
+        publish=[[one.publish.topic, one.publish.type] for one in plan.do if one.publish],
+        call=[[one.call.service, one.call.type] for one in plan.do if one.call],
+        periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
+        world=world,
+    )
+    for kind, path, has in said.get("unknown", ()):
+        what = say("there is no interface {type} in this ROS", type=kind)
+        if path:
+            what = say("{type} has no field {path}, only {has}", type=kind, path=path, has=has)
+        raise UsageError(
+            what, remedy=say("Correct the run '{name}' of the assignment.", name=plan.name)
+        )
+
+
+class _Scene:
+    """A run that goes on."""
+
+    def __init__(
+        self,
+        assignment: Assignment,
+        plan: RunPlan,
+        probe: ProbeLink,
+        observer: Observer,
+        terminals: Sequence[Terminal],
+        run: Run,
+        on_event: Callable[[Event], None],
+    ) -> None:
+        assert run.seen is not None
+        self.assignment, self.plan, self.probe = assignment, plan, probe
+        self.observer, self.terminals, self.run, self.seen = observer, terminals, run, run.seen
+        self._on_event = on_event
+        self.deadline = 0.0  # by time.monotonic()
+        self.at = 0  # ns
+        self._unanswered = 0
+        self._names = {begin.node: full_name(assignment, begin) for begin in plan.start}
+        self._waiting = sorted(plan.do, key=lambda one: one.at)
+
+    @property
+    def over(self) -> bool:
+        """Whether the run cannot go on."""
+        ended = all(terminal.ended or terminal.flooded for terminal in self.terminals)
+        stuck = self._unanswered >= UNANSWERED
+        return ended or stuck or self.observer.flooded or time.monotonic() > self.deadline
+
+    def play(self, begin: float, most: float) -> None:
+        """Wait for the nodes, then go through all instants of the plan."""
+        run, watch = self.run, self.run.watch
+        self._wait_for_nodes(begin, most)
+        if run.nodes and not self.over:
+            watch.clock = "virtual"
+            watch.settled = self._settle()
+            self._look()
+            self._do_all(0.0)
+            for k in range(1, self.plan.clock.ticks + 1):
+                if self.over:
+                    break
+                self._tick(round(k * self.plan.clock.period * SECOND))
+            self.seen.complete = len(self.seen.instants) == self.plan.clock.ticks
+        if self._unanswered >= UNANSWERED:
+            self.seen.stuck = self.seen.instants[max(0, len(self.seen.instants) - UNANSWERED)]
+        watch.events += self.observer.settle()
+        watch.events[:] = self.observer.visible(watch.events)
+        if run.nodes:
+            self._look()
+        run.ended_by_itself = self.terminals[0].ended
+        run.flooded, run.logged = self.observer.flooded, self.observer.logged
+        run.doubled = self.observer.doubled
+        run.started = watch.settled or bool(run.nodes and not run.ended_by_itself)
+
+    def _wait_for_nodes(self, begin: float, most: float) -> None:
+        first_seen: float | None = None
+        while not self.over:
+            answer = self.probe.ask("wait", seconds=0.02)
+            events = self.observer.take(answer)
+            self.run.watch.before_start += events
+            self.run.watch.events += events
+            self._read_others()
+            self.observer.linked(answer.nodes)
+            now = time.monotonic()
+            if answer.nodes:
+                first_seen = first_seen or now
+                self.run.nodes = answer.nodes
+                self.run.node_seconds = first_seen - begin
+                complete = all(node.clock and node.services for node in answer.nodes)
+                if complete and answer.matched and len(answer.nodes) >= len(self.plan.start):
+                    break
+                alone = len(answer.nodes) >= len(self.plan.start)
+                if now - first_seen > (COMPLETE_SECONDS if alone else most):
+                    break
+            elif now - begin > most:
+                return
+        names = [node.name for node in self.run.nodes]
+        if len(names) == 1 and len(self._names) == 1:
+            self._names = dict.fromkeys(self._names, names[0])  # its own name may be another one
+
+    def _settle(self) -> bool:
+        """Start the clock at 1 ms; return whether a node answers, that is, whether it spins."""
+        until = min(time.monotonic() + SETTLE_SECONDS, self.deadline)
+        settled = False
+        while not self.over:
+            answer = self.probe.ask("clock", seconds=0.25, at=MILLISECOND, until_log=0, patient=1)
+            self._take(answer.logs and answer)
+            settled = settled or bool(answer.barrier)
+            if (settled and not answer.silent) or answer.barrier is None:
+                break
+            if time.monotonic() > until:
+                break
+        for node in self.run.nodes:
+            if not node.clock and node.answers:
+                self.probe.ask("follow", name=node.name, seconds=1.0)
+        return settled
+
+    def _tick(self, at: int) -> None:
+        """Show an instant; at first also the moment before it, when nothing may come yet.
+
+        A timer that is faster than the clock's period shows itself there.
+        """
+        if len(self.seen.instants) < FINE_TICKS:
+            self._show(at - MILLISECOND)
+        self._show(at)
+        self.seen.instants.append(round(at / SECOND, 6))
+        self._do_all(at / SECOND)
+
+    def _show(self, at: int) -> None:
+        self.at = at
+        self.observer.now = at / SECOND
+        said = self.probe.said("tick", seconds=STEP_SECONDS, at=at, until_log=0, patient=0)
+        self._record(said)
+        silent = said["barrier"] is False
+        self._unanswered = self._unanswered + 1 if silent else 0
+
+    def _do_all(self, until: float) -> None:
+        while self._waiting and self._waiting[0].at <= until + 1e-9 and not self.over:
+            self._do(self._waiting.pop(0))
+
+    def _do(self, one: Stimulus) -> None:
+        done = Done(one.name, one.at)
+        self.seen.done.append(done)
+        more: dict[str, Any] = {}
+        if one.publish is not None:
+            more = one.publish.model_dump()
+            said = self.probe.said("publish", seconds=STEP_SECONDS, **more)
+            done.heard = int(said["heard"])
+            self._record(said)
+        elif one.call is not None:
+            more = one.call.model_dump()
+            said = self.probe.said("call", seconds=STEP_SECONDS, name=one.name, **more)
+            done.heard = int(said["heard"])
+            self._record(said)
+        for node, values in (one.set or {}).items():
+            name = self._names.get(node, f"/{node}")
+            said = self.probe.said("set", seconds=STEP_SECONDS, name=name, values=values)
+            done.heard += int(said["heard"])
+            for parameter, accepted, reason in said["set"]:
+                done.accepted[str(parameter)] = "" if accepted else str(reason) or "refused"
+            self._record(said)
+
+    def _record(self, said: Mapping[str, Any]) -> None:
+        """Keep what an answer holds, at the present instant."""
+        at, seen = round(self.at / SECOND, 6), self.seen
+        self._take(self.probe.answer_of(dict(said)))
+        for topic, values in said.get("messages", ()):
+            if len(seen.messages) < MOST_MESSAGES:
+                seen.messages.append(Message(str(topic), at, values))
+        for topic, count in said.get("counts", {}).items():
+            seen.counts[topic] = seen.counts.get(topic, 0) + int(count)
+        for name, reply in said.get("replies", ()):
+            found = seen.stimulus(str(name))
+            if found is not None:
+                found.reply, found.replied = reply, at
+        path = said.get("path", ())
+        turtles = len({pose[0] for pose in path}) or 1
+        for n, (turtle, x, y, theta) in enumerate(path):
+            if len(seen.path) < MOST_POSES * turtles:
+                behind = (len(path) - 1 - n) // turtles
+                now = (self.at // 16_000_000 - behind) * STEP
+                place = Pose(str(turtle), round(now, 3), round(x, 6), round(y, 6), round(theta, 6))
+                seen.path.append(place)
+        seen.events += [dict(event) for event in said.get("events", ())]
+
+    def _take(self, answer: Any) -> None:
+        watch = self.run.watch
+        events = self.observer.take(answer or None)
+        if answer:
+            events += self.observer.catch_up(answer.logs)
+        watch.events += events
+        self._read_others()
+        for event in events:
+            self._on_event(event)
+
+    def _read_others(self) -> None:
+        for terminal in self.terminals[1:]:
+            terminal.read()
+
+    def _look(self) -> None:
+        """Read the graph and the parameters."""
+        known = {(end.node, end.role, end.name, end.type) for end in self.seen.ends}
+        said = self.probe.said("look_closely", seconds=LOOK_SECONDS)
+        for found in said.get("ends", ()):
+            end = End(**found)
+            if (end.node, end.role, end.name, end.type) not in known:
+                self.seen.ends.append(end)
+        self.run.nodes = self.probe.ask("look").nodes or self.run.nodes
+        if self.over:
+            return
+        for name in self._names.values():
+            said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
+            if said.get("parameters") is not None:
+                found = [_parameter(one) for one in said["parameters"]]
+                self.seen.parameters[name] = found
+
+
+def _parameter(found: Mapping[str, Any]) -> Parameter:
+    bounds = found["range"]
+    return Parameter(
+        name=str(found["name"]),
+        type=str(found["type"]),
+        value=found["value"],
+        read_only=bool(found["read_only"]),
+        range=(float(bounds[0]), float(bounds[1])) if bounds else None,
+    )
+
+
+def _end(run: Run, scene: _Scene, seconds: float) -> None:
+    """Press Ctrl+C on every terminal; the result is that of the first node."""
+
+    def go_on(passed: float) -> None:
+        scene.at += round(passed * SECOND)
+        scene.probe.ask("clock", at=scene.at, until_log=0, patient=0)
+
+    for terminal in scene.terminals[1:]:
+        if not terminal.ended:
+            terminal.interrupt()
+    press_ctrl_c(run, scene.terminals[0], go_on, seconds)
+    for terminal in scene.terminals[1:]:
+        terminal.finish(seconds)
+    run.watch.events += scene.observer.take()

@@ -1,0 +1,1 @@
+"""Programs that the probe runs under the prefix's Python; they import nothing of the grader."""

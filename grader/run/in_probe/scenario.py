@@ -1,0 +1,469 @@
+"""The probe's part of a scenario: topics, services, parameters, the graph, and a world.
+
+The grader sends this module to the probe, which runs it under the prefix's Python: it imports
+nothing of the grader. `commands(probe)` returns its commands:
+- `prepare` makes the subscriptions (`watch`), publishers (`publish`) and clients (`call`) that the
+  scenario needs, and the `world`; `unknown` has the types and fields that do not exist;
+- `tick` moves the world to `at`, publishes this instant on /clock and makes a barrier, then
+  delivers the world's messages and makes another one;
+- `publish`, `call`, `set` act on the nodes, with a barrier after it;
+- `look_closely` returns the whole graph; `parameters` those of the node `name`.
+
+Messages are taken after a barrier, not by the executor: what a node published before it answered
+has arrived then. `messages` has those of each topic in order, up to a limit; `counts` all of them.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+import time
+from typing import Any
+
+import rclpy
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
+from rclpy.callback_groups import CallbackGroup
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+SECOND = 1_000_000_000
+DEPTH = 2_000  # messages of a topic that wait to be taken
+MOST_MESSAGES = 40  # of a topic in one answer
+MOST_VALUES = 400  # numbers and texts of a message
+LONGEST_TEXT = 2_000  # characters
+MOST_ENDPOINTS = 400
+MOST_PARAMETERS = 60
+ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
+MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
+MISSING_TRIES, MISSING_SECONDS = 12, 0.3  # barriers and wall time after which a message is missing
+REACTION_TRIES = 3  # further barriers after a stimulus
+PAUSE_SECONDS = 0.002
+OF_ROS = ("use_sim_time", "start_type_description_service")  # parameters that every node has
+
+
+class Untouched(CallbackGroup):  # type: ignore[misc]
+    """A callback group of which the executor runs nothing."""
+
+    def can_execute(self, _: Any) -> bool:
+        """Return False: what it holds is taken by hand."""
+        return False
+
+    def beginning_execution(self, _: Any) -> bool:
+        """Return False."""
+        return False
+
+    def ending_execution(self, _: Any) -> None:
+        """Do nothing."""
+
+
+def interface(name: str) -> Any:
+    """Return the class of a type such as geometry_msgs/msg/Twist; None if there is none."""
+    package, kind, rest = (*name.split("/"), "", "")[:3]
+    try:
+        return getattr(importlib.import_module(f"{package}.{kind}"), rest, None)
+    except (ImportError, ValueError):
+        return None
+
+
+def has_field(kind: Any, path: str) -> str:
+    """Return "" if a message type has a field, else what it has in its place."""
+    for part in path.split("."):
+        name = part.partition("[")[0]
+        fields = kind.get_fields_and_field_types() if kind is not None else {}
+        if name not in fields:
+            return ", ".join(fields) or "no fields"
+        inner = fields[name].partition("[")[0].removeprefix("sequence<").rstrip(">")
+        package, slash, short = inner.partition("/")
+        kind = interface(f"{package}/msg/{short}") if slash else None
+    return ""
+
+
+class Values:
+    """Turns messages into JSON values, of a bounded size."""
+
+    def __init__(self) -> None:
+        self.left = MOST_VALUES
+
+    def of(self, value: Any) -> Any:
+        """Return a field's value: a number, a text, a list, or a mapping of fields."""
+        self.left -= 1
+        if hasattr(value, "get_fields_and_field_types"):
+            names = value.get_fields_and_field_types()
+            return {name: self.of(getattr(value, name)) for name in names if self.left > 0}
+        if isinstance(value, bytes):
+            return (
+                int.from_bytes(value, "little") if len(value) == 1 else value.hex()[:LONGEST_TEXT]
+            )
+        if isinstance(value, str):
+            return value[:LONGEST_TEXT]
+        if isinstance(value, (bool, int)):
+            return value
+        if isinstance(value, float):
+            return value if math.isfinite(value) else str(value)
+        if hasattr(value, "item"):  # numpy
+            return self.of(value.tolist())
+        return [self.of(item) for item in value if self.left > 0]
+
+
+def fill(message: Any, values: Any) -> None:
+    """Set the fields of a message from a mapping; raises AttributeError, TypeError, AssertionError."""
+    for name, value in values.items():
+        inner = getattr(message, name)
+        if hasattr(inner, "get_fields_and_field_types"):
+            fill(inner, value)
+        elif isinstance(inner, float):
+            setattr(message, name, float(value))
+        else:
+            setattr(message, name, value)
+
+
+def parameter_value(value: Any) -> ParameterValue:
+    """Return a parameter's value for a bool, an int, a float, a text or a list of one of them."""
+    if isinstance(value, bool):
+        return ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=value)
+    if isinstance(value, int):
+        return ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=value)
+    if isinstance(value, float):
+        return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+    return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=str(value))
+
+
+TYPES = {
+    ParameterType.PARAMETER_BOOL: ("bool", "bool_value"),
+    ParameterType.PARAMETER_INTEGER: ("integer", "integer_value"),
+    ParameterType.PARAMETER_DOUBLE: ("double", "double_value"),
+    ParameterType.PARAMETER_STRING: ("string", "string_value"),
+    ParameterType.PARAMETER_BOOL_ARRAY: ("bool_array", "bool_array_value"),
+    ParameterType.PARAMETER_INTEGER_ARRAY: ("integer_array", "integer_array_value"),
+    ParameterType.PARAMETER_DOUBLE_ARRAY: ("double_array", "double_array_value"),
+    ParameterType.PARAMETER_STRING_ARRAY: ("string_array", "string_array_value"),
+}
+
+
+class Scenario:
+    """The commands of a scenario; see the module."""
+
+    def __init__(self, probe: Any) -> None:
+        self.probe = probe
+        self.group = Untouched()
+        self.watched: dict[str, list[Any]] = {}
+        self.types: dict[str, str] = {}
+        self.publishers: dict[str, Any] = {}
+        self.clients: dict[str, Any] = {}
+        self.calls: list[tuple[str, Any]] = []
+        self.periods: dict[str, int] = {}  # ns between the messages that are awaited on topics
+        self.latest: dict[str, int] = {}  # when a message was read last, and how long after another
+        self.gaps: dict[str, int] = {}
+        self.world: Any = None
+        self.messages: list[list[Any]] = []
+        self.counts: dict[str, int] = {}
+
+    def prepare(self, command: dict[str, Any], _: float) -> dict[str, Any]:
+        """Make the ends that the scenario needs."""
+        unknown: list[list[str]] = []
+        for topic, name, fields in command["watch"]:
+            kind = interface(name)
+            if kind is None:
+                unknown.append([name, "", ""])
+                continue
+            for path in fields:
+                has = has_field(kind, path)
+                if has:
+                    unknown.append([name, path, has])
+            self.types[topic] = name
+            self.watched[topic] = [self.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)]
+        for topic, name in command["publish"]:
+            kind = interface(name)
+            if kind is None:
+                unknown.append([name, "", ""])
+            elif topic not in self.publishers:
+                self.publishers[topic] = self.probe.node.create_publisher(kind, topic, 10)
+        for service, name in command["call"]:
+            kind = interface(name)
+            if kind is None:
+                unknown.append([name, "", ""])
+            else:
+                self.clients[service] = self.probe.node.create_client(kind, service)
+        self.periods = command["periods"]
+        if command["world"] and not unknown:
+            self.open_world(command["world"])
+        return {"unknown": unknown}
+
+    def open_world(self, source: dict[str, str]) -> None:
+        """Make the world of a source text."""
+        space: dict[str, Any] = {"__name__": source["name"]}
+        module = type(math)(source["name"])
+        # dataclasses look their module up
+        importlib.import_module("sys").modules[source["name"]] = module
+        space = module.__dict__
+        exec(compile(source["text"], source["name"], "exec"), space)  # noqa: S102 - of the grader
+        node = rclpy.create_node(
+            space["World"].NAME, enable_rosout=False, use_global_arguments=False
+        )
+        self.probe.ours.add("/" + space["World"].NAME)
+        self.probe.executor.add_node(node)
+        self.world = space["World"](node, self.group)
+
+    def subscribe(self, topic: str, kind: Any, reliability: Any) -> Any:
+        """Return a subscription of which the executor takes nothing."""
+        profile = QoSProfile(
+            depth=DEPTH, reliability=reliability, durability=DurabilityPolicy.VOLATILE
+        )
+        return self.probe.node.create_subscription(
+            kind, topic, lambda _: None, profile, callback_group=self.group
+        )
+
+    def hear_best_effort(self) -> None:
+        """Subscribe as best effort too where only such publishers are."""
+        for topic, subscriptions in self.watched.items():
+            if len(subscriptions) > 1:
+                continue
+            infos = self.probe.node.get_publishers_info_by_topic(topic)
+            offers = {info.qos_profile.reliability for info in infos}
+            if offers == {ReliabilityPolicy.BEST_EFFORT}:
+                kind = subscriptions[0].msg_type
+                best = self.subscribe(topic, kind, ReliabilityPolicy.BEST_EFFORT)
+                subscriptions.append(best)
+
+    def take(self) -> dict[str, int]:
+        """Take the messages that have arrived; return how many there were of each topic."""
+        found = {}
+        for topic, subscriptions in self.watched.items():
+            count = 0
+            for subscription in subscriptions:
+                while count < DEPTH:
+                    with subscription.handle:
+                        taken = subscription.handle.take_message(subscription.msg_type, False)
+                    if taken is None:
+                        break
+                    count += 1
+                    if count <= MOST_MESSAGES:
+                        self.messages.append([topic, Values().of(taken[0])])
+            if count:
+                self.counts[topic] = self.counts.get(topic, 0) + count
+            found[topic] = count
+        return found
+
+    def trips(self, count: int, deadline: float) -> bool | None:
+        """Make `count` round trips to each node that answers, all requests at once."""
+        peers = [peer for peer in self.probe.peers.values() if peer.answered and peer.ready()]
+        if not peers:
+            return None
+        futures = [peer.client.call_async(peer.request) for peer in peers for _ in range(count)]
+        while not all(future.done() for future in futures):
+            left = deadline - time.monotonic()
+            if left <= 0:
+                return False
+            self.probe.executor.spin_once(timeout_sec=left)
+        return True
+
+    def tick(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Move the world and the clock to an instant."""
+        at = command["at"]
+        steps = 0
+        if self.world is not None:
+            self.world.collect(at)
+            steps = self.world.advance(at)
+        barrier = self.probe.set_clock(command, deadline)
+        found = self.take()
+        tries, began = 0, time.monotonic()
+        while barrier and any(not found[topic] for topic in found if self.is_due(topic, at)):
+            if tries >= MISSING_TRIES and time.monotonic() - began > MISSING_SECONDS:
+                break
+            tries += 1
+            barrier = self.trips_later(found, deadline)
+        if steps:
+            self.world.acknowledged(Duration(seconds=ACK_SECONDS))
+            barrier = self.trips(min(steps, 7) + 1, deadline) and barrier
+            for topic, count in self.take().items():
+                found[topic] += count
+        for topic in [topic for topic, count in found.items() if count]:
+            if topic in self.latest:
+                self.gaps[topic] = at - self.latest[topic]
+            self.latest[topic] = at
+        if self.world is not None:
+            self.world.collect(at)
+        return self.result(barrier)
+
+    def is_due(self, topic: str, at: int) -> bool:
+        """Whether a message is awaited at an instant: by the checks, or as those before came."""
+        if topic in self.periods:
+            period = self.periods[topic]
+            missed = at - self.latest.get(topic, 0) > 2 * period  # it does not keep to the period
+            return at % period == 0 and not missed
+        return topic in self.gaps and at - self.latest[topic] == self.gaps[topic]
+
+    def trips_later(self, found: dict[str, int], deadline: float) -> bool | None:
+        """Make another round trip after a moment, and count the messages that have come."""
+        self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        barrier = self.trips(1, deadline)
+        for topic, count in self.take().items():
+            found[topic] = found.get(topic, 0) + count
+        return barrier
+
+    def result(self, barrier: bool | None) -> dict[str, Any]:
+        """Return what has come since the last answer."""
+        said: dict[str, Any] = {"barrier": barrier}
+        if self.messages:
+            said["messages"], self.messages = self.messages, []
+        if self.counts:
+            said["counts"], self.counts = self.counts, {}
+        done = [(name, future) for name, future in self.calls if future.done()]
+        if done:
+            self.calls = [one for one in self.calls if not one[1].done()]
+            said["replies"] = [[name, Values().of(future.result())] for name, future in done]
+        if self.world is not None:
+            if self.world.steps:
+                said["path"], self.world.steps = self.world.steps, []
+            if self.world.events:
+                said["events"], self.world.events = self.world.events, []
+        return said
+
+    def react(self, deadline: float) -> bool | None:
+        """Let the nodes run what a stimulus makes due."""
+        barrier = self.trips(2, deadline)
+        found = self.take()
+        for _ in range(REACTION_TRIES):
+            barrier = barrier and self.trips_later(found, deadline)
+        return barrier
+
+    def publish(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Publish a message and wait until every subscriber has run its callback."""
+        publisher = self.publishers[command["topic"]]
+        until = min(deadline, time.monotonic() + MATCH_SECONDS)
+        ours = len(self.watched.get(command["topic"], ()))
+        while publisher.get_subscription_count() <= ours and time.monotonic() < until:
+            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        message = interface(command["type"])()
+        fill(message, command["values"])
+        heard = publisher.get_subscription_count() - ours
+        publisher.publish(message)
+        publisher.wait_for_all_acked(Duration(seconds=ACK_SECONDS))
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": heard}
+
+    def call(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Call a service; the reply comes with this answer or a later one."""
+        client = self.clients[command["service"]]
+        until = min(deadline, time.monotonic() + MATCH_SECONDS)
+        while not client.service_is_ready() and time.monotonic() < until:
+            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        heard = int(client.service_is_ready())
+        if heard:
+            request = interface(command["type"]).Request()
+            fill(request, command["values"])
+            self.calls.append((command["name"], client.call_async(request)))
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": heard}
+
+    def set(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Set parameters of a node; `set` has for each whether it was accepted, and why not."""
+        wanted = [
+            Parameter(name=name, value=parameter_value(value))
+            for name, value in command["values"].items()
+        ]
+        client = self.probe.node.create_client(SetParameters, command["name"] + "/set_parameters")
+        answer = self.probe.call(client, SetParameters.Request(parameters=wanted), deadline)
+        results = [
+            [one.name, bool(result.successful), result.reason[:200]]
+            for one, result in zip(wanted, getattr(answer, "results", ()))
+        ]
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "set": results, "heard": int(answer is not None)}
+
+    def parameters(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Return the parameters of a node: name, type, value, description and whether read-only."""
+        probe, name = self.probe, command["name"]
+        listed = probe.call(
+            probe.node.create_client(ListParameters, f"{name}/list_parameters"),
+            ListParameters.Request(),
+            deadline,
+        )
+        if listed is None:
+            return {"parameters": None}
+        names = [one for one in listed.result.names if one not in OF_ROS][:MOST_PARAMETERS]
+        values = probe.call(
+            probe.node.create_client(GetParameters, f"{name}/get_parameters"),
+            GetParameters.Request(names=names),
+            deadline,
+        )
+        described = probe.call(
+            probe.node.create_client(DescribeParameters, f"{name}/describe_parameters"),
+            DescribeParameters.Request(names=names),
+            deadline,
+        )
+        found = []
+        for one, value, about in zip(
+            names, getattr(values, "values", ()), getattr(described, "descriptors", ())
+        ):
+            kind, attribute = TYPES.get(value.type, ("not set", ""))
+            ranges = [*about.floating_point_range, *about.integer_range]
+            found.append(
+                {
+                    "name": one[:LONGEST_TEXT],
+                    "type": kind,
+                    "value": Values().of(getattr(value, attribute)) if attribute else None,
+                    "read_only": bool(about.read_only),
+                    "range": [ranges[0].from_value, ranges[0].to_value] if ranges else None,
+                }
+            )
+        return {"parameters": found}
+
+    def look_closely(self, _: dict[str, Any], __: float) -> dict[str, Any]:
+        """Return every end of the nodes that are not ours."""
+        self.hear_best_effort()
+        node = self.probe.node
+        ends: list[dict[str, str]] = []
+        ours = {*self.probe.ours, "/" + node.get_name()}
+        names = [
+            (name, space)
+            for name, space in node.get_node_names_and_namespaces()
+            if (space.rstrip("/") + "/" + name) not in ours
+        ]
+        qos: dict[tuple[str, str, str], tuple[str, str]] = {}
+        readers = (
+            ("publisher", node.get_publisher_names_and_types_by_node),
+            ("subscription", node.get_subscriber_names_and_types_by_node),
+            ("service", node.get_service_names_and_types_by_node),
+            ("client", node.get_client_names_and_types_by_node),
+        )
+        infos = {
+            "publisher": node.get_publishers_info_by_topic,
+            "subscription": node.get_subscriptions_info_by_topic,
+        }
+        for name, space in names:
+            full = space.rstrip("/") + "/" + name
+            for role, read in readers:
+                try:
+                    found = read(name, space)
+                except RuntimeError:  # the node has gone
+                    continue
+                for topic, types in found:
+                    if role in infos and (role, topic, full) not in qos:
+                        for info in infos[role](topic):
+                            owner = info.node_namespace.rstrip("/") + "/" + info.node_name
+                            qos[role, topic, owner] = (
+                                info.qos_profile.reliability.name.lower(),
+                                info.qos_profile.durability.name.lower(),
+                            )
+                    reliability, durability = qos.get((role, topic, full), ("", ""))
+                    for kind in types:
+                        ends.append(
+                            {
+                                "node": full[:256],
+                                "role": role,
+                                "name": topic[:256],
+                                "type": kind[:256],
+                                "reliability": reliability,
+                                "durability": durability,
+                            }
+                        )
+        return {"ends": ends[:MOST_ENDPOINTS]}
+
+
+def commands(probe: Any) -> dict[str, Any]:
+    """Return the commands that this module adds to a probe."""
+    scenario = Scenario(probe)
+    names = ("prepare", "tick", "publish", "call", "set", "parameters", "look_closely")
+    return {name: getattr(scenario, name) for name in names}

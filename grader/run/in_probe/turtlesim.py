@@ -1,0 +1,355 @@
+"""The world "turtlesim": the turtles and the field of ROS's turtlesim, without a window.
+
+The update rule and the interfaces are those of the package `turtlesim` (see ../shared facts in
+docs/worlds.md). `Field` has the rule alone, without ROS; `World` is the node `turtlesim` that
+offers it. The probe runs it in ROS time, the lab on the wall clock. It runs under the prefix's
+Python and imports nothing of the grader.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+STEP = 16_000_000  # ns between two updates
+DT = 0.016  # s by which an update moves a turtle
+SIZE = 499 / 45  # m, of the square field
+COMMAND_SECONDS = 1.0  # after which a velocity command is over
+TURN_SPEED = 1.0  # rad/s of rotate_absolute
+TURN_DONE = 0.02  # rad
+QUEUE = 7  # commands that a turtle keeps
+SECOND = 1_000_000_000
+
+
+def within_pi(angle: float) -> float:
+    """Return an angle (rad) in the range from -pi to pi."""
+    return angle - 2 * math.pi * math.floor((angle + math.pi) / (2 * math.pi))
+
+
+@dataclass
+class Pen:
+    """What a turtle draws with; `width` in pixels."""
+
+    r: int = 179
+    g: int = 184
+    b: int = 255
+    width: int = 3
+    on: bool = True
+
+
+@dataclass
+class Turtle:
+    """A turtle: its pose (m, rad), the velocity that holds (m/s, rad/s), and its pen.
+
+    `commanded` is when the velocity was commanded, in ns. `goal` is the angle that it turns to.
+    """
+
+    name: str
+    x: float = SIZE / 2
+    y: float = SIZE / 2
+    theta: float = 0.0
+    forward: float = 0.0
+    sideways: float = 0.0
+    turning: float = 0.0
+    commanded: int = 0
+    goal: float | None = None
+    turned: float = 0.0
+    pen: Pen = field(default_factory=Pen)
+    hits: int = 0
+
+    def command(self, forward: float, sideways: float, turning: float, at: int) -> None:
+        """Take a velocity command that arrived at `at` (ns)."""
+        self.forward, self.sideways, self.turning, self.commanded = forward, sideways, turning, at
+
+    def step(self, now: int, *, holonomic: bool = False) -> str:
+        """Make the update of an instant (ns); return a warning, "" if there is none."""
+        if now - self.commanded > COMMAND_SECONDS * SECOND:
+            self.forward = self.sideways = self.turning = 0.0
+        if self.goal is not None:
+            left = within_pi(self.goal - self.theta)
+            done = abs(left) < TURN_DONE
+            self.turning = 0.0 if done else math.copysign(TURN_SPEED, left)
+            self.forward = self.sideways = 0.0
+            self.commanded = now
+        self.theta = within_pi(self.theta + self.turning * DT)
+        side = self.sideways if holonomic else 0.0
+        x = self.x + (math.cos(self.theta) * self.forward - math.sin(self.theta) * side) * DT
+        y = self.y + (math.sin(self.theta) * self.forward + math.cos(self.theta) * side) * DT
+        self.x, self.y = min(max(x, 0.0), SIZE), min(max(y, 0.0), SIZE)
+        if (self.x, self.y) == (x, y):
+            return ""
+        self.hits += 1
+        return f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])"
+
+    @property
+    def speed(self) -> float:
+        """The speed in m/s that the pose shows."""
+        return math.hypot(self.forward, self.sideways)
+
+
+class Field:
+    """All turtles, at an instant of the clock that drives them."""
+
+    def __init__(self, *, holonomic: bool = False) -> None:
+        self.holonomic = holonomic
+        self.turtles: dict[str, Turtle] = {"turtle1": Turtle("turtle1")}
+        self.now = 0  # ns
+        self._made = 1
+
+    def advance(self, to: int, after_step: Callable[[], None], warn: Callable[[str], None]) -> None:
+        """Make all updates until the instant `to` (ns); call `after_step` after each."""
+        while self.now + STEP <= to:
+            self.now += STEP
+            for turtle in self.turtles.values():
+                warning = turtle.step(self.now, holonomic=self.holonomic)
+                if warning:
+                    warn(warning)
+            after_step()
+
+    def spawn(self, x: float, y: float, theta: float, name: str = "") -> str:
+        """Add a turtle and return its name, "" if another one has that name."""
+        if not name:
+            while True:
+                self._made += 1
+                name = f"turtle{self._made}"
+                if name not in self.turtles:
+                    break
+        if name in self.turtles:
+            return ""
+        self.turtles[name] = Turtle(name, x, y, theta)
+        return name
+
+    def reset(self) -> None:
+        """Begin anew: one turtle in the middle."""
+        self.turtles = {"turtle1": Turtle("turtle1")}
+        self._made = 1
+
+
+class World:
+    """The node `turtlesim` on a field.
+
+    Messages of `cmd_vel` are taken when `collect` is called, services when the node is spun.
+    """
+
+    NAME = "turtlesim"
+
+    def __init__(self, node: Any, group: Any) -> None:
+        """Offer the interfaces on a node; subscriptions are in a callback group for `collect`.
+
+        Where ROS has no package turtlesim, its turtles only take velocity commands.
+        """
+        from geometry_msgs.msg import Twist  # noqa: PLC0415 - of the prefix
+        from std_srvs.srv import Empty  # noqa: PLC0415
+
+        self.node, self._group = node, group
+        self._messages, self._services, self._actions = _interfaces()
+        self._twist = Twist
+        self.field = Field()
+        self._ends: dict[str, list[Any]] = {}
+        self._commands: dict[str, Any] = {}
+        self._poses: dict[str, Any] = {}
+        self._colors: dict[str, Any] = {}
+        self._goals: dict[str, tuple[Any, Any]] = {}
+        self.steps: list[tuple[str, float, float, float]] = []
+        self.events: list[dict[str, Any]] = []
+        for name, value in (("background_r", 69), ("background_g", 86), ("background_b", 255)):
+            node.declare_parameter(name, value, _byte(name))
+        node.declare_parameter("holonomic", False)
+        node.create_service(Empty, "clear", lambda _, answer: answer)
+        node.create_service(Empty, "reset", self._reset)
+        if self._services is not None:
+            node.create_service(self._services.Spawn, "spawn", self._spawn)
+            node.create_service(self._services.Kill, "kill", self._kill)
+        self._add("turtle1")
+
+    def collect(self, at: int) -> None:
+        """Take the velocity commands that have arrived; they hold from the next update on."""
+        for name, subscription in list(self._commands.items()):
+            turtle = self.field.turtles[name]
+            for _ in range(QUEUE * 100):
+                with subscription.handle:
+                    taken = subscription.handle.take_message(subscription.msg_type, False)
+                if taken is None:
+                    break
+                twist = taken[0]
+                if name in self._goals and turtle.goal is not None:
+                    self._abort(name, "Velocity command received during rotation goal")
+                turtle.command(twist.linear.x, twist.linear.y, twist.angular.z, at)
+
+    def advance(self, to: int) -> int:
+        """Make the updates until `to` (ns) and publish the poses; return the number of updates."""
+        before = self.field.now
+        self.field.holonomic = bool(self.node.get_parameter("holonomic").value)
+        self.field.advance(to, self._publish, self.node.get_logger().warning)
+        return (self.field.now - before) // STEP
+
+    def acknowledged(self, timeout: Any) -> bool:
+        """Wait until all subscribers have the poses; return whether they have."""
+        return all(one.wait_for_all_acked(timeout) for one in self._poses.values())
+
+    def _publish(self) -> None:
+        for name, turtle in self.field.turtles.items():
+            self.steps.append((name, turtle.x, turtle.y, turtle.theta))
+            if self._messages is None:
+                continue
+            pose = self._messages.Pose(
+                x=turtle.x,
+                y=turtle.y,
+                theta=turtle.theta,
+                linear_velocity=turtle.speed,
+                angular_velocity=turtle.turning,
+            )
+            self._poses[name].publish(pose)
+            self._turn(name, turtle)
+
+    def _turn(self, name: str, turtle: Turtle) -> None:
+        """Report on a turtle's goal, and end it if the turtle looks the right way."""
+        if name not in self._goals or turtle.goal is None:
+            return
+        handle, future = self._goals[name]
+        left = within_pi(turtle.goal - turtle.theta)
+        if handle.is_cancel_requested or not handle.is_active:
+            turtle.goal, turtle.turning = None, 0.0
+            future.set_result("canceled")
+        elif abs(left) < TURN_DONE:
+            turtle.goal, turtle.turning = None, 0.0
+            future.set_result("done")
+        else:
+            handle.publish_feedback(self._actions.RotateAbsolute.Feedback(remaining=left))
+
+    def _add(self, name: str) -> None:
+        from rclpy.action import ActionServer, CancelResponse  # noqa: PLC0415 - of the prefix
+
+        node, services = self.node, self._services
+        self._commands[name] = node.create_subscription(
+            self._twist, f"{name}/cmd_vel", lambda _: None, QUEUE, callback_group=self._group
+        )
+        if self._messages is None:
+            return
+        self._poses[name] = node.create_publisher(self._messages.Pose, f"{name}/pose", 10)
+        self._colors[name] = node.create_publisher(self._messages.Color, f"{name}/color_sensor", 10)
+
+        def pen(request: Any, answer: Any) -> Any:
+            self.field.turtles[name].pen = Pen(
+                request.r, request.g, request.b, request.width, not request.off
+            )
+            self._event("pen", name, r=request.r, g=request.g, b=request.b, off=request.off)
+            return answer
+
+        def absolute(request: Any, answer: Any) -> Any:
+            turtle = self.field.turtles[name]
+            turtle.x, turtle.y = request.x, request.y
+            turtle.theta = within_pi(request.theta)
+            return answer
+
+        def relative(request: Any, answer: Any) -> Any:
+            turtle = self.field.turtles[name]
+            turtle.theta = within_pi(turtle.theta + request.angular)
+            turtle.x += math.cos(turtle.theta) * request.linear
+            turtle.y += math.sin(turtle.theta) * request.linear
+            return answer
+
+        async def rotate(handle: Any) -> Any:
+            from rclpy.task import Future  # noqa: PLC0415 - of the prefix
+
+            turtle = self.field.turtles[name]
+            if name in self._goals:
+                self._abort(name, "Rotation goal received before a previous goal finished")
+            began, future = turtle.theta, Future()
+            turtle.goal = within_pi(handle.request.theta)
+            self._goals[name] = (handle, future)
+            ended = await future
+            if self._goals.get(name, (None,))[0] is handle:
+                del self._goals[name]
+            result = self._actions.RotateAbsolute.Result(delta=within_pi(began - turtle.theta))
+            if ended == "done":
+                handle.succeed()
+            elif ended == "canceled":
+                handle.canceled()
+            else:
+                handle.abort()
+            return result
+
+        self._ends[name] = [
+            node.create_service(services.SetPen, f"{name}/set_pen", pen),
+            node.create_service(services.TeleportAbsolute, f"{name}/teleport_absolute", absolute),
+            node.create_service(services.TeleportRelative, f"{name}/teleport_relative", relative),
+            ActionServer(
+                node,
+                self._actions.RotateAbsolute,
+                f"{name}/rotate_absolute",
+                rotate,
+                cancel_callback=lambda _: CancelResponse.ACCEPT,
+            ),
+        ]
+
+    def _abort(self, name: str, why: str) -> None:
+        handle, future = self._goals.pop(name)
+        self.field.turtles[name].goal = None
+        self.node.get_logger().warning(f"{why}. Aborting goal")
+        if handle.is_active and not future.done():
+            future.set_result("aborted")
+
+    def _spawn(self, request: Any, answer: Any) -> Any:
+        name = self.field.spawn(request.x, request.y, request.theta, request.name)
+        if not name:
+            self.node.get_logger().error(f"A turtle named [{request.name}] already exists")
+            return answer
+        self._add(name)
+        place = f"x=[{request.x:f}], y=[{request.y:f}], theta=[{request.theta:f}]"
+        self.node.get_logger().info(f"Spawning turtle [{name}] at {place}")
+        self._event("spawn", name)
+        answer.name = name
+        return answer
+
+    def _kill(self, request: Any, answer: Any) -> Any:
+        if request.name not in self.field.turtles:
+            what = f"Tried to kill turtle [{request.name}], which does not exist"
+            self.node.get_logger().error(what)
+            return answer
+        del self.field.turtles[request.name]
+        self._remove(request.name)
+        self._event("kill", request.name)
+        return answer
+
+    def _remove(self, name: str) -> None:
+        self.node.destroy_publisher(self._poses.pop(name))
+        self.node.destroy_publisher(self._colors.pop(name))
+        self.node.destroy_subscription(self._commands.pop(name))
+        *services, action = self._ends.pop(name)
+        for service in services:
+            self.node.destroy_service(service)
+        action.destroy()
+
+    def _reset(self, _: Any, answer: Any) -> Any:
+        self.node.get_logger().info("Resetting turtlesim.")
+        for name in [name for name in self.field.turtles if name != "turtle1"]:
+            self._remove(name)
+        self.field.reset()
+        return answer
+
+    def _event(self, kind: str, turtle: str, **more: Any) -> None:
+        self.events.append({"kind": kind, "turtle": turtle, "at": self.field.now / SECOND, **more})
+
+
+def _interfaces() -> tuple[Any, Any, Any]:
+    """Return the messages, services and actions of the package turtlesim; None without it."""
+    try:
+        import turtlesim.action  # noqa: PLC0415 - of the prefix
+        import turtlesim.msg  # noqa: PLC0415
+        import turtlesim.srv  # noqa: PLC0415
+    except ImportError:
+        return None, None, None
+    return turtlesim.msg, turtlesim.srv, turtlesim.action
+
+
+def _byte(name: str) -> Any:
+    from rcl_interfaces.msg import IntegerRange, ParameterDescriptor  # noqa: PLC0415 - of the prefix
+
+    colour = {"r": "red", "g": "green", "b": "blue"}[name[-1]]
+    return ParameterDescriptor(
+        description=f"Amount of {colour} in the background",
+        integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
+    )

@@ -1,0 +1,106 @@
+"""What one run of a scenario showed besides its log: messages, the graph, parameters, the world.
+
+All instants are seconds of ROS time. A message counts at the instant of the step in which it was
+read; the sender's stamp proves nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Role = Literal["publisher", "subscription", "service", "client"]
+STEP = 0.016  # s of ROS time between two poses of a path
+RELAY = ("/rosout", "/parameter_events", "/clock")
+
+
+@dataclass(frozen=True)
+class Message:
+    """A message: `values` are its fields."""
+
+    topic: str
+    at: float
+    values: Any
+
+
+@dataclass(frozen=True)
+class End:
+    """An end of a node on the graph; reliability and durability are of topics only."""
+
+    node: str
+    role: Role
+    name: str
+    type: str
+    reliability: str = ""
+    durability: str = ""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a node, as its services describe it at the end of the run."""
+
+    name: str
+    type: str
+    value: Any
+    read_only: bool = False
+    range: tuple[float, float] | None = None
+
+
+@dataclass
+class Done:
+    """What was done to the nodes at an instant: `heard` is how many ends received it.
+
+    `accepted` has a reason for each parameter that was set, "" if it was accepted. `reply` is a
+    service's answer, and `replied` when it came, None if none came.
+    """
+
+    name: str
+    at: float
+    heard: int = 0
+    accepted: dict[str, str] = field(default_factory=dict)
+    reply: Any = None
+    replied: float | None = None
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where a turtle is at an instant (m, rad)."""
+
+    turtle: str
+    at: float
+    x: float
+    y: float
+    theta: float
+
+
+@dataclass
+class Observations:
+    """The observations of a run; `period` is the clock's, `instants` those that it showed.
+
+    `counts` are the numbers of messages by topic; only the first of a step are in `messages`.
+    `parameters` are by the node's full name. `stuck` is the instant from which on no node answered.
+    """
+
+    period: float
+    instants: list[float] = field(default_factory=list)
+    messages: list[Message] = field(default_factory=list)
+    counts: dict[str, int] = field(default_factory=dict)
+    ends: list[End] = field(default_factory=list)
+    parameters: dict[str, list[Parameter]] = field(default_factory=dict)
+    done: list[Done] = field(default_factory=list)
+    path: list[Pose] = field(default_factory=list)
+    events: list[dict[str, Any]] = field(default_factory=list)
+    stuck: float | None = None
+    complete: bool = False
+
+    def of_topic(self, topic: str) -> list[Message]:
+        """Return the messages of a topic, in order."""
+        return [message for message in self.messages if message.topic == topic]
+
+    def stimulus(self, name: str) -> Done | None:
+        """Return what was done under a name; None if the run ended before."""
+        return next((done for done in self.done if done.name == name), None)
+
+    def ends_of(self, role: Role, name: str) -> list[End]:
+        """Return the ends with a role and a name."""
+        return [end for end in self.ends if end.role == role and end.name == name]

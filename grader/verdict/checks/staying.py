@@ -1,0 +1,45 @@
+"""The run stage of a scenario: do the nodes go on until Ctrl+C?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.verdict.checks.declare import RUN, check
+from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
+from grader.verdict.outcome import Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+
+@check("run.stays", stage=RUN, depends=["run.starts"], after=["run.spins"], quotes="before_ctrl_c")
+def stays(evidence: Evidence) -> Passed:
+    """The nodes run and answer until Ctrl+C."""
+    expected = say("the nodes run and answer until Ctrl+C")
+    for plan in evidence.assignment.runs:
+        run = evidence.run_of(plan.name)
+        if run.resource:
+            raise resource(evidence, expected)
+        if run.flooded:
+            raise flood(evidence, expected)
+        if run.ended_by_itself:
+            error, where = traceback_of(evidence, run)
+            status = say("status {status}", status=str(run.status))
+            raise Failed(
+                "run.ended_early",
+                expected=expected,
+                actual=say("the node ended by itself ({error})", error=error or status),
+                where=where or node_file(evidence),
+                variant="callback",
+                params={"error": error.partition(":")[0]},
+            )
+        if run.seen is not None and run.seen.stuck is not None:
+            raise Failed(
+                "run.stuck",
+                expected=expected,
+                actual=say("from {at} s on, the node no longer answers", at=f"{run.seen.stuck:g}"),
+                where=node_file(evidence),
+                words=words(evidence),
+            )
+    return Passed()

@@ -1,0 +1,379 @@
+"""Kinds of check for topics: who publishes and subscribes, what, when and with which QoS."""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field
+
+from grader.base.i18n.message import Message as Text
+from grader.base.i18n.message import joined, say, say_plural
+from grader.base.nearest import nearest, with_difference
+from grader.course.values import Form, at_path, shown_value
+from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.outcome import Blocked, Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.run.observations import End, Message, Role
+    from grader.verdict.use import Use
+
+CALLS: dict[str, str] = {"publisher": "create_publisher", "subscription": "create_subscription"}
+NEEDED = ("run.starts", "run.spins")
+DENORMAL = 1e-300  # below it, a value is the bits of an integer that were read as a float
+
+
+class Publishes(Parameters):
+    """`at_least` messages of a type on a topic."""
+
+    topic: str
+    type: str
+    at_least: int = Field(default=1, ge=0)
+
+
+class Subscribes(Parameters):
+    """A subscription of a type to a topic."""
+
+    topic: str
+    type: str
+
+
+class Period(Parameters):
+    """A message every `period` s of ROS time."""
+
+    topic: str
+    period: float = Field(gt=0)
+
+
+class Each(Parameters):
+    """The form of fields in each message."""
+
+    topic: str
+    each: dict[str, Form] = Field(min_length=1)
+    at_least: int = Field(default=1, ge=1)
+
+
+class Reacts(Parameters):
+    """A message within a time of a stimulus, with fields of a form."""
+
+    topic: str
+    within: float = Field(ge=0)
+    each: dict[str, Form] = Field(default_factory=dict)
+
+
+class Quality(Parameters):
+    """The quality of service of a node's end."""
+
+    topic: str
+    role: Literal["publisher", "subscription"] = "publisher"
+    reliability: Literal["", "reliable", "best_effort"] = ""
+    durability: Literal["", "volatile", "transient_local"] = ""
+
+
+@kind("topic.publishes", Publishes, depends=NEEDED, after=["run.node_name"])
+def publishes(use: Use[Publishes]) -> Passed:
+    """The node publishes {topic}, of the type {type}"""
+    given = use.given
+    expected = say(
+        "{topic} ({type}) from {node}", topic=given.topic, type=given.type, node=use.node
+    )
+    _must_have("publisher", given.topic, given.type, use, expected)
+    found = use.messages(given.topic)
+    if len(found) < given.at_least:
+        if not found and not use.seen.of_topic(given.topic):
+            use.require_window()
+            raise Failed(
+                "topic.never_published",
+                expected=expected,
+                actual=say("the publisher is there, but no message ever came"),
+                where=use.call("publish", "create_publisher", mentions=given.topic),
+                words={"topic": given.topic},
+            )
+        use.require_window()
+        raise Failed(
+            "topic.too_few",
+            expected=say_plural(
+                "at least {count} message", "at least {count} messages", given.at_least
+            ),
+            actual=say_plural("{count} message", "{count} messages", len(found)),
+            where=use.call("publish", mentions=given.topic),
+            words={"topic": given.topic},
+        )
+    return Passed(actual=say_plural("{count} message", "{count} messages", len(found)))
+
+
+@kind("topic.subscribes", Subscribes, depends=NEEDED, after=["run.node_name"])
+def subscribes(use: Use[Subscribes]) -> Passed:
+    """The node subscribes to {topic}, of the type {type}"""
+    given = use.given
+    expected = say("{node} subscribes to {topic} ({type})", **given.model_dump(), node=use.node)
+    _must_have("subscription", given.topic, given.type, use, expected)
+    _must_match(use, given.topic)
+    return Passed(actual=say("{node} subscribes to {topic}", node=use.node, topic=given.topic))
+
+
+def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expected: Text) -> End:
+    """Return the node's end on a topic; raises Failed if there is none, or of another type."""
+    own = use.ends(role)
+    here = [end for end in own if end.name == topic]
+    right = [end for end in here if end.type == type_]
+    if right:
+        return right[0]
+    where = use.call(CALLS[role], mentions=topic)
+    if here:
+        raise Failed(
+            "topic.wrong_type",
+            expected=expected,
+            actual=with_difference(here[0].type, here[0].type, type_),
+            where=where,
+            params={"type": here[0].type},
+            words={"topic": topic, "wanted": type_, "short": type_.rpartition("/")[2]},
+        )
+    others = [end for end in own if end.type == type_] or own
+    names = [end.name for end in others]
+    if names:
+        close = nearest(topic, names) or names[0]
+        raise Failed(
+            "topic.wrong_name",
+            expected=expected,
+            actual=with_difference(", ".join(names), close, topic),
+            where=use.call(CALLS[role], mentions=close),
+            params={"name": close},
+            words={"topic": topic},
+        )
+    missing = "topic.no_publisher" if role == "publisher" else "topic.no_subscription"
+    raise Failed(
+        missing,
+        expected=expected,
+        actual=say("{node} has no such end on the ROS graph", node=use.node),
+        where=where,
+        words={"topic": topic, "short": type_.rpartition("/")[2]},
+    )
+
+
+def _must_match(use: Use[Parameters], topic: str) -> None:
+    """Raise Failed if a publisher of the topic offers less than the node's subscription asks."""
+    asked = [end for end in use.ends("subscription") if end.name == topic]
+    for publisher in use.seen.ends_of("publisher", topic):
+        for end in asked:
+            weak = [
+                (mine, theirs)
+                for mine, theirs, strong in (
+                    (end.reliability, publisher.reliability, "reliable"),
+                    (end.durability, publisher.durability, "transient_local"),
+                )
+                if mine == strong and theirs != strong
+            ]
+            if weak and publisher.node != end.node:
+                raise Failed(
+                    "topic.qos_mismatch",
+                    expected=say("QoS that fits {node}'s publisher", node=publisher.node),
+                    actual=say(
+                        "the subscription asks for {mine}, the publisher of {node} offers {theirs}",
+                        mine=weak[0][0],
+                        theirs=weak[0][1],
+                        node=publisher.node,
+                    ),
+                    where=use.call("create_subscription", mentions=topic),
+                    params={"asked": weak[0][0], "offered": weak[0][1]},
+                    words={"topic": topic},
+                )
+
+
+@kind("topic.period", Period, depends=NEEDED, after=["topic.publishes"])
+def period(use: Use[Period]) -> Passed:
+    """A message on {topic} comes every {period} s of ROS time"""
+    given = use.given
+    every = f"{given.period:g}"
+    expected = say("one message every {period} s", period=every)
+    found = use.messages(given.topic)
+    if not found:
+        raise _nothing(use)
+    first, last = use.require_window()
+    instants = Counter(message.at for message in found)
+    where = use.call("create_timer")
+    most = max(instants.values())
+    if most > 1:
+        raise Failed(
+            "topic.several_at_once",
+            expected=expected,
+            actual=say("{count} messages at one instant", count=most),
+            where=use.call("publish", mentions=given.topic),
+            params={"count": most},
+            words={"topic": given.topic},
+        )
+    tolerance = _tolerance(use, given.period)
+    gaps = [after - before for before, after in pairwise(sorted(instants))]
+    wrong = [gap for gap in gaps if abs(gap - given.period) > tolerance]
+    due = int((last - max(first, given.period)) / given.period + 1e-6) + 1
+    late = last - max(instants) > given.period + tolerance
+    if not wrong and not late and len(instants) >= min(2, due):
+        each = say_plural(
+            "{count} message, at its instant", "{count} messages, each at its instant", len(found)
+        )
+        return Passed(actual=each)
+    if late and not wrong:
+        raise Failed(
+            "topic.stops",
+            expected=expected,
+            actual=say("the last message came at {at} s", at=f"{max(instants):g}"),
+            where=use.call("publish", mentions=given.topic),
+            words={"topic": given.topic},
+        )
+    seconds = _usual_gap(sorted(instants), use.plan.clock.period)
+    raise Failed(
+        "topic.wrong_period",
+        expected=expected,
+        actual=say("a message about every {period} s", period=f"{seconds:g}"),
+        where=where,
+        params={"period": seconds},
+        words={"topic": given.topic, "wanted": every},
+    )
+
+
+def _usual_gap(instants: list[float], clock: float) -> float:
+    """Return about how many seconds lie between messages.
+
+    A timer that is faster than the clock comes between its instants too, where these are watched.
+    """
+    if len(instants) < 2:
+        return instants[0]
+    between = [at for at in instants if abs(at / clock - round(at / clock)) > 1e-6]
+    if between:
+        watched = [at for at in instants if at <= between[-1] + clock]
+        return round((watched[-1] - watched[0]) / max(1, len(watched) - 1), 3)
+    gaps = Counter(round(after - before, 3) for before, after in pairwise(instants))
+    return gaps.most_common(1)[0][0]
+
+
+def _tolerance(use: Use[Parameters], wanted: float) -> float:
+    """Return by how much a gap may differ (s): 0 if the clock's period divides the wanted one."""
+    steps = wanted / use.plan.clock.period
+    return 1e-6 if abs(steps - round(steps)) < 1e-6 else use.plan.clock.period
+
+
+def _nothing(use: Use[Parameters]) -> Blocked:
+    """Return the outcome for a topic without messages: the check of the publisher says it."""
+    for other in use.evidence.assignment.checks:
+        if other.kind == "topic.publishes" and use.evidence.has_failed(other.id):
+            return Blocked(by=other.id)
+    use.require_window()
+    return Blocked(by="topic.publishes")
+
+
+@kind("topic.values", Each, depends=NEEDED, after=["topic.publishes"])
+def values(use: Use[Each]) -> Passed:
+    """The messages on {topic} have the right values"""
+    given = use.given
+    found = use.messages(given.topic)
+    if not found:
+        if use.seen.of_topic(given.topic):
+            use.require_window()
+            raise Failed(
+                "topic.none_then",
+                expected=_forms(given.each),
+                actual=say("no message from {first} s to {last} s", **_times(use)),
+                where=use.call("publish", mentions=given.topic),
+                words={"topic": given.topic},
+            )
+        raise _nothing(use)
+    use.require_window()
+    for message in found:
+        _must_fit(message, given.each, use)
+    return Passed(actual=say_plural("{count} message fits", "{count} messages fit", len(found)))
+
+
+def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> None:
+    """Raise Failed if a field of a message does not have its form."""
+    for path, form in each.items():
+        try:
+            value = at_path(message.values, path)
+        except KeyError:
+            value = None
+        if value is None or not form.fits(value):
+            garbage = isinstance(value, float) and 0 < abs(value) < DENORMAL
+            raise Failed(
+                "topic.int_in_float" if garbage else "topic.wrong_value",
+                expected=f"{path}: {form}",
+                actual=say(
+                    "{path}: {value}, in the message at {at} s",
+                    path=path,
+                    value=shown_value(value),
+                    at=f"{message.at:g}",
+                ),
+                where=use.call("publish", mentions=message.topic),
+                params={"field": path},
+                words={"topic": message.topic, "wanted": str(form)},
+                variant="changed" if use.use.after and not garbage else "",
+            )
+
+
+def _forms(each: dict[str, Form]) -> str:
+    return ", ".join(f"{path}: {form}" for path, form in each.items())
+
+
+def _times(use: Use[Parameters]) -> dict[str, str]:
+    first, last = use.window
+    return {"first": f"{first:g}", "last": f"{last:g}"}
+
+
+@kind("topic.reacts", Reacts, depends=NEEDED, after=["topic.publishes", "topic.subscribes"])
+def reacts(use: Use[Reacts]) -> Passed:
+    """The node answers a stimulus with a message on {topic}"""
+    given = use.given
+    done = use.seen.stimulus(use.use.after) if use.use.after else None
+    begin = done.at if done is not None else use.window[0]
+    expected = say(
+        "a message on {topic} within {within} s", topic=given.topic, within=f"{given.within:g}"
+    )
+    if done is not None and not done.heard:
+        for other in use.evidence.assignment.checks:
+            if other.kind == "topic.subscribes" and use.evidence.has_failed(other.id):
+                raise Blocked(by=other.id)
+    if use.end < begin + given.within - 1e-6:
+        raise use.unreached()
+    last = begin + given.within + 1e-6
+    found = [m for m in use.seen.of_topic(given.topic) if begin - 1e-6 <= m.at <= last]
+    if not found:
+        raise Failed(
+            "topic.no_reaction",
+            expected=joined(expected, _forms(given.each), by=": ") if given.each else expected,
+            actual=say("no message came in that time"),
+            where=use.call("create_subscription"),
+            words={"topic": given.topic},
+        )
+    fits = [m for m in found if all(_fits(m, path, form) for path, form in given.each.items())]
+    if not fits:
+        _must_fit(found[0], given.each, use)
+    return Passed(actual=say("it came at {at} s", at=f"{(fits or found)[0].at:g}"))
+
+
+def _fits(message: Message, path: str, form: Form) -> bool:
+    try:
+        return form.fits(at_path(message.values, path))
+    except KeyError:
+        return False
+
+
+@kind("topic.qos", Quality, depends=NEEDED, after=["topic.publishes", "topic.subscribes"])
+def quality(use: Use[Quality]) -> Passed:
+    """The {role} of {topic} has the right quality of service"""
+    given = use.given
+    ends = [end for end in use.ends(given.role) if end.name == given.topic]
+    if not ends:
+        raise Blocked(by="topic.publishes" if given.role == "publisher" else "topic.subscribes")
+    for wanted, found in (
+        (given.reliability, ends[0].reliability),
+        (given.durability, ends[0].durability),
+    ):
+        if wanted and wanted != found:
+            raise Failed(
+                "topic.wrong_qos",
+                expected=wanted,
+                actual=found,
+                where=use.call(CALLS[given.role], mentions=given.topic),
+                params={"found": found},
+                words={"topic": given.topic, "wanted": wanted},
+            )
+    return Passed(actual=", ".join(one for one in (ends[0].reliability, ends[0].durability) if one))

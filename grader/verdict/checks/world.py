@@ -1,0 +1,161 @@
+"""Kinds of check for the world: where a turtle drives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from grader.base.i18n.message import say
+from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.outcome import Blocked, Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.run.observations import Pose
+    from grader.verdict.use import Use
+
+NEEDED = ("run.starts", "run.spins")
+AT_REST = 0.01  # m: a turtle that moved less stands still
+SIZE = 499 / 45  # m, of turtlesim's field
+
+
+class Circle(BaseModel):
+    """A circle of a radius (m); poses may be `within` m of it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    radius: float = Field(gt=0)
+    within: float = Field(gt=0)
+
+
+class Path(Parameters):
+    """The path that a turtle must follow from its first pose in the window."""
+
+    turtle: str = "turtle1"
+    circle: Circle
+
+
+class Inside(Parameters):
+    """The turtle stays `margin` m away from the edge of the field, and moves `at_least` m."""
+
+    turtle: str = "turtle1"
+    margin: float = Field(default=0.0, ge=0)
+    at_least: float = Field(default=1.0, ge=0)
+
+
+@kind("world.path", Path, depends=NEEDED, after=["topic.values", "topic.period"])
+def path(use: Use[Path]) -> Passed:
+    """{turtle} drives along the wanted path"""
+    circle = use.given.circle
+    poses = _poses(use, use.given.turtle)
+    expected = say(
+        "a circle of {radius} m, to within {within} m",
+        radius=f"{circle.radius:g}",
+        within=f"{circle.within:g}",
+    )
+    where = use.call("publish")
+    words = {"turtle": use.given.turtle, "radius": f"{circle.radius:g}"}
+    if _length(poses) < AT_REST:
+        _blocked_by_publisher(use)
+        raise Failed(
+            "world.stands_still",
+            expected=expected,
+            actual=say("{turtle} stands still", turtle=use.given.turtle),
+            where=where,
+            words=words,
+        )
+    moving = _moving(poses)
+    off = min(_off(moving, circle.radius * side) for side in (1, -1))
+    if off <= circle.within:
+        return Passed(actual=say("at most {off} m beside it", off=f"{off:.3f}"))
+    radius = _radius(moving)
+    actual = say("up to {off} m beside it", off=f"{off:.2f}")
+    if radius is not None:
+        actual = say(
+            "a circle of about {radius} m: up to {off} m beside it",
+            radius=f"{radius:.2f}",
+            off=f"{off:.2f}",
+        )
+    raise Failed("world.off_path", expected=expected, actual=actual, where=where, words=words)
+
+
+@kind("world.stays", Inside, depends=NEEDED, after=["topic.values", "topic.period"])
+def stays(use: Use[Inside]) -> Passed:
+    """{turtle} never touches the wall"""
+    given = use.given
+    poses = _poses(use, given.turtle)
+    expected = say("{turtle} drives, and never touches the wall", turtle=given.turtle)
+    words = {"turtle": given.turtle}
+    low, high = given.margin, SIZE - given.margin
+    hit = next((p for p in poses if not (low < p.x < high and low < p.y < high)), None)
+    if hit is not None:
+        raise Failed(
+            "world.hits_wall",
+            expected=expected,
+            actual=say(
+                "it touches the wall at {at} s, at x={x}, y={y}",
+                at=f"{hit.at:.2f}",
+                x=f"{hit.x:.2f}",
+                y=f"{hit.y:.2f}",
+            ),
+            where=use.call("create_subscription"),
+            words=words,
+        )
+    driven = _length(poses)
+    if driven < given.at_least:
+        _blocked_by_publisher(use)
+        raise Failed(
+            "world.stands_still",
+            expected=expected,
+            actual=say("it drove only {length} m", length=f"{driven:.2f}"),
+            where=use.call("publish"),
+            words={**words, "radius": ""},
+        )
+    return Passed(actual=say("it drove {length} m", length=f"{driven:.1f}"))
+
+
+def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:
+    first, last = use.require_window()
+    found = [pose for pose in use.seen.path if pose.turtle == turtle]
+    return [pose for pose in found if first - 1e-6 <= pose.at <= last + 1e-6]
+
+
+def _blocked_by_publisher(use: Use[Parameters]) -> None:
+    for other in use.evidence.assignment.checks:
+        if other.kind in ("topic.publishes", "topic.values") and use.evidence.has_failed(other.id):
+            raise Blocked(by=other.id)
+
+
+def _length(poses: Sequence[Pose]) -> float:
+    return sum(math.dist((a.x, a.y), (b.x, b.y)) for a, b in zip(poses, poses[1:]))
+
+
+def _moving(poses: Sequence[Pose]) -> Sequence[Pose]:
+    """Return the poses from the last one before the turtle moves."""
+    for n, (before, after) in enumerate(zip(poses, poses[1:])):
+        if (before.x, before.y) != (after.x, after.y):
+            return poses[n:]
+    return poses
+
+
+def _off(poses: Sequence[Pose], radius: float) -> float:
+    """Return how far (m) poses are at most from the circle that begins at the first one.
+
+    A positive radius turns left, a negative one right.
+    """
+    begin = poses[0]
+    x = begin.x - math.sin(begin.theta) * radius
+    y = begin.y + math.cos(begin.theta) * radius
+    return max(abs(math.dist((pose.x, pose.y), (x, y)) - abs(radius)) for pose in poses)
+
+
+def _radius(poses: Sequence[Pose]) -> float | None:
+    """Return the radius (m) of the circle through three poses, None if they are on a line."""
+    a, b, c = poses[0], poses[len(poses) // 3], poses[2 * len(poses) // 3]
+    twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+    if abs(twice) < 1e-6:
+        return None
+    sides = math.dist((a.x, a.y), (b.x, b.y)) * math.dist((b.x, b.y), (c.x, c.y))
+    return sides * math.dist((c.x, c.y), (a.x, a.y)) / abs(2 * twice)

@@ -1,0 +1,133 @@
+"""One use of a kind of check in an assignment: its parameters, run, node and window of time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from grader.base.i18n.message import say
+from grader.course.assignment import CheckUse
+from grader.course.scenario import RunPlan
+from grader.report.model import Where
+from grader.run.conduct import full_name
+from grader.run.observations import End, Message, Observations, Role
+from grader.run.run import Run
+from grader.verdict.checks.declare import Parameters
+from grader.verdict.checks.faults import node_file
+from grader.verdict.evidence import Evidence
+from grader.verdict.node_files import source_of_node
+from grader.verdict.outcome import Blocked, Inconclusive
+
+P_co = TypeVar("P_co", bound=Parameters, covariant=True)
+EDGE = 1e-6  # s by which an instant may be outside a window
+SERVICE_TOPICS = ("/rosout", "/parameter_events", "/clock")
+
+
+@dataclass(frozen=True)
+class Use(Generic[P_co]):
+    """A use of a check; all times are seconds of ROS time."""
+
+    use: CheckUse
+    given: P_co
+    evidence: Evidence
+
+    @property
+    def plan(self) -> RunPlan:
+        """The plan of the run that is judged."""
+        return self.evidence.assignment.plan(self.use.run)
+
+    @property
+    def run(self) -> Run:
+        """The run that is judged. Raises Blocked if its nodes did not start."""
+        run = self.evidence.run_of(self.plan.name)
+        if not run.started:
+            raise Blocked(by="run.starts")
+        if not run.watch.settled and not run.ended_by_itself:
+            raise Blocked(by="run.spins")
+        return run
+
+    @property
+    def seen(self) -> Observations:
+        """What that run showed."""
+        seen = self.run.seen
+        assert seen is not None
+        return seen
+
+    @property
+    def node(self) -> str:
+        """The full name of the node that is judged: that of `of`, else the run's first."""
+        assignment, plan = self.evidence.assignment, self.plan
+        begin = next((one for one in plan.start if one.node == self.use.of), plan.start[0])
+        wanted = full_name(assignment, begin)
+        names = [node.name for node in self.run.nodes]
+        if wanted not in names and len(names) == 1 and len(plan.start) == 1:
+            return names[0]  # its name is another check's matter
+        return wanted
+
+    @property
+    def end(self) -> float:
+        """The last instant that the run reached."""
+        return self.seen.instants[-1] if self.seen.instants else 0.0
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """The first and the last instant that count. Raises Inconclusive if it was not reached."""
+        begin = 0.0
+        if self.use.after:
+            done = self.seen.stimulus(self.use.after)
+            if done is None:
+                raise self.unreached()
+            begin = done.at
+        if self.use.during is None:
+            return begin, max(begin, self.plan.clock.period * self.plan.clock.ticks)
+        first, last = self.use.during
+        return begin + first, begin + last
+
+    def unreached(self) -> Blocked | Inconclusive:
+        """Return the outcome of a window that the run did not reach."""
+        if self.run.ended_by_itself or self.run.resource or self.run.flooded:
+            return Blocked(by="run.stays")
+        if self.seen.stuck is not None:
+            return Blocked(by="run.stays")
+        return Inconclusive(say("the run did not reach this instant in its time limit"))
+
+    def require_window(self) -> tuple[float, float]:
+        """Return the window; raises Blocked or Inconclusive unless the run reached its end."""
+        first, last = self.window
+        if self.end < last - EDGE:
+            raise self.unreached()
+        return first, last
+
+    def messages(self, topic: str) -> list[Message]:
+        """Return the messages of a topic in the window."""
+        first, last = self.window
+        return [
+            message
+            for message in self.seen.of_topic(topic)
+            if first - EDGE <= message.at <= last + EDGE
+        ]
+
+    def ends(self, role: Role, *, own: bool = True) -> list[End]:
+        """Return the ends of a role, those of the judged node if `own`; not ROS's own topics."""
+        return [
+            end
+            for end in self.seen.ends
+            if end.role == role
+            and (not own or end.node == self.node)
+            and end.name not in SERVICE_TOPICS
+        ]
+
+    def call(self, *names: str, mentions: str = "") -> Where:
+        """Return the line of the node's first call of one of these names, else the node's file.
+
+        A call with the text `mentions` among its arguments comes before the others.
+        """
+        source = source_of_node(self.evidence)
+        found = source.calls_of(*names) if source is not None else []
+        if source is None or not found:
+            return node_file(self.evidence)
+        import ast  # noqa: PLC0415 - only here
+
+        wanted = mentions.strip("/")
+        best = next((one for one in found if wanted and wanted in ast.unparse(one)), found[0])
+        return Where(file=source.module_of(best).path, line=best.lineno)

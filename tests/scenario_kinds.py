@@ -1,0 +1,322 @@
+"""A package that does a little of everything, the assignment of schema 2 for it, and broken forms.
+
+Every kind of check is used at least once. Each broken form changes one thing for many checks, so
+that a few runs show three wrong packages for each kind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+ASSIGNMENT = """\
+schema: 2
+id: doubling
+title: "A node that doubles"
+package: doubling
+nodes:
+  doubler: {executable: doubler, target: doubling.doubler:main, file: doubler.py, name: doubler}
+runs:
+  - name: answers
+    start: [{node: doubler}]
+    clock: {period: 0.1, ticks: 50}
+    topics: {/doubled: std_msgs/msg/Int32}
+    do:
+      - {name: four, at: 1.0, publish: {topic: /number, type: std_msgs/msg/Int32, values: {data: 4}}}
+      - {name: reset, at: 2.0, call: {service: /reset, type: std_srvs/srv/Trigger}}
+      - {name: thrice, at: 3.0, set: {doubler: {factor: 3}}}
+      - name: five
+        at: 3.5
+        publish: {topic: /number, type: std_msgs/msg/Int32, values: {data: 5}}
+checks:
+  - {id: run.starts, points: 1}
+  - {id: run.spins, points: 1}
+  - {id: run.node_name, points: 1}
+  - {id: run.stays, points: 1}
+  - {id: beat, check: topic.publishes, points: 1, with: {topic: /beat, type: std_msgs/msg/Bool, at_least: 10}}
+  - {id: beat.period, check: topic.period, points: 1, with: {topic: /beat, period: 0.2}}
+  - {id: beat.values, check: topic.values, points: 1, with: {topic: /beat, each: {data: true}}}
+  - {id: beat.qos, check: topic.qos, points: 1, with: {topic: /beat, reliability: best_effort}}
+  - {id: hears, check: topic.subscribes, points: 1, with: {topic: /number, type: std_msgs/msg/Int32}}
+  - {id: eight, check: topic.reacts, points: 1, after: four, with: {topic: /doubled, within: 0.1, each: {data: 8}}}
+  - {id: fifteen, check: topic.reacts, points: 1, after: five, with: {topic: /doubled, within: 0.1, each: {data: 15}}}
+  - {id: factor, check: parameter.declared, points: 1, with: {name: factor, type: integer, value: 3}}
+  - {id: factor.set, check: parameter.accepts, points: 1, after: thrice, with: {name: factor}}
+  - {id: offers, check: service.offers, points: 1, with: {service: /reset, type: std_srvs/srv/Trigger}}
+  - {id: answers, check: service.answers, points: 1, after: reset, with: {service: /reset, each: {success: true, message: {contains: reset}}}}
+  - {id: calls, check: service.calls, points: 1, with: {service: /go, type: std_srvs/srv/SetBool}}
+  - {id: says, check: log.matches, points: 1, with: {text: {matches: '^got \\d+$'}, level: info, at_least: 2, at_most: 2}}
+  - {id: silent, check: log.never, points: 1, with: {text: {contains: lost}}}
+  - {id: run.interrupt, points: 1}
+"""
+
+NODE = """\
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Bool, Int32
+from std_srvs.srv import SetBool, Trigger
+
+
+class Doubler(Node):
+    def __init__(self):
+        super().__init__('doubler')
+        self.declare_parameter('factor', 2)
+        best = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self.beat = self.create_publisher(Bool, '/beat', best)
+        self.create_timer(0.2, self.on_timer)
+        self.doubled = self.create_publisher(Int32, '/doubled', 10)
+        self.create_subscription(Int32, '/number', self.on_number, 10)
+        self.create_service(Trigger, '/reset', self.on_reset)
+        self.go = self.create_client(SetBool, '/go')
+
+    def on_timer(self):
+        self.beat.publish(Bool(data=True))
+
+    def on_number(self, message):
+        self.get_logger().info(f'got {message.data}')
+        factor = self.get_parameter('factor').value
+        self.doubled.publish(Int32(data=message.data * factor))
+
+    def on_reset(self, request, response):
+        response.success = True
+        response.message = 'reset'
+        return response
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Doubler()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+
+
+if __name__ == '__main__':
+    main()
+"""
+
+SETUP = """\
+from setuptools import find_packages, setup
+setup(
+    name='doubling', version='0.0.0', packages=find_packages(), zip_safe=True,
+    data_files=[('share/ament_index/resource_index/packages', ['resource/doubling']),
+                ('share/doubling', ['package.xml'])],
+    install_requires=['setuptools'], maintainer='a', maintainer_email='a@b.cd',
+    description='doubles', license='Apache-2.0',
+    entry_points={'console_scripts': ['doubler = doubling.doubler:main']},
+)
+"""
+
+MANIFEST = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>doubling</name><version>0.0.0</version><description>doubles</description>
+  <maintainer email="a@b.cd">a</maintainer><license>Apache-2.0</license>
+  <depend>rclpy</depend><depend>std_msgs</depend><depend>std_srvs</depend>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A form of the package: texts of the node that are replaced, and the checks that must fail.
+
+    `fails` has the mistake of each failed check; `skipped` the checks that it blocks.
+    """
+
+    name: str
+    edits: tuple[tuple[str, str], ...]
+    fails: dict[str, str]
+    skipped: tuple[str, ...] = ()
+
+
+FORMS = (
+    Form("right", (), {}),
+    Form(
+        "names",
+        (
+            ("'/beat'", "'/beats'"),
+            ("'/number'", "'/numbers'"),
+            ("'factor', 2", "'Factor', 2"),
+            ("get_parameter('factor')", "get_parameter('Factor')"),
+            ("'/reset'", "'/rest'"),
+            ("'/go'", "'/Go'"),
+            ("f'got {message.data}'", "f'Got {message.data}'"),
+        ),
+        {
+            "beat": "topic.wrong_name",
+            "hears": "topic.wrong_name",
+            "factor": "parameter.not_declared",
+            "offers": "service.wrong_name",
+            "calls": "service.wrong_name",
+            "says": "log.missing",
+        },
+        ("beat.period", "beat.values", "beat.qos", "eight", "fifteen", "factor.set", "answers"),
+    ),
+    Form(
+        "types",
+        (
+            ("import Bool, Int32", "import Bool, Int32, Int64"),
+            ("create_publisher(Bool, '/beat'", "create_publisher(Int32, '/beat'"),
+            ("Bool(data=True)", "Int32(data=1)"),
+            ("create_subscription(Int32", "create_subscription(Int64"),
+            ("'factor', 2", "'factor', 2.0"),
+            ("import SetBool, Trigger", "import Empty, SetBool, Trigger"),
+            ("create_service(Trigger", "create_service(Empty"),
+            ("response.success = True\n        response.message = 'reset'", "pass"),
+            ("create_client(SetBool", "create_client(Trigger"),
+        ),
+        {
+            "beat": "topic.wrong_type",
+            "hears": "topic.wrong_type",
+            "factor": "parameter.wrong_type",
+            "offers": "service.wrong_type",
+            "calls": "service.wrong_type",
+            "says": "log.missing",
+        },
+        ("beat.period", "beat.values", "eight", "fifteen", "factor.set", "answers"),
+    ),
+    Form(
+        "missing",
+        (
+            ("        self.beat.publish(Bool(data=True))", "        pass"),
+            ("        self.create_subscription(Int32, '/number', self.on_number, 10)\n", ""),
+            ("        self.declare_parameter('factor', 2)\n", ""),
+            ("        self.create_service(Trigger, '/reset', self.on_reset)\n", ""),
+            ("        self.go = self.create_client(SetBool, '/go')\n", ""),
+            ("reliability=ReliabilityPolicy.BEST_EFFORT", "reliability=ReliabilityPolicy.RELIABLE"),
+        ),
+        {
+            "beat": "topic.never_published",
+            "beat.qos": "topic.wrong_qos",
+            "hears": "topic.no_subscription",
+            "factor": "parameter.not_declared",
+            "offers": "service.missing",
+            "calls": "service.no_client",
+            "says": "log.missing",
+        },
+        ("beat.period", "beat.values", "eight", "fifteen", "factor.set", "answers"),
+    ),
+    Form(
+        "values",
+        (
+            ("create_timer(0.2", "create_timer(0.4"),
+            ("Bool(data=True)", "Bool(data=False)"),
+            ("message.data * factor", "message.data + factor"),
+            ("response.success = True", "response.success = False"),
+            (
+                "f'got {message.data}')",
+                "f'got {message.data}')\n        self.get_logger().warn('lost')",
+            ),
+        ),
+        {
+            "beat.period": "topic.wrong_period",
+            "beat.values": "topic.wrong_value",
+            "eight": "topic.wrong_value",
+            "fifteen": "topic.wrong_value",
+            "answers": "service.wrong_answer",
+            "silent": "log.forbidden",
+        },
+    ),
+    Form(
+        "more",
+        (
+            (
+                "self.beat.publish(Bool(data=True))",
+                "[self.beat.publish(Bool(data=i == 0)) for i in (0, 1)]",
+            ),
+            (
+                "        factor = ",
+                "        if message.data == 5:\n            return\n        factor = ",
+            ),
+            (
+                "        self.declare_parameter('factor', 2)\n",
+                "        self.declare_parameter('factor', 2)\n        self.set_parameters_callback_()\n",
+            ),
+            (
+                "    def on_timer",
+                "    def set_parameters_callback_(self):\n        self.add_on_set_parameters_callback(lambda _: SetParametersResult(successful=False, reason='no'))\n\n    def on_timer",
+            ),
+            (
+                "import rclpy\n",
+                "import rclpy\nfrom rcl_interfaces.msg import SetParametersResult\n",
+            ),
+            ("        response.message = 'reset'\n", ""),
+            (
+                "f'got {message.data}')",
+                "f'got {message.data}')\n        self.get_logger().info(f'got {message.data}')\n        self.get_logger().error('all lost')",
+            ),
+        ),
+        {
+            "beat.period": "topic.several_at_once",
+            "beat.values": "topic.wrong_value",
+            "fifteen": "topic.no_reaction",
+            "factor": "parameter.wrong_value",
+            "factor.set": "parameter.refused",
+            "answers": "service.wrong_answer",
+            "says": "log.too_often",
+            "silent": "log.forbidden",
+        },
+    ),
+    Form(
+        "stops",
+        (
+            (
+                "        self.beat.publish(Bool(data=True))",
+                "        self.n = getattr(self, 'n', 0) + 1\n        if self.n < 12:\n            self.beat.publish(Bool(data=self.n < 11))",
+            ),
+            (
+                "        self.doubled.publish(",
+                "        self.create_client(Trigger, '/nobody').wait_for_service(0.1)\n        print(",
+            ),
+            ("        return response", "        return None"),
+            ("f'got {message.data}'", "str(message.data)"),
+            (
+                "        response.success = True",
+                "        self.get_logger().info('lost it')\n        response.success = True",
+            ),
+        ),
+        {
+            "run.stays": "run.ended_early",
+            "eight": "topic.no_reaction",
+            "answers": "service.no_answer",
+            "silent": "log.forbidden",
+        },
+        ("beat.period", "beat.values", "fifteen", "factor", "factor.set", "says", "run.interrupt"),
+    ),
+)
+
+
+def write_course(folder: Path) -> Path:
+    """Write the assignment's file and return its path."""
+    file = folder / "doubling" / "assignment.yaml"
+    file.parent.mkdir(parents=True)
+    file.write_text(ASSIGNMENT, encoding="utf-8")
+    return file
+
+
+def write_package(form: Form, folder: Path) -> Path:
+    """Write a form of the package and return its folder."""
+    root = folder / form.name / "doubling"
+    node = NODE
+    for old, new in form.edits:
+        assert node.count(old) == 1, (form.name, old)
+        node = node.replace(old, new)
+    texts = {
+        "package.xml": MANIFEST,
+        "setup.py": SETUP,
+        "setup.cfg": "[develop]\nscript_dir=$base/lib/doubling\n"
+        "[install]\ninstall_scripts=$base/lib/doubling\n",
+        "resource/doubling": "",
+        "doubling/__init__.py": "",
+        "doubling/doubler.py": node,
+    }
+    for path, text in texts.items():
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text, encoding="utf-8")
+    (root / "doubling/doubler.py").chmod(0o755)
+    return root

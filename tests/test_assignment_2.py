@@ -1,0 +1,124 @@
+"""Assignments of schema 2: what the loader accepts, and how it tells a mistake in the file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.base.errors import AssignmentError, UsageError
+from grader.course.assignment import Assignment
+from grader.course.find import COURSE, chosen, lessons_of
+from grader.course.load import load_assignment
+from grader.verdict.checks.all import CHECKS
+from tests.processes import ROOT
+from tests.scenario_kinds import ASSIGNMENT
+
+CIRCLE = ROOT / "lab" / "course" / "draw_circle" / "assignment.yaml"
+
+
+def loaded(folder: Path, old: str = "", new: str = "", *, text: str = ASSIGNMENT) -> Assignment:
+    """Return the assignment with one text replaced."""
+    assert not old or text.count(old) == 1, old
+    file = folder / "assignment.yaml"
+    file.write_text(text.replace(old, new) if old else text, encoding="utf-8")
+    return load_assignment(file, known_checks=CHECKS)
+
+
+def test_the_main_node_gives_the_names_of_schema_1(tmp_path: Path) -> None:
+    found = loaded(tmp_path)
+    assert (found.package, found.node_file, found.node_name) == (
+        "doubling",
+        "doubler.py",
+        "doubler",
+    )
+    assert (found.executable, found.target) == ("doubler", "doubling.doubler:main")
+    assert found.max_score == 19
+
+
+def test_the_topics_and_periods_of_the_checks_are_recorded(tmp_path: Path) -> None:
+    plan = loaded(tmp_path).runs[0]
+    assert plan.topics == {
+        "/doubled": "std_msgs/msg/Int32",
+        "/beat": "std_msgs/msg/Bool",
+        "/number": "std_msgs/msg/Int32",
+    }
+    assert plan.periods == {"/beat": 0.2}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("start: [{node: doubler}]", "start: [{node: doublr}]", "did you mean 'doubler'"),
+        ("name: four, at: 1.0,", "name: four, at: 9.0,", "the run ends at 5 s"),
+        ("name: reset, at: 2.0,", "name: four, at: 2.0,", "listed twice"),
+        (
+            "type: std_msgs/msg/Int32, values: {data: 4}",
+            "type: Int32, values: {data: 4}",
+            "std_msgs/msg/String",
+        ),
+        ("set: {doubler: {factor: 3}}", "set: {double: {factor: 3}}", "did you mean 'doubler'"),
+        ("after: thrice", "after: trice", "did you mean 'thrice'"),
+        ("check: topic.qos", "check: topic.qso", "did you mean 'topic.qos'"),
+        ("reliability: best_effort", "reliability: best", "best_effort"),
+        ("{topic: /beat, period: 0.2}", "{topic: /beat, perod: 0.2}", "did you mean 'period'"),
+        ("{topic: /beat, period: 0.2}", "{topic: /beat, period: -1}", "above 0"),
+        (
+            "{topic: /beat, period: 0.2}",
+            "{topic: /bet, period: 0.2}",
+            "the type of /bet is not known",
+        ),
+        ("{data: true}", "{data: {about: 1.0}}", "within"),
+        (
+            "clock: {period: 0.1, ticks: 50}",
+            "clock: {period: 0.1, tick: 50}",
+            "did you mean 'ticks'",
+        ),
+        ("    topics: {", "    world: turtlsim\n    topics: {", "did you mean 'turtlesim'"),
+        (
+            "  - {id: run.starts, points: 1}",
+            "  - {id: run.starts, points: 1, with: {a: 1}}",
+            "takes no parameters",
+        ),
+        ("executable: doubler,", "executible: doubler,", "did you mean 'executable'"),
+        ("data: 4}}}", "data: 4}}, set: {}}", "exactly one of publish, call and set"),
+    ],
+)
+def test_a_mistake_in_the_file_is_told_with_its_line(
+    old: str, new: str, words: str, tmp_path: Path
+) -> None:
+    line = ASSIGNMENT[: ASSIGNMENT.index(old)].count("\n") + 1
+    with pytest.raises(AssignmentError) as told:
+        loaded(tmp_path, old, new)
+    first = str(told.value).splitlines()[0]
+    assert words in first
+    assert first.startswith(f"{tmp_path}/assignment.yaml:{line}: ")
+
+
+def test_schema_1_has_no_keys_of_schema_2(tmp_path: Path) -> None:
+    text = (ROOT / "lab/course/hello_time/assignment.yaml").read_text(encoding="utf-8")
+    with pytest.raises(AssignmentError, match=r"unknown key 'runs' \(it is of schema 2\)"):
+        loaded(tmp_path, text=text + "runs: []\n")
+
+
+def test_the_first_lesson_of_the_order_is_the_default(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("alpha", "beta", "gamma"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "assignment.yaml").write_text(ASSIGNMENT, encoding="utf-8")
+    monkeypatch.setenv(COURSE, str(tmp_path))
+    with pytest.raises(UsageError, match="several lessons"):
+        chosen(None)
+    order = tmp_path / "course.yaml"
+    order.write_text("schema: 1\nlessons: [gamma, alpha]\n", encoding="utf-8")
+    assert chosen(None) == "gamma"
+    assert lessons_of(tmp_path) == ["gamma", "alpha", "beta"]
+    order.write_text("schema: 1\nlessons: [gamma, delta]\n", encoding="utf-8")
+    with pytest.raises(AssignmentError, match=r"course\.yaml:2: there is no lesson 'delta'"):
+        chosen(None)
+
+
+def test_our_own_course_begins_with_the_first_node() -> None:
+    assert lessons_of(ROOT / "lab" / "course")[:2] == ["hello_time", "draw_circle"]
+    assert load_assignment(CIRCLE, known_checks=CHECKS).max_score == 100
