@@ -51,7 +51,6 @@ class Each(Parameters):
 
     topic: str
     each: dict[str, Form] = Field(min_length=1)
-    at_least: int = Field(default=1, ge=1)
 
 
 class Reacts(Parameters):

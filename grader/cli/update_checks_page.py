@@ -1,0 +1,106 @@
+"""`python -m grader.cli.update_checks_page`: writes docs/checks.md from the declared checks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from grader.base.project import CHECKOUT
+from grader.course.values import KEYS, Form
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.checks.declare import Check
+
+PAGE = CHECKOUT / "docs" / "checks.md"
+HEAD = """\
+# The checks
+
+Made from the code by `python -m grader.cli.update_checks_page`; do not edit it by hand.
+
+A check of an assignment has an `id`, `points` and a `visibility` (`visible`, `hidden` or
+`after_due_date`). A kind with parameters is used like this, as often as you like, each time with an
+id of your own:
+
+```yaml
+- id: drive.speed
+  check: topic.values
+  of: circle                 # a node of the assignment (default: the first that the run starts)
+  run: drives                # the run that is judged (default: the first)
+  after: tighter             # a stimulus: the window begins when it is done (default: at 0 s)
+  during: [0.5, 3.0]         # the window in seconds of ROS time (default: the whole run)
+  points: 10
+  with: {topic: /turtle1/cmd_vel, each: {linear.x: 2.0, angular.z: {about: 2.0, within: 0.01}}}
+```
+
+A value is matched by a form: a plain value (equal to it; a floating-point number to six digits),
+"""
+
+
+def page() -> str:
+    """Return the text of docs/checks.md."""
+    forms = "`{about: 1.0, within: 0.01}`, `{between: [0, 2]}`, `{one_of: [1, 2]}`,\n"
+    forms += "`{matches: 'a regular expression'}` or `{contains: 'a text'}`.\n"
+    assert set(KEYS) == {"equal", "about", "between", "one_of", "matches", "contains"}
+    lines = [HEAD + forms, "## Kinds with parameters\n"]
+    for check in CHECKS.values():
+        if check.parameters is not None:
+            lines += list(_kind(check, check.parameters))
+    lines += [
+        "## Checks without parameters\n",
+        "| id | what is checked | skipped unless |",
+        "|---|---|---|",
+    ]
+    for check in CHECKS.values():
+        if check.parameters is None:
+            depends = ", ".join(f"`{name}`" for name in check.depends) or " "
+            lines.append(f"| `{check.id}` | {check.title} | {depends} |")
+    return "\n".join(lines) + "\n"
+
+
+def _kind(check: Check, model: type[BaseModel]) -> Iterator[str]:
+    title = re.sub(r"\{(\w+)\}", r"*\1*", check.title)
+    yield f"### `{check.id}`\n"
+    yield f"{title}. {(model.__doc__ or '').strip()}\n"
+    yield "| key | type | default |"
+    yield "|---|---|---|"
+    for name, field in model.model_fields.items():
+        default = "required" if field.is_required() else _default(field)
+        yield f"| `{name}` | {_type(field.annotation)} | {default} |"
+    yield ""
+
+
+def _default(field: FieldInfo) -> str:
+    value = field.get_default(call_default_factory=True)
+    assert value is not PydanticUndefined
+    return str(value) if value not in (None, "", {}) else "none"
+
+
+def _type(annotation: Any) -> str:
+    """Return a type in the words of YAML."""
+    if annotation is Form or annotation is Any:
+        return "form"
+    named = {str: "text", float: "number", int: "whole number", bool: "true or false"}
+    if annotation in named:
+        return named[annotation]
+    arguments = get_args(annotation)
+    if get_origin(annotation) is dict:
+        return "fields and their forms"
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        fields = annotation.model_fields.items()
+        return ", ".join(f"`{name}` ({_type(field.annotation)})" for name, field in fields)
+    if type(None) in arguments:
+        return _type(next(one for one in arguments if one is not type(None)))
+    return " or ".join(f"`{one}`" for one in arguments if one)
+
+
+def main() -> None:
+    """Write the page."""
+    PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
