@@ -217,10 +217,10 @@ FORMS = (
             "beat.period": "topic.wrong_period",
             "beat.values": "topic.wrong_value",
             "eight": "topic.wrong_value",
-            "fifteen": "topic.wrong_value",
             "answers": "service.wrong_answer",
             "silent": "log.forbidden",
         },
+        ("fifteen",),
     ),
     Form(
         "more",

@@ -47,7 +47,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "topic.wrong_name": {"name": "/chater"},
     "topic.wrong_type": {"wanted": "std_msgs/msg/String"},
     "topic.wrong_period": {"wanted": "0.5"},
-    "topic.wrong_value": {"wanted": "2"},
+    "topic.wrong_value": {"wanted": "2", "field": "linear.x"},
     "topic.wrong_qos": {"wanted": "best_effort"},
     "parameter.not_declared": {"name": "radius", "close": "Radius"},
     "parameter.wrong_type": {"name": "radius"},

@@ -222,7 +222,7 @@ KINDS = (
         "topic",
         msg("A message has a different value"),
         msg("Fields that are not set are 0. Velocities are in m/s and rad/s, distances in m."),
-        msg("Set the field so that it is {wanted}, each time before publish()."),
+        msg("Set {field} to {wanted}, each time before publish()."),
         whys={
             "changed": msg(
                 "A value that is read in __init__ stays as it was. The callback has to read it "
@@ -232,7 +232,7 @@ KINDS = (
         fixes={
             "changed": msg(
                 "Read the value in the callback, for example with "
-                "self.get_parameter('…').value, and set the field so that it is {wanted}."
+                "self.get_parameter('…').value, and set {field} to {wanted}."
             )
         },
     ),

@@ -157,7 +157,7 @@ class RunInfo(_Part):
     """One run of a scenario: what was observed, and where its turtles drove.
 
     `instants` is how many instants of ROS time the clock showed, `period` s apart (`observed`);
-    `path` has points in metres by the turtle's name.
+    `path` has points in metres by the turtle's name, `wanted` those of the path that was wanted.
     """
 
     name: str
@@ -166,6 +166,7 @@ class RunInfo(_Part):
     instants: int = 0
     topics: list[TopicInfo] = Field(default_factory=list)
     path: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)
+    wanted: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)
 
 
 class Evidence(_Part):

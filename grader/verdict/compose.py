@@ -14,6 +14,8 @@ from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
 from grader.run.run import Run
+from grader.verdict.checks.world import Path as WantedPath
+from grader.verdict.checks.world import circle_from
 from grader.verdict.evidence import Evidence
 
 REMARKS = {
@@ -147,7 +149,21 @@ def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
             turtle: _thinned([(p.x, p.y) for p in seen.path if p.turtle == turtle])
             for turtle in turtles
         },
+        wanted=_wanted(run, assignment),
     )
+
+
+def _wanted(run: Run, assignment: Assignment) -> dict[str, list[tuple[float, float]]]:
+    """Return the path that the checks of a run want of a turtle, from where it begins to move."""
+    found = {}
+    for use in assignment.checks:
+        here = assignment.plan(use.run).name == run.name and use.visibility == "visible"
+        if use.kind == "world.path" and here and run.seen is not None:
+            given = WantedPath.model_validate(use.with_)
+            own = [pose for pose in run.seen.path if pose.turtle == given.turtle]
+            if own:
+                found[given.turtle] = _thinned(circle_from(own, given.circle.radius))
+    return found
 
 
 def _thinned(points: list[tuple[float, float]]) -> list[tuple[float, float]]:

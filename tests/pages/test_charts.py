@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies
 
-from grader.publish.pages.charts import LANES, WIDTH, histogram, timeline
+from grader.publish.pages.charts import FIELD, LANES, WIDTH, histogram, path_plots, timeline
 from grader.publish.pages.overview import Bin
-from grader.report.model import Observed, Tick
+from grader.report.model import Observed, RunInfo, Tick
 
 
 def virtual(*instants: float, due: tuple[float, ...] = (), period: float | None = 1.0) -> Observed:
@@ -110,3 +110,27 @@ def test_bars_stand_side_by_side_and_their_heights_are_the_counts() -> None:
 
 def test_a_histogram_of_nothing_is_flat() -> None:
     assert [bar.height for bar in histogram([Bin(0, 100, 0)]).bars] == [0]
+
+
+def test_a_path_is_seen_from_above_with_the_wanted_one_beside_it() -> None:
+    run = RunInfo(
+        name="drives",
+        path={"turtle1": [(0.0, 0.0), (FIELD, 0.0), (FIELD, FIELD)], "turtle2": []},
+        wanted={"turtle1": [(FIELD / 2, FIELD / 2)]},
+    )
+    (plot,) = path_plots([run])
+    size = plot.size
+    assert (plot.run, plot.turtle) == ("drives", "turtle1")
+    assert plot.driven == (f"0.0,{size} {size},{size} {size},0.0",)
+    assert plot.wanted == (f"{size / 2},{size / 2}",)
+    assert (plot.start, plot.end) == ((0.0, size), (size, 0.0))
+    assert path_plots([RunInfo(name="no world")]) == ()
+
+
+def test_the_pieces_of_a_long_path_meet() -> None:
+    points = [(at / 100, 1.0) for at in range(400)]
+    (plot,) = path_plots([RunInfo(name="drives", path={"turtle1": points})])
+    ends = [(piece.split()[0], piece.split()[-1]) for piece in plot.driven]
+    assert all(before[1] == after[0] for before, after in zip(ends, ends[1:]))
+    assert max(len(piece) for piece in plot.driven) < 1_000
+    assert sum(len(piece.split()) - 1 for piece in plot.driven) == 399

@@ -13,12 +13,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grader.publish.pages.overview import Bin
-from grader.report.model import Observed, Tick
+from grader.report.model import Observed, RunInfo, Tick
 
 WIDTH = 400.0
 EDGE = 24.0  # margin at the ends of an axis
 LANES = 44.0  # width of the lane names at the left of the timeline
 ON_TIME = 0.0005  # seconds of ROS time: instants are reported to 1 ms, and 1 ms early is early
+PIECE = 60  # points of a piece of a line: a page cuts longer texts
+FIELD = 499 / 45  # m, the side of turtlesim's field
 MOST_DUE, MOST_TICKS, MOST_LABELS = 400, 200, 12
 HIGHEST_LABEL, LABEL_WIDTH = 999, 14.0
 STEPS = (1, 2, 5)
@@ -130,6 +132,45 @@ def timeline(observed: Observed) -> Timeline | None:
         axis=tuple((x(at), at) for at in _marks(start, end)),
         missed=_missed(due, dots) if virtual else (),
         left_out=len(known) - len(ticks),
+    )
+
+
+@dataclass(frozen=True)
+class PathPlot:
+    """Where a turtle drove, seen from above: pieces of lines as `x,y x,y …`, for polylines."""
+
+    run: str
+    turtle: str
+    driven: tuple[str, ...]
+    wanted: tuple[str, ...]
+    start: tuple[float, float]
+    end: tuple[float, float]
+    size: float = WIDTH / 2
+
+
+def path_plots(runs: Sequence[RunInfo]) -> tuple[PathPlot, ...]:
+    """Return a plot for each turtle of each run that has a world."""
+
+    def place(x: float, y: float) -> tuple[float, float]:
+        scale = PathPlot.size / FIELD
+        return round(x * scale, 1), round(PathPlot.size - y * scale, 1)
+
+    def lines(points: Sequence[tuple[float, float]]) -> tuple[str, ...]:
+        pieces = [points[at : at + PIECE + 1] for at in range(0, max(1, len(points) - 1), PIECE)]
+        return tuple(" ".join("{},{}".format(*place(x, y)) for x, y in piece) for piece in pieces)
+
+    return tuple(
+        PathPlot(
+            run=run.name,
+            turtle=turtle,
+            driven=lines(points),
+            wanted=lines(run.wanted.get(turtle, [])) if run.wanted.get(turtle) else (),
+            start=place(*points[0]),
+            end=place(*points[-1]),
+        )
+        for run in runs
+        for turtle, points in run.path.items()
+        if points
     )
 
 

@@ -12,7 +12,7 @@ from grader.base.plain_text import first_lines
 from grader.batch.model import GradebookEntry, Override
 from grader.batch.words import instant
 from grader.publish.pages.calculation import calculation
-from grader.publish.pages.charts import Timeline, timeline
+from grader.publish.pages.charts import PathPlot, Timeline, path_plots, timeline
 from grader.publish.pages.overview import shown
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
@@ -63,6 +63,7 @@ class StudentView:
     facts: tuple[tuple[str, str], ...]
     details: tuple[tuple[str, str], ...]
     timeline: Timeline | None
+    paths: tuple[PathPlot, ...]
     transcript: str
     build_log: str
 
@@ -90,6 +91,7 @@ def student_view(entry: GradebookEntry, *, show_hidden: bool, lang: str = SOURCE
         facts=tuple((translate(name), translate(value)) for name, value in _facts(entry) if value),
         details=tuple((n, v) for n, v in _details(report) if v) if report else (),
         timeline=timeline(report.observed) if report else None,
+        paths=path_plots(report.runs) if report else (),
         transcript=_log(evidence.transcript, translate) if evidence else "",
         build_log=_log(evidence.build_log, translate) if evidence else "",
     )

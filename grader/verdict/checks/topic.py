@@ -291,6 +291,7 @@ def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> 
         except KeyError:
             value = None
         if value is None or not form.fits(value):
+            _must_be_new(message.topic, path, use)
             garbage = isinstance(value, float) and 0 < abs(value) < DENORMAL
             raise Failed(
                 "topic.int_in_float" if garbage else "topic.wrong_value",
@@ -303,9 +304,19 @@ def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> 
                 ),
                 where=use.call("publish", mentions=message.topic),
                 params={"field": path},
-                words={"topic": message.topic, "wanted": str(form)},
+                words={"topic": message.topic, "field": path, "wanted": str(form)},
                 variant="changed" if use.use.after and not garbage else "",
             )
+
+
+def _must_be_new(topic: str, path: str, use: Use[Parameters]) -> None:
+    """Raise Blocked if an earlier check has found the same field wrong."""
+    for other in use.evidence.assignment.checks:
+        result = use.evidence.results.get(other.id)
+        if result is None or result.status != "failed" or other.with_.get("topic") != topic:
+            continue
+        if any(found.params.get("field") == path for found in result.mistakes):
+            raise Blocked(by=other.id)
 
 
 def _forms(each: dict[str, Form]) -> str:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 NEEDED = ("run.starts", "run.spins")
 AT_REST = 0.01  # m: a turtle that moved less stands still
+CIRCLE_POINTS = 60  # of a circle that is drawn
 SIZE = 499 / 45  # m, of turtlesim's field
 
 
@@ -140,15 +141,27 @@ def _moving(poses: Sequence[Pose]) -> Sequence[Pose]:
     return poses
 
 
+def circle_from(poses: Sequence[Pose], radius: float) -> list[tuple[float, float]]:
+    """Return points of the circle that a turtle must drive, on the side to which it turns."""
+    moving = _moving(poses)
+    side = min((1, -1), key=lambda side: _off(moving, radius * side))
+    x, y = _centre(moving[0], radius * side)
+    steps = [2 * math.pi * n / CIRCLE_POINTS for n in range(CIRCLE_POINTS + 1)]
+    return [(x + radius * math.cos(step), y + radius * math.sin(step)) for step in steps]
+
+
+def _centre(begin: Pose, radius: float) -> tuple[float, float]:
+    """Return the centre of the circle that begins at a pose; it is to the left if radius > 0."""
+    return begin.x - math.sin(begin.theta) * radius, begin.y + math.cos(begin.theta) * radius
+
+
 def _off(poses: Sequence[Pose], radius: float) -> float:
     """Return how far (m) poses are at most from the circle that begins at the first one.
 
     A positive radius turns left, a negative one right.
     """
-    begin = poses[0]
-    x = begin.x - math.sin(begin.theta) * radius
-    y = begin.y + math.cos(begin.theta) * radius
-    return max(abs(math.dist((pose.x, pose.y), (x, y)) - abs(radius)) for pose in poses)
+    centre = _centre(poses[0], radius)
+    return max(abs(math.dist((pose.x, pose.y), centre) - abs(radius)) for pose in poses)
 
 
 def _radius(poses: Sequence[Pose]) -> float | None:
