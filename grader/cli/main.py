@@ -61,6 +61,10 @@ COMMANDS = {
         "grader.cli.keygen:keygen",
         "Make the key with which this installation signs the evidence of its verdicts.",
     ),
+    "new": LazyCommand(
+        "grader.cli.new:new",
+        "Write the files of a new lesson: assignment, text, solution and mutants to start from.",
+    ),
     "override": LazyCommand(
         "grader.cli.override:override",
         "Correct a verdict by hand: grader override STUDENT --check ID --points N --because WHY.",

@@ -19,6 +19,7 @@ from grader.cli import options
     "--workers", type=click.IntRange(min=1), help="The number of packages to mark at once."
 )
 @click.option("--only", default="*", metavar="GLOB", help="Only the mutants whose names match.")
+@click.option("--named", is_flag=True, help="Only the mutants of mutants.yaml, no automatic ones.")
 @click.option(
     "--json",
     "json_file",
@@ -34,6 +35,7 @@ def validate(
     static: bool,
     workers: int | None,
     only: str,
+    named: bool,
     json_file: Path | None,
     keys: Path | None,
     distro: str,
@@ -67,6 +69,7 @@ def validate(
         static=static,
         workers=workers or 0,
         only=only,
+        named=named,
     )
     found = validation.validate(options, notify=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.errors import UsageError
+from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.tree import Tree, digest, read_tree
 from grader.package.submission import Submission
@@ -17,6 +18,7 @@ from grader.validate.marking import Marked, mark_all, mark_files, submit, submit
 from grader.validate.matrix import Matrix, MutantResult, as_json
 from grader.validate.mutant import Mutant
 from grader.validate.named import MUTANTS, MutantsFile, read_mutants
+from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import Order
 
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
@@ -29,7 +31,8 @@ class ValidationOptions:
 
     `keys` holds the solution and mutants.yaml, `starter` what students begin with (None: nothing).
     `static`: only mutants that their files decide; `only`: only names that match the pattern;
-    `workers`: how many are marked at once (0: as a class is marked).
+    `named`: only those of mutants.yaml; `workers`: how many are marked at once (0: as a class is
+    marked).
     """
 
     order: Order
@@ -38,6 +41,7 @@ class ValidationOptions:
     static: bool = False
     workers: int = 0
     only: str = "*"
+    named: bool = False
 
 
 def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matrix:
@@ -49,7 +53,8 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
     assignment = options.order.assignment
     original = _solution(options)
     mutants = collect(options, original)
-    chosen = [m for m in mutants if fnmatch.fnmatchcase(m.name, options.only)]
+    wanted = [m for m in mutants if m.mistake or m.named] if options.named else mutants
+    chosen = [m for m in wanted if fnmatch.fnmatchcase(m.name, options.only)]
     if not chosen:
         raise UsageError(f"no mutant's name matches '{options.only}'")
     marked, waiting = _by_files(chosen, original, options.order)
@@ -72,7 +77,9 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
 def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     """Return the named mutants, and the automatic ones that differ from all of them."""
     assignment = options.order.assignment
-    automatic = tuple(generate(original, assignment))
+    automatic = tuple(
+        _of_scenarios(mutant, assignment) for mutant in generate(original, assignment)
+    )
     ids = [use.id for use in assignment.checks]
     path = options.keys / MUTANTS
     written = read_mutants(path, checks=ids, kinds=CATALOGUE) if path.is_file() else MutantsFile()
@@ -86,6 +93,14 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     whys = written.explained(mutant.name for mutant in made)
     explained = [replace(mutant, equivalent=whys.get(mutant.name, "")) for mutant in made]
     return [*written.mutants, *explained]
+
+
+def _of_scenarios(mutant: Mutant, assignment: Assignment) -> Mutant:
+    """Return a mutant that a check of a scenario may catch too, if one of a run is expected to."""
+    own = tuple(use.id for use in assignment.checks if CHECKS[use.kind].parameters is not None)
+    if not own or not any(family.startswith("run.") for family in mutant.families):
+        return mutant
+    return replace(mutant, families=(*mutant.families, "run.stays", *own))
 
 
 def starter_of(file: Path) -> Path | None:

@@ -1,0 +1,209 @@
+"""The files of a new lesson: an assignment that can be marked at once, to be changed step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.base.errors import UsageError
+from grader.ros.ros2_command.pkg.manifest import PackageDescription, manifest
+from grader.ros.ros2_command.pkg.python_package import populate_ament_python
+
+ASSIGNMENT = """\
+# The requirements and the points of this exercise. `grader` validates this file.
+# All checks and their parameters: docs/checks.md; all keys: docs/assignments.md.
+schema: 2
+id: {lesson}
+title: "{title}"                  # what students read
+package: {package}
+nodes:
+  main: {{executable: {lesson}, target: "{package}.{lesson}:main", file: {lesson}.py, name: {lesson}}}
+runs:
+  - name: counts
+    start: [{{node: main}}]
+    clock: {{period: 0.5, ticks: 20}}     # seconds of ROS time; it divides the timers' periods
+checks:
+  - {{id: package.found, points: 5}}
+  - {{id: package.manifest, points: 5}}
+  - {{id: package.marker, points: 5}}
+  - {{id: package.setup_cfg, points: 5}}
+  - {{id: source.node_file, points: 5}}
+  - {{id: build.colcon, points: 5}}
+  - {{id: entry_point.mapping, points: 5}}
+  - {{id: entry_point.executable, points: 5}}
+  - {{id: run.starts, points: 5}}
+  - {{id: run.spins, points: 5}}
+  - {{id: run.node_name, points: 5}}
+  - {{id: run.stays, points: 5}}
+  - {{id: counts.publishes, check: topic.publishes, points: 15, with: {{topic: /count, type: std_msgs/msg/Int32}}}}
+  - {{id: counts.period, check: topic.period, points: 15, with: {{topic: /count, period: 1.0}}}}
+  - {{id: counts.values, check: topic.values, points: 5, with: {{topic: /count, each: {{data: {{between: [0, 9]}}}}}}}}
+  - {{id: run.interrupt, points: 5}}
+"""
+
+NODE = '''\
+#!/usr/bin/env python3
+"""Publishes a number once a second."""
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class Counter(Node):
+    """Counts from 0 on."""
+
+    def __init__(self):
+        super().__init__('{lesson}')
+        self.number_ = 0
+        self.publisher_ = self.create_publisher(Int32, '/count', 10)
+        self.create_timer(1.0, self.timer_callback)
+
+    def timer_callback(self):
+        """Publish the number."""
+        self.publisher_.publish(Int32(data=self.number_))
+        self.number_ += 1
+
+
+def main(args=None):
+    """Run the node until Ctrl+C."""
+    rclpy.init(args=args)
+    node = Counter()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()
+'''
+
+MUTANTS = """\
+# What students get wrong in this lesson; `grader validate` marks each. The form: docs/assignments.md.
+schema: 1
+mutants:
+  - name: "publish never called"
+    check: counts.publishes
+    mistake: topic.never_published
+    edits:
+      - {{replace: {package}/{lesson}.py, old: "        self.publisher_.publish(Int32(data=self.number_))\\n", new: ""}}
+  - name: "topic misspelt"
+    check: counts.publishes
+    mistake: topic.wrong_name
+    edits:
+      - {{replace: {package}/{lesson}.py, old: "'/count'", new: "'/cuont'"}}
+  - name: "twice a second"
+    check: counts.period
+    mistake: topic.wrong_period
+    edits:
+      - {{replace: {package}/{lesson}.py, old: "create_timer(1.0", new: "create_timer(0.5"}}
+  - name: "counts in tens"
+    check: counts.values
+    mistake: topic.wrong_value
+    edits:
+      - {{replace: {package}/{lesson}.py, old: "self.number_ += 1", new: "self.number_ += 10"}}
+"""
+
+LESSON = """\
+# {title}
+
+At the end of this lesson you have a node that publishes a number once a second.
+
+## 1. Open a terminal with ROS
+<!-- done: terminal -->
+
+```bash
+source /opt/ros/jazzy/setup.bash
+```
+
+## 2. Create a package
+<!-- done: package -->
+
+```bash
+cd ~/ros2_ws/src
+ros2 pkg create --build-type ament_python {package} --dependencies rclpy std_msgs
+```
+
+## 3. Write the node
+<!-- done: node_file -->
+
+Its file is `{package}/{package}/{lesson}.py`.
+
+## 4. Choose the name to run it by
+<!-- done: entry_point -->
+
+```python
+'{lesson} = {package}.{lesson}:main',
+```
+
+## 5. Build and run
+<!-- done: executable -->
+
+```bash
+cd ~/ros2_ws
+colcon build --symlink-install
+source install/local_setup.bash
+ros2 run {package} {lesson}
+```
+"""
+
+STARTER = """\
+# Your packages go here
+
+This folder is `~/ros2_ws/src`. Create the package `{package}` here, and submit its folder.
+"""
+
+
+def write_lesson(lesson: str, package: str, title: str, course: Path, keys: Path) -> list[Path]:
+    """Write the files of a lesson and return their paths. Raises UsageError if a folder exists."""
+    folders = (course / lesson, keys / lesson)
+    for folder in folders:
+        if folder.exists():
+            raise UsageError(
+                f"{folder} exists: nothing was written",
+                remedy="Choose another name, or move that folder away.",
+            )
+    try:
+        return list(_written(lesson, package, title, *folders))
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
+
+
+def _written(lesson: str, package: str, title: str, course: Path, keys: Path) -> Iterator[Path]:
+    solution = keys / "solution" / package
+    texts = {
+        course / "assignment.yaml": ASSIGNMENT,
+        course / "lesson.md": LESSON,
+        course / "starter" / "src" / "README.md": STARTER,
+        keys / "mutants.yaml": MUTANTS,
+        solution / package / f"{lesson}.py": NODE,
+    }
+    _package(lesson, package, title, solution)
+    for path, text in texts.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text.format(lesson=lesson, package=package, title=title), encoding="utf-8")
+        yield path
+    (solution / package / f"{lesson}.py").chmod(0o755)
+
+
+def _package(lesson: str, package: str, title: str, folder: Path) -> None:
+    described = PackageDescription(
+        name=package,
+        format=3,
+        description=title,
+        maintainer="student",
+        email="student@todo.todo",
+        license="Apache-2.0",
+        build_type="ament_python",
+        dependencies=("rclpy", "std_msgs"),
+        node_name=lesson,
+        library_name=None,
+        kilted=False,
+    )
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(manifest(described), encoding="utf-8")
+    populate_ament_python(described, str(folder))
