@@ -60,6 +60,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.other_message": {"name": "Twist", "wanted": "Vector3"},
     "node.end_arguments": {"name": "create_publisher"},
     "node.message_class": {"name": "Twist"},
+    "node.callback_without_message": {"name": "on_message"},
     "source.misplaced_node_file": {"wanted": "my_package/my_node.py"},
     "run.wrong_node_name": {"wanted": "my_node"},
     "lab.not_installed": {"package": "turtlesim"},

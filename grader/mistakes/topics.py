@@ -9,7 +9,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
-from grader.package.source.names import last_part
+from grader.package.source.names import dotted, last_part
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
 OTHER_TYPE = r"Expected <class '[\w.]*\.(?P<wanted>\w+)'>, got <class '[\w.]*?(?P<name>\w+)'>"
@@ -17,6 +17,7 @@ NO_TEXT = r"rclpy_resolve_name\(\): incompatible function arguments"
 INVALID_NAME = r"Invalid(?:Topic|Service)NameException: Invalid (?:topic|service) name"
 OF_CLASS = r"'(?:property|member_descriptor|getset_descriptor)' object has no attribute"
 OPERAND = r"unsupported operand type\(s\) for .*'Parameter'|'Parameter' and '|must be real number, not Parameter"
+NO_MESSAGE = r"callback should be either be callable with one argument"
 ENDS = ("create_publisher", "create_subscription", "create_service", "create_client")
 
 
@@ -60,6 +61,17 @@ def _of_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return None
 
 
+def _no_message(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback of a subscription does not take the message."""
+    del match
+    for call, name in raised.source.calls:
+        if last_part(name) == "create_subscription" and call.lineno == raised.line:
+            given = call.args[2] if len(call.args) > 2 else None
+            callback = dotted(given).rpartition(".")[2] if given is not None else ""
+            return raised.finding("callback_without_message", at=call, name=callback or "callback")
+    return None
+
+
 def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     return raised.finding("parameter_object")
@@ -99,6 +111,14 @@ KINDS = (
         ),
         msg("Write {name}(Type, 'name', …): first the type, then the name in quotes."),
         raised={NO_TEXT: _swapped},
+    ),
+    _node(
+        "callback_without_message",
+        "topic",
+        msg("The callback does not take the message"),
+        msg("A subscription calls its callback with one argument: the message that came."),
+        msg("Write def {name}(self, message): the message is the argument after self."),
+        raised={NO_MESSAGE: _no_message},
     ),
     _node(
         "topic_name_invalid",

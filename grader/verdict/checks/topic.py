@@ -70,7 +70,7 @@ class Quality(Parameters):
     durability: Literal["", "volatile", "transient_local"] = ""
 
 
-@kind("topic.publishes", Publishes, depends=NEEDED, after=["run.node_name"])
+@kind("topic.publishes", Publishes, depends=NEEDED, after=["topic.subscribes"])
 def publishes(use: Use[Publishes]) -> Passed:
     """The node publishes {topic}, of the type {type}"""
     given = use.given
@@ -82,6 +82,7 @@ def publishes(use: Use[Publishes]) -> Passed:
     if len(found) < given.at_least:
         if not found and not use.seen.of_topic(given.topic):
             use.require_window()
+            _must_hear(use, given.topic)
             raise Failed(
                 "topic.never_published",
                 expected=expected,
@@ -100,6 +101,15 @@ def publishes(use: Use[Publishes]) -> Passed:
             words={"topic": given.topic},
         )
     return Passed(actual=say_plural("{count} message", "{count} messages", len(found)))
+
+
+def _must_hear(use: Use[Parameters], topic: str) -> None:
+    """Raise Blocked if a topic carries reactions, and the node does not hear what it reacts to."""
+    checks = use.evidence.assignment.checks
+    if any(one.kind == "topic.reacts" and one.with_.get("topic") == topic for one in checks):
+        for other in checks:
+            if other.kind == "topic.subscribes" and use.evidence.has_failed(other.id):
+                raise Blocked(by=other.id)
 
 
 @kind("topic.subscribes", Subscribes, depends=NEEDED, after=["run.node_name"])
@@ -346,6 +356,10 @@ def reacts(use: Use[Reacts]) -> Passed:
     last = begin + given.within + 1e-6
     found = [m for m in use.seen.of_topic(given.topic) if begin - 1e-6 <= m.at <= last]
     if not found:
+        for other in use.evidence.assignment.checks:
+            same = other.kind == "topic.publishes" and other.with_.get("topic") == given.topic
+            if same and use.evidence.has_failed(other.id):
+                raise Blocked(by=other.id)
         raise Failed(
             "topic.no_reaction",
             expected=joined(expected, _forms(given.each), by=": ") if given.each else expected,
