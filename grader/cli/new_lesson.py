@@ -21,7 +21,7 @@ nodes:
 runs:
   - name: counts
     start: [{{node: main}}]
-    clock: {{period: 0.5, ticks: 20}}     # seconds of ROS time; it divides the timers' periods
+    clock: {{period: 0.25, ticks: 40}}    # seconds of ROS time; it divides the timers' periods
 checks:
   - {{id: package.found, points: 5}}
   - {{id: package.manifest, points: 5}}
@@ -36,14 +36,14 @@ checks:
   - {{id: run.node_name, points: 5}}
   - {{id: run.stays, points: 5}}
   - {{id: counts.publishes, check: topic.publishes, points: 15, with: {{topic: /count, type: std_msgs/msg/Int32}}}}
-  - {{id: counts.period, check: topic.period, points: 15, with: {{topic: /count, period: 1.0}}}}
-  - {{id: counts.values, check: topic.values, points: 5, with: {{topic: /count, each: {{data: {{between: [0, 9]}}}}}}}}
+  - {{id: counts.period, check: topic.period, points: 15, with: {{topic: /count, period: 0.5}}}}
+  - {{id: counts.values, check: topic.values, points: 5, with: {{topic: /count, each: {{data: {{between: [0, 19]}}}}}}}}
   - {{id: run.interrupt, points: 5}}
 """
 
 NODE = '''\
 #!/usr/bin/env python3
-"""Publishes a number once a second."""
+"""Publishes a number twice a second."""
 
 import rclpy
 from rclpy.node import Node
@@ -57,9 +57,9 @@ class Counter(Node):
         super().__init__('{lesson}')
         self.number_ = 0
         self.publisher_ = self.create_publisher(Int32, '/count', 10)
-        self.create_timer(1.0, self.timer_callback)
+        self.create_timer(0.5, self.on_timer)
 
-    def timer_callback(self):
+    def on_timer(self):
         """Publish the number."""
         self.publisher_.publish(Int32(data=self.number_))
         self.number_ += 1
@@ -96,22 +96,22 @@ mutants:
     mistake: topic.wrong_name
     edits:
       - {{replace: {package}/{lesson}.py, old: "'/count'", new: "'/cuont'"}}
-  - name: "twice a second"
+  - name: "four times a second"
     check: counts.period
     mistake: topic.wrong_period
     edits:
-      - {{replace: {package}/{lesson}.py, old: "create_timer(1.0", new: "create_timer(0.5"}}
-  - name: "counts in tens"
+      - {{replace: {package}/{lesson}.py, old: "create_timer(0.5", new: "create_timer(0.25"}}
+  - name: "counts in twenties"
     check: counts.values
     mistake: topic.wrong_value
     edits:
-      - {{replace: {package}/{lesson}.py, old: "self.number_ += 1", new: "self.number_ += 10"}}
+      - {{replace: {package}/{lesson}.py, old: "self.number_ += 1", new: "self.number_ += 20"}}
 """
 
 LESSON = """\
 # {title}
 
-At the end of this lesson you have a node that publishes a number once a second.
+At the end of this lesson you have a node that publishes a number twice a second.
 
 ## 1. Open a terminal with ROS
 <!-- done: terminal -->
