@@ -38,7 +38,6 @@ NAMES = {  # key: its pattern, and the pattern in words
 
 
 SCHEMA_2 = ("nodes", "runs")  # keys of Assignment that schema 1 does not have
-TOPIC = r"[/~]?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*"
 TYPE = r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*"
 
 

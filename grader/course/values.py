@@ -104,6 +104,14 @@ def at_path(values: Any, path: str) -> Any:
     return values
 
 
+def value_at(values: Any, path: str) -> Any:
+    """Return the value of a field, None if it is not there."""
+    try:
+        return at_path(values, path)
+    except KeyError:
+        return None
+
+
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 

@@ -12,9 +12,10 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan, Start, Stimulus
-from grader.run.observations import STEP, Done, End, Message, Observations, Parameter, Pose
+from grader.run.in_probe.turtlesim import STEP
+from grader.run.observations import Done, End, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
-from grader.run.probe_link import ProbeError, ProbeLink
+from grader.run.probe_link import Answer, ProbeError, ProbeLink
 from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Run, press_ctrl_c, start
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Sandbox
@@ -99,18 +100,16 @@ def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
     said = probe.said(
         "prepare",
         seconds=PREPARE_SECONDS,
-        watch=[[topic, kind, []] for topic, kind in plan.topics.items()],
+        watch=list(plan.topics.items()),
         publish=[[one.publish.topic, one.publish.type] for one in plan.do if one.publish],
         call=[[one.call.service, one.call.type] for one in plan.do if one.call],
         periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
         world=world,
     )
-    for kind, path, has in said.get("unknown", ()):
-        what = say("there is no interface {type} in this ROS", type=kind)
-        if path:
-            what = say("{type} has no field {path}, only {has}", type=kind, path=path, has=has)
+    for kind in said.get("unknown", ()):
         raise UsageError(
-            what, remedy=say("Correct the run '{name}' of the assignment.", name=plan.name)
+            say("there is no interface {type} in this ROS", type=kind),
+            remedy=say("Correct the run '{name}' of the assignment.", name=plan.name),
         )
 
 
@@ -201,7 +200,7 @@ class _Scene:
         settled = False
         while not self.over:
             answer = self.probe.ask("clock", seconds=0.25, at=MILLISECOND, until_log=0, patient=1)
-            self._take(answer.logs and answer)
+            self._take(answer)
             settled = settled or bool(answer.barrier)
             if (settled and not answer.silent) or answer.barrier is None:
                 break
@@ -226,7 +225,7 @@ class _Scene:
     def _show(self, at: int) -> None:
         self.at = at
         self.observer.now = at / SECOND
-        said = self.probe.said("tick", seconds=STEP_SECONDS, at=at, until_log=0, patient=0)
+        said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
         self._record(said)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
@@ -238,15 +237,13 @@ class _Scene:
     def _do(self, one: Stimulus) -> None:
         done = Done(one.name, one.at)
         self.seen.done.append(done)
-        more: dict[str, Any] = {}
         if one.publish is not None:
-            more = one.publish.model_dump()
-            said = self.probe.said("publish", seconds=STEP_SECONDS, **more)
+            said = self.probe.said("publish", seconds=STEP_SECONDS, **one.publish.model_dump())
             done.heard = int(said["heard"])
             self._record(said)
         elif one.call is not None:
-            more = one.call.model_dump()
-            said = self.probe.said("call", seconds=STEP_SECONDS, name=one.name, **more)
+            more = {"name": one.name, **one.call.model_dump()}
+            said = self.probe.said("call", seconds=STEP_SECONDS, **more)
             done.heard = int(said["heard"])
             self._record(said)
         for node, values in (one.set or {}).items():
@@ -260,7 +257,7 @@ class _Scene:
     def _record(self, said: Mapping[str, Any]) -> None:
         """Keep what an answer holds, at the present instant."""
         at, seen = round(self.at / SECOND, 6), self.seen
-        self._take(self.probe.answer_of(dict(said)))
+        self._take(self.probe.answer_of(said))
         for topic, values in said.get("messages", ()):
             if len(seen.messages) < MOST_MESSAGES:
                 seen.messages.append(Message(str(topic), at, values))
@@ -275,17 +272,14 @@ class _Scene:
         for n, (turtle, x, y, theta) in enumerate(path):
             if len(seen.path) < MOST_POSES * turtles:
                 behind = (len(path) - 1 - n) // turtles
-                now = (self.at // 16_000_000 - behind) * STEP
+                now = (self.at // STEP - behind) * STEP / SECOND
                 place = Pose(str(turtle), round(now, 3), round(x, 6), round(y, 6), round(theta, 6))
                 seen.path.append(place)
         seen.events += [dict(event) for event in said.get("events", ())]
 
-    def _take(self, answer: Any) -> None:
-        watch = self.run.watch
-        events = self.observer.take(answer or None)
-        if answer:
-            events += self.observer.catch_up(answer.logs)
-        watch.events += events
+    def _take(self, answer: Answer) -> None:
+        events = self.observer.take(answer) + self.observer.catch_up(answer.logs)
+        self.run.watch.events += events
         self._read_others()
         for event in events:
             self._on_event(event)

@@ -10,8 +10,6 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 Role = Literal["publisher", "subscription", "service", "client"]
-STEP = 0.016  # s of ROS time between two poses of a path
-RELAY = ("/rosout", "/parameter_events", "/clock")
 
 
 @dataclass(frozen=True)

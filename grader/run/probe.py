@@ -331,10 +331,14 @@ class Probe:
 
     def extend(self, name: str, text: str) -> None:
         """Add the commands of a module's text."""
+        self.added.update(self.module(name, text).commands(self))
+
+    def module(self, name: str, text: str) -> Any:
+        """Return a module made of its text; dataclasses look it up by its name."""
         module = types.ModuleType(name)
         sys.modules[name] = module
         exec(compile(text, name, "exec"), module.__dict__)  # noqa: S102 - the grader's own text
-        self.added.update(module.__dict__["commands"](self))
+        return module
 
     def added_answer(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Carry out an added command; its answer has the log records too, but no nodes."""

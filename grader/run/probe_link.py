@@ -6,6 +6,7 @@ import contextlib
 import json
 import math
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -121,7 +122,7 @@ class ProbeLink:
             raise self._lost("it has ended") from error
         return self._read(seconds + PATIENCE)
 
-    def answer_of(self, said: dict[str, Any]) -> Answer:
+    def answer_of(self, said: Mapping[str, Any]) -> Answer:
         """Return what every answer has; ProbeError if it does not have that."""
         try:
             return Answer(

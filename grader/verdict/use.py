@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
@@ -19,6 +21,7 @@ from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Inconclusive
 
 P_co = TypeVar("P_co", bound=Parameters, covariant=True)
+T = TypeVar("T")
 EDGE = 1e-6  # s by which an instant may be outside a window
 SERVICE_TOPICS = ("/rosout", "/parameter_events", "/clock")
 
@@ -98,14 +101,21 @@ class Use(Generic[P_co]):
             raise self.unreached()
         return first, last
 
+    def in_window(self, items: Iterable[T], at: Callable[[T], float]) -> list[T]:
+        """Return what came in the window; `at` returns when something came."""
+        first, last = self.window
+        return [item for item in items if first - EDGE <= at(item) <= last + EDGE]
+
+    def blocked_by(self, *kinds: str, topic: str = "") -> None:
+        """Raise Blocked if a check of one of these kinds has failed, of this topic if one is given."""
+        for other in self.evidence.assignment.checks:
+            same = not topic or other.with_.get("topic") == topic
+            if same and other.kind in kinds and self.evidence.has_failed(other.id):
+                raise Blocked(by=other.id)
+
     def messages(self, topic: str) -> list[Message]:
         """Return the messages of a topic in the window."""
-        first, last = self.window
-        return [
-            message
-            for message in self.seen.of_topic(topic)
-            if first - EDGE <= message.at <= last + EDGE
-        ]
+        return self.in_window(self.seen.of_topic(topic), lambda message: message.at)
 
     def ends(self, role: Role, *, own: bool = True) -> list[End]:
         """Return the ends of a role, those of the judged node if `own`; not ROS's own topics."""
@@ -126,8 +136,6 @@ class Use(Generic[P_co]):
         found = source.calls_of(*names) if source is not None else []
         if source is None or not found:
             return node_file(self.evidence)
-        import ast  # noqa: PLC0415 - only here
-
         wanted = mentions.strip("/")
         best = next((one for one in found if wanted and wanted in ast.unparse(one)), found[0])
         return Where(file=source.module_of(best).path, line=best.lineno)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies
 
-from grader.publish.pages.charts import FIELD, LANES, WIDTH, histogram, path_plots, timeline
+from grader.publish.pages.charts import LANES, WIDTH, histogram, path_plots, timeline
 from grader.publish.pages.overview import Bin
 from grader.report.model import Observed, RunInfo, Tick
+from grader.run.in_probe.turtlesim import SIZE
 
 
 def virtual(*instants: float, due: tuple[float, ...] = (), period: float | None = 1.0) -> Observed:
@@ -115,8 +116,8 @@ def test_a_histogram_of_nothing_is_flat() -> None:
 def test_a_path_is_seen_from_above_with_the_wanted_one_beside_it() -> None:
     run = RunInfo(
         name="drives",
-        path={"turtle1": [(0.0, 0.0), (FIELD, 0.0), (FIELD, FIELD)], "turtle2": []},
-        wanted={"turtle1": [(FIELD / 2, FIELD / 2)]},
+        path={"turtle1": [(0.0, 0.0), (SIZE, 0.0), (SIZE, SIZE)], "turtle2": []},
+        wanted={"turtle1": [(SIZE / 2, SIZE / 2)]},
     )
     (plot,) = path_plots([run])
     size = plot.size

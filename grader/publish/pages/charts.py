@@ -14,13 +14,13 @@ from dataclasses import dataclass
 
 from grader.publish.pages.overview import Bin
 from grader.report.model import Observed, RunInfo, Tick
+from grader.run.in_probe.turtlesim import SIZE
 
 WIDTH = 400.0
 EDGE = 24.0  # margin at the ends of an axis
 LANES = 44.0  # width of the lane names at the left of the timeline
 ON_TIME = 0.0005  # seconds of ROS time: instants are reported to 1 ms, and 1 ms early is early
 PIECE = 60  # points of a piece of a line: a page cuts longer texts
-FIELD = 499 / 45  # m, the side of turtlesim's field
 MOST_DUE, MOST_TICKS, MOST_LABELS = 400, 200, 12
 HIGHEST_LABEL, LABEL_WIDTH = 999, 14.0
 STEPS = (1, 2, 5)
@@ -152,7 +152,7 @@ def path_plots(runs: Sequence[RunInfo]) -> tuple[PathPlot, ...]:
     """Return a plot for each turtle of each run that has a world."""
 
     def place(x: float, y: float) -> tuple[float, float]:
-        scale = PathPlot.size / FIELD
+        scale = PathPlot.size / SIZE
         return round(x * scale, 1), round(PathPlot.size - y * scale, 1)
 
     def lines(points: Sequence[tuple[float, float]]) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 The grader sends this module to the probe, which runs it under the prefix's Python: it imports
 nothing of the grader. `commands(probe)` returns its commands:
 - `prepare` makes the subscriptions (`watch`), publishers (`publish`) and clients (`call`) that the
-  scenario needs, and the `world`; `unknown` has the types and fields that do not exist;
+  scenario needs, and the `world`; `unknown` has the types that do not exist;
 - `tick` moves the world to `at`, publishes this instant on /clock and makes a barrier, then
   delivers the world's messages and makes another one;
 - `publish`, `call`, `set` act on the nodes, with a barrier after it;
@@ -64,19 +64,6 @@ def interface(name: str) -> Any:
         return getattr(importlib.import_module(f"{package}.{kind}"), rest, None)
     except (ImportError, ValueError):
         return None
-
-
-def has_field(kind: Any, path: str) -> str:
-    """Return "" if a message type has a field, else what it has in its place."""
-    for part in path.split("."):
-        name = part.partition("[")[0]
-        fields = kind.get_fields_and_field_types() if kind is not None else {}
-        if name not in fields:
-            return ", ".join(fields) or "no fields"
-        inner = fields[name].partition("[")[0].removeprefix("sequence<").rstrip(">")
-        package, slash, short = inner.partition("/")
-        kind = interface(f"{package}/msg/{short}") if slash else None
-    return ""
 
 
 class Values:
@@ -148,7 +135,6 @@ class Scenario:
         self.probe = probe
         self.group = Untouched()
         self.watched: dict[str, list[Any]] = {}
-        self.types: dict[str, str] = {}
         self.publishers: dict[str, Any] = {}
         self.clients: dict[str, Any] = {}
         self.calls: list[tuple[str, Any]] = []
@@ -161,49 +147,30 @@ class Scenario:
 
     def prepare(self, command: dict[str, Any], _: float) -> dict[str, Any]:
         """Make the ends that the scenario needs."""
-        unknown: list[list[str]] = []
-        for topic, name, fields in command["watch"]:
-            kind = interface(name)
-            if kind is None:
-                unknown.append([name, "", ""])
-                continue
-            for path in fields:
-                has = has_field(kind, path)
-                if has:
-                    unknown.append([name, path, has])
-            self.types[topic] = name
-            self.watched[topic] = [self.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)]
+        named = [*command["watch"], *command["publish"], *command["call"]]
+        kinds = {name: interface(name) for _, name in named}
+        unknown = [name for name, kind in kinds.items() if kind is None]
+        if unknown:
+            return {"unknown": unknown}
+        for topic, name in command["watch"]:
+            self.watched[topic] = [self.subscribe(topic, kinds[name], ReliabilityPolicy.RELIABLE)]
         for topic, name in command["publish"]:
-            kind = interface(name)
-            if kind is None:
-                unknown.append([name, "", ""])
-            elif topic not in self.publishers:
-                self.publishers[topic] = self.probe.node.create_publisher(kind, topic, 10)
+            if topic not in self.publishers:
+                self.publishers[topic] = self.probe.node.create_publisher(kinds[name], topic, 10)
         for service, name in command["call"]:
-            kind = interface(name)
-            if kind is None:
-                unknown.append([name, "", ""])
-            else:
-                self.clients[service] = self.probe.node.create_client(kind, service)
+            self.clients[service] = self.probe.node.create_client(kinds[name], service)
         self.periods = command["periods"]
-        if command["world"] and not unknown:
+        if command["world"]:
             self.open_world(command["world"])
-        return {"unknown": unknown}
+        return {"unknown": []}
 
     def open_world(self, source: dict[str, str]) -> None:
         """Make the world of a source text."""
-        space: dict[str, Any] = {"__name__": source["name"]}
-        module = type(math)(source["name"])
-        # dataclasses look their module up
-        importlib.import_module("sys").modules[source["name"]] = module
-        space = module.__dict__
-        exec(compile(source["text"], source["name"], "exec"), space)  # noqa: S102 - of the grader
-        node = rclpy.create_node(
-            space["World"].NAME, enable_rosout=False, use_global_arguments=False
-        )
-        self.probe.ours.add("/" + space["World"].NAME)
+        world = self.probe.module(source["name"], source["text"]).World
+        node = rclpy.create_node(world.NAME, enable_rosout=False, use_global_arguments=False)
+        self.probe.ours.add("/" + world.NAME)
         self.probe.executor.add_node(node)
-        self.world = space["World"](node, self.group)
+        self.world = world(node, self.group)
 
     def subscribe(self, topic: str, kind: Any, reliability: Any) -> Any:
         """Return a subscription of which the executor takes nothing."""
@@ -276,8 +243,7 @@ class Scenario:
         if steps:
             self.world.acknowledged(Duration(seconds=ACK_SECONDS))
             barrier = self.trips(min(steps, 7) + 1, deadline) and barrier
-            for topic, count in self.take().items():
-                found[topic] += count
+            self.take_into(found)
         for topic in [topic for topic, count in found.items() if count]:
             if topic in self.latest:
                 self.gaps[topic] = at - self.latest[topic]
@@ -298,9 +264,13 @@ class Scenario:
         """Make another round trip after a moment, and count the messages that have come."""
         self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
         barrier = self.trips(1, deadline)
-        for topic, count in self.take().items():
-            found[topic] = found.get(topic, 0) + count
+        self.take_into(found)
         return barrier
+
+    def take_into(self, found: dict[str, int]) -> None:
+        """Take the messages that have arrived, and add their numbers."""
+        for topic, count in self.take().items():
+            found[topic] += count
 
     def result(self, barrier: bool | None) -> dict[str, Any]:
         """Return what has come since the last answer."""

@@ -49,6 +49,7 @@ class Stage:
 INTAKE = Stage(0, "intake", say("looking at the package"), "files")
 BUILD = Stage(1, "build", say("building with colcon"), "build")
 RUN = Stage(2, "run", say("running the node"), "run")
+STARTED = ("run.starts", "run.spins")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,11 +113,10 @@ def kind(
     check_id: str,
     parameters: type[Parameters],
     *,
-    depends: Sequence[str] = (),
     after: Sequence[str] = (),
 ) -> Callable[[Callable[[Use[Any]], Passed | None]], Check]:
-    """Declare a kind of check with parameters; it judges a run of a scenario."""
-    return _declare(check_id, RUN, None, depends, after, "before_ctrl_c", parameters)
+    """Declare a kind of check with parameters; it judges a run whose nodes start and spin."""
+    return _declare(check_id, RUN, None, STARTED, after, "before_ctrl_c", parameters)
 
 
 def _as_word(value: object) -> str | int | float:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from grader.run.observer import Event
     from grader.verdict.use import Use
 
-NEEDED = ("run.starts", "run.spins")
 LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
 Level = Literal["", "debug", "info", "warn", "error", "fatal"]
 
@@ -37,7 +36,7 @@ class Never(Parameters):
     level: Level = ""
 
 
-@kind("log.matches", Lines, depends=NEEDED, after=["topic.values"])
+@kind("log.matches", Lines, after=["topic.values"])
 def matches(use: Use[Lines]) -> Passed:
     """The node logs {text}"""
     given = use.given
@@ -60,7 +59,7 @@ def matches(use: Use[Lines]) -> Passed:
     return Passed(actual=_count(len(found)))
 
 
-@kind("log.never", Never, depends=NEEDED, after=["log.matches"])
+@kind("log.never", Never, after=["log.matches"])
 def never(use: Use[Never]) -> Passed:
     """The node never logs {text}"""
     found = _lines(use, use.given.text, use.given.level)
@@ -76,14 +75,12 @@ def never(use: Use[Never]) -> Passed:
 
 
 def _lines(use: Use[Parameters], text: Form, level: Level) -> list[Event]:
-    first, last = use.window
     logger = use.node.strip("/").replace("/", ".")
     return [
         event
-        for event in use.run.watch.events
+        for event in use.in_window(use.run.watch.events, lambda event: event.virtual)
         if event.record is not None
         and event.record.name == logger
-        and first - 1e-6 <= event.virtual <= last + 1e-6
         and (not level or event.record.level == LEVELS[level])
         and text.fits(event.text)
     ]

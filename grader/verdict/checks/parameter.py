@@ -13,7 +13,6 @@ from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 if TYPE_CHECKING:
     from grader.verdict.use import Use
 
-NEEDED = ("run.starts", "run.spins")
 ELSEWHERE = ("parameter.not_declared", "parameter.wrong_type")  # why a change is refused
 
 
@@ -31,7 +30,7 @@ class Accepts(Parameters):
     name: str
 
 
-@kind("parameter.declared", Declared, depends=NEEDED, after=["run.node_name"])
+@kind("parameter.declared", Declared, after=["run.node_name"])
 def declared(use: Use[Declared]) -> Passed:
     """The node has the parameter {name}"""
     given = use.given
@@ -81,7 +80,7 @@ def declared(use: Use[Declared]) -> Passed:
     return Passed(actual=f"{own.name}: {shown_value(own.value)} ({own.type})")
 
 
-@kind("parameter.accepts", Accepts, depends=NEEDED, after=["parameter.declared"])
+@kind("parameter.accepts", Accepts, after=["parameter.declared"])
 def accepts(use: Use[Accepts]) -> Passed:
     """The parameter {name} can be set while the node runs"""
     name = use.given.name

@@ -8,15 +8,14 @@ from pydantic import Field
 
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
-from grader.course.values import Form, at_path, shown_value
+from grader.course.values import Form, shown_value, value_at
 from grader.verdict.checks.declare import Parameters, kind
-from grader.verdict.outcome import Blocked, Failed, Passed
+from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.observations import Role
     from grader.verdict.use import Use
 
-NEEDED = ("run.starts", "run.spins")
 OWN = (
     "describe_parameters",
     "get_parameter_types",
@@ -43,13 +42,13 @@ class Answers(Parameters):
     each: dict[str, Form] = Field(default_factory=dict)
 
 
-@kind("service.offers", Service, depends=NEEDED, after=["run.node_name"])
+@kind("service.offers", Service, after=["run.node_name"])
 def offers(use: Use[Service]) -> Passed:
     """The node offers the service {service}, of the type {type}"""
     return _must_have("service", use)
 
 
-@kind("service.calls", Service, depends=NEEDED, after=["run.node_name"])
+@kind("service.calls", Service, after=["run.node_name"])
 def calls(use: Use[Service]) -> Passed:
     """The node is a client of the service {service}, of the type {type}"""
     return _must_have("client", use)
@@ -94,7 +93,7 @@ def _must_have(role: Role, use: Use[Service]) -> Passed:
     )
 
 
-@kind("service.answers", Answers, depends=NEEDED, after=["service.offers"])
+@kind("service.answers", Answers, after=["service.offers"])
 def answers(use: Use[Answers]) -> Passed:
     """The service {service} answers as it must"""
     given = use.given
@@ -102,9 +101,7 @@ def answers(use: Use[Answers]) -> Passed:
     if done is None:
         raise use.unreached()
     if not done.heard:
-        for other in use.evidence.assignment.checks:
-            if other.kind == "service.offers" and use.evidence.has_failed(other.id):
-                raise Blocked(by=other.id)
+        use.blocked_by("service.offers")
     where = use.call("create_service", mentions=given.service)
     words = {"service": given.service}
     expected = ", ".join(f"{path}: {form}" for path, form in given.each.items())
@@ -117,11 +114,8 @@ def answers(use: Use[Answers]) -> Passed:
             words=words,
         )
     for path, form in given.each.items():
-        try:
-            value = at_path(done.reply, path)
-        except KeyError:
-            value = None
-        if value is None or not form.fits(value):
+        value = value_at(done.reply, path)
+        if not form.fits(value):
             raise Failed(
                 "service.wrong_answer",
                 expected=f"{path}: {form}",

@@ -11,7 +11,7 @@ from pydantic import Field
 from grader.base.i18n.message import Message as Text
 from grader.base.i18n.message import joined, say, say_plural
 from grader.base.nearest import nearest, with_difference
-from grader.course.values import Form, at_path, shown_value
+from grader.course.values import Form, shown_value, value_at
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 CALLS: dict[str, str] = {"publisher": "create_publisher", "subscription": "create_subscription"}
-NEEDED = ("run.starts", "run.spins")
 DENORMAL = 1e-300  # below it, a value is the bits of an integer that were read as a float
 
 
@@ -70,7 +69,7 @@ class Quality(Parameters):
     durability: Literal["", "volatile", "transient_local"] = ""
 
 
-@kind("topic.publishes", Publishes, depends=NEEDED, after=["topic.subscribes"])
+@kind("topic.publishes", Publishes, after=["topic.subscribes"])
 def publishes(use: Use[Publishes]) -> Passed:
     """The node publishes {topic}, of the type {type}"""
     given = use.given
@@ -107,12 +106,10 @@ def _must_hear(use: Use[Parameters], topic: str) -> None:
     """Raise Blocked if a topic carries reactions, and the node does not hear what it reacts to."""
     checks = use.evidence.assignment.checks
     if any(one.kind == "topic.reacts" and one.with_.get("topic") == topic for one in checks):
-        for other in checks:
-            if other.kind == "topic.subscribes" and use.evidence.has_failed(other.id):
-                raise Blocked(by=other.id)
+        use.blocked_by("topic.subscribes")
 
 
-@kind("topic.subscribes", Subscribes, depends=NEEDED, after=["run.node_name"])
+@kind("topic.subscribes", Subscribes, after=["run.node_name"])
 def subscribes(use: Use[Subscribes]) -> Passed:
     """The node subscribes to {topic}, of the type {type}"""
     given = use.given
@@ -190,7 +187,7 @@ def _must_match(use: Use[Parameters], topic: str) -> None:
                 )
 
 
-@kind("topic.period", Period, depends=NEEDED, after=["topic.publishes"])
+@kind("topic.period", Period, after=["topic.publishes"])
 def period(use: Use[Period]) -> Passed:
     """A message on {topic} comes every {period} s of ROS time"""
     given = use.given
@@ -264,14 +261,12 @@ def _tolerance(use: Use[Parameters], wanted: float) -> float:
 
 def _nothing(use: Use[Parameters]) -> Blocked:
     """Return the outcome for a topic without messages: the check of the publisher says it."""
-    for other in use.evidence.assignment.checks:
-        if other.kind == "topic.publishes" and use.evidence.has_failed(other.id):
-            return Blocked(by=other.id)
+    use.blocked_by("topic.publishes")
     use.require_window()
     return Blocked(by="topic.publishes")
 
 
-@kind("topic.values", Each, depends=NEEDED, after=["topic.publishes"])
+@kind("topic.values", Each, after=["topic.publishes"])
 def values(use: Use[Each]) -> Passed:
     """The messages on {topic} have the right values"""
     given = use.given
@@ -296,11 +291,8 @@ def values(use: Use[Each]) -> Passed:
 def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> None:
     """Raise Failed if a field of a message does not have its form."""
     for path, form in each.items():
-        try:
-            value = at_path(message.values, path)
-        except KeyError:
-            value = None
-        if value is None or not form.fits(value):
+        value = value_at(message.values, path)
+        if not form.fits(value):
             _must_be_new(message.topic, path, use)
             garbage = isinstance(value, float) and 0 < abs(value) < DENORMAL
             raise Failed(
@@ -338,7 +330,7 @@ def _times(use: Use[Parameters]) -> dict[str, str]:
     return {"first": f"{first:g}", "last": f"{last:g}"}
 
 
-@kind("topic.reacts", Reacts, depends=NEEDED, after=["topic.publishes", "topic.subscribes"])
+@kind("topic.reacts", Reacts, after=["topic.publishes", "topic.subscribes"])
 def reacts(use: Use[Reacts]) -> Passed:
     """The node answers a stimulus with a message on {topic}"""
     given = use.given
@@ -348,18 +340,13 @@ def reacts(use: Use[Reacts]) -> Passed:
         "a message on {topic} within {within} s", topic=given.topic, within=f"{given.within:g}"
     )
     if done is not None and not done.heard:
-        for other in use.evidence.assignment.checks:
-            if other.kind == "topic.subscribes" and use.evidence.has_failed(other.id):
-                raise Blocked(by=other.id)
+        use.blocked_by("topic.subscribes")
     if use.end < begin + given.within - 1e-6:
         raise use.unreached()
     last = begin + given.within + 1e-6
     found = [m for m in use.seen.of_topic(given.topic) if begin - 1e-6 <= m.at <= last]
     if not found:
-        for other in use.evidence.assignment.checks:
-            same = other.kind == "topic.publishes" and other.with_.get("topic") == given.topic
-            if same and use.evidence.has_failed(other.id):
-                raise Blocked(by=other.id)
+        use.blocked_by("topic.publishes", topic=given.topic)
         raise Failed(
             "topic.no_reaction",
             expected=joined(expected, _forms(given.each), by=": ") if given.each else expected,
@@ -367,20 +354,17 @@ def reacts(use: Use[Reacts]) -> Passed:
             where=use.call("create_subscription"),
             words={"topic": given.topic},
         )
-    fits = [m for m in found if all(_fits(m, path, form) for path, form in given.each.items())]
+    fits = [
+        message
+        for message in found
+        if all(form.fits(value_at(message.values, path)) for path, form in given.each.items())
+    ]
     if not fits:
         _must_fit(found[0], given.each, use)
     return Passed(actual=say("it came at {at} s", at=f"{(fits or found)[0].at:g}"))
 
 
-def _fits(message: Message, path: str, form: Form) -> bool:
-    try:
-        return form.fits(at_path(message.values, path))
-    except KeyError:
-        return False
-
-
-@kind("topic.qos", Quality, depends=NEEDED, after=["topic.publishes", "topic.subscribes"])
+@kind("topic.qos", Quality, after=["topic.publishes", "topic.subscribes"])
 def quality(use: Use[Quality]) -> Passed:
     """The {role} of {topic} has the right quality of service"""
     given = use.given

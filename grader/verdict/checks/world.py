@@ -9,17 +9,16 @@ from typing import TYPE_CHECKING
 from pydantic import BaseModel, ConfigDict, Field
 
 from grader.base.i18n.message import say
+from grader.run.in_probe.turtlesim import SIZE
 from grader.verdict.checks.declare import Parameters, kind
-from grader.verdict.outcome import Blocked, Failed, Passed
+from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.observations import Pose
     from grader.verdict.use import Use
 
-NEEDED = ("run.starts", "run.spins")
 AT_REST = 0.01  # m: a turtle that moved less stands still
 CIRCLE_POINTS = 60  # of a circle that is drawn
-SIZE = 499 / 45  # m, of turtlesim's field
 
 
 class Circle(BaseModel):
@@ -46,7 +45,7 @@ class Inside(Parameters):
     at_least: float = Field(default=1.0, ge=0)
 
 
-@kind("world.path", Path, depends=NEEDED, after=["topic.values", "topic.period"])
+@kind("world.path", Path, after=["topic.values", "topic.period"])
 def path(use: Use[Path]) -> Passed:
     """{turtle} drives along the wanted path"""
     circle = use.given.circle
@@ -59,7 +58,7 @@ def path(use: Use[Path]) -> Passed:
     where = use.call("publish")
     words = {"turtle": use.given.turtle, "radius": f"{circle.radius:g}"}
     if _length(poses) < AT_REST:
-        _blocked_by_publisher(use)
+        use.blocked_by("topic.publishes", "topic.values")
         raise Failed(
             "world.stands_still",
             expected=expected,
@@ -82,7 +81,7 @@ def path(use: Use[Path]) -> Passed:
     raise Failed("world.off_path", expected=expected, actual=actual, where=where, words=words)
 
 
-@kind("world.stays", Inside, depends=NEEDED, after=["topic.values", "topic.period"])
+@kind("world.stays", Inside, after=["topic.values", "topic.period"])
 def stays(use: Use[Inside]) -> Passed:
     """{turtle} never touches the wall"""
     given = use.given
@@ -106,7 +105,7 @@ def stays(use: Use[Inside]) -> Passed:
         )
     driven = _length(poses)
     if driven < given.at_least:
-        _blocked_by_publisher(use)
+        use.blocked_by("topic.publishes", "topic.values")
         raise Failed(
             "world.stands_still",
             expected=expected,
@@ -118,15 +117,9 @@ def stays(use: Use[Inside]) -> Passed:
 
 
 def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:
-    first, last = use.require_window()
-    found = [pose for pose in use.seen.path if pose.turtle == turtle]
-    return [pose for pose in found if first - 1e-6 <= pose.at <= last + 1e-6]
-
-
-def _blocked_by_publisher(use: Use[Parameters]) -> None:
-    for other in use.evidence.assignment.checks:
-        if other.kind in ("topic.publishes", "topic.values") and use.evidence.has_failed(other.id):
-            raise Blocked(by=other.id)
+    use.require_window()
+    own = (pose for pose in use.seen.path if pose.turtle == turtle)
+    return use.in_window(own, lambda pose: pose.at)
 
 
 def _length(poses: Sequence[Pose]) -> float:
