@@ -373,7 +373,8 @@ def test_system_calls_of_a_foreign_architecture_end_the_process(
 def test_what_python_and_compilers_use_works(sandbox: Sandbox) -> None:
     code = (
         "import ctypes, multiprocessing, os, select, socket, subprocess, tempfile, threading\n"
-        "threading.Thread(target=print, args=('thread',)).start()\n"
+        "thread = threading.Thread(target=print, args=('thread',))\n"
+        "thread.start(); thread.join()  # unbuffered: a line and its end are two writes\n"
         "print(subprocess.run(['echo', 'child'], capture_output=True, text=True).stdout)\n"
         "socket.socketpair(); os.eventfd(0); select.epoll()\n"
         "os.mkfifo('fifo'); os.sched_getaffinity(0); tempfile.TemporaryFile().write(b'x')\n"

@@ -24,7 +24,12 @@ if TYPE_CHECKING:
     from grader.verdict.evidence_file import Judged
 
 # needed after the build only, which leaves the time to import them
-NEEDED_LATER = ("grader.report.files", "grader.report.terminal", "grader.verdict.evidence_file")
+NEEDED_LATER = (
+    "grader.report.files",
+    "grader.report.report_page",
+    "grader.report.terminal",
+    "grader.verdict.evidence_file",
+)
 
 
 def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
+from grader.base.part import Part
 from grader.course.policy import Policy
 from grader.course.scenario import Node, RunPlan
 from grader.report.model import Visibility
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Output(_Part):
+class Output(Part):
     """The lines that the node must print: `text` has `{n}` once; `period` is in s of ROS time."""
 
     text: str
@@ -29,7 +26,7 @@ class Output(_Part):
         return self.text.replace("{n}", str(self.start + k * self.step))
 
 
-class CheckUse(_Part):
+class CheckUse(Part):
     """A check of the assignment: its points, and who sees it.
 
     `check` is the kind of check, the same as `id` unless it is given. The rest is for kinds that
@@ -37,7 +34,7 @@ class CheckUse(_Part):
     first and the last instant (s of ROS time) that count, from the stimulus `after` if it is given.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+    model_config = ConfigDict(populate_by_name=True)
 
     id: str
     points: float = Field(ge=0, allow_inf_nan=False)
@@ -55,7 +52,7 @@ class CheckUse(_Part):
         return self.check or self.id
 
 
-class Lesson(_Part):
+class Lesson(Part):
     """The content of an assignment's file of schema 2: nodes, and runs in which they are judged."""
 
     schema_: Literal[2] = Field(alias="schema")
@@ -94,7 +91,7 @@ class Lesson(_Part):
         )
 
 
-class Assignment(_Part):
+class Assignment(Part):
     """One assignment; `course/load.py` reads it from a file.
 
     Of schema 1, it has one node that counts (`output`) and no `nodes` and `runs`; of schema 2, the

@@ -10,10 +10,11 @@ import os
 from pathlib import Path
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
+from grader.base.part import Part
 from grader.base.positioned_yaml import read_yaml
 from grader.base.project import CHECKOUT, PACKAGE, SHARES
 from grader.base.yaml_model import validated
@@ -25,10 +26,8 @@ ORDER = "course.yaml"
 KEYS = PACKAGE / "keys"
 
 
-class Course(BaseModel):
+class Course(Part):
     """The content of a course.yaml."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     schema_: Literal[1] = Field(alias="schema")
     lessons: tuple[str, ...] = Field(min_length=1)

@@ -8,7 +8,9 @@ from datetime import datetime, timezone
 from typing import Annotated, Literal
 from zoneinfo import ZoneInfo
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BeforeValidator, Field
+
+from grader.base.part import Part
 
 SECONDS = {"s": 1, "min": 60, "h": 3_600, "d": 86_400}
 DURATION = re.compile(r"(\d+(?:\.\d+)?) ?(s|min|h|d)")
@@ -24,11 +26,7 @@ def _as_text(value: object) -> object:
 Amount = Annotated[str, BeforeValidator(_as_text)]
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Late(_Part):
+class Late(Part):
     """The penalty for each started day or hour; `most` is the largest penalty.
 
     An amount is points, or a share of the maximum score: `10%`. The score is 0 from `until` on.
@@ -40,7 +38,7 @@ class Late(_Part):
     until: datetime | None = None
 
 
-class Policy(_Part):
+class Policy(Part):
     """The policy; without a due date there is no penalty.
 
     A student without a submission gets no grade unless `missing` is `zero`, because a submission

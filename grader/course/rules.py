@@ -8,9 +8,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ValidationError
 
 from grader.base.nearest import meant_or_known
+from grader.base.part import Part
 from grader.base.positioned_yaml import Document, Loc
 from grader.base.yaml_model import Fault, error_of, model_faults, validated
 from grader.course.assignment import Assignment, CheckUse, Lesson, Output
@@ -52,10 +53,8 @@ class KnownCheck(Protocol):
 KnownChecks = Mapping[str, KnownCheck]
 
 
-class HiddenChecks(BaseModel):
+class HiddenChecks(Part):
     """The instructor's file of hidden checks."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     checks: tuple[CheckUse, ...]
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
+from grader.base.part import Part
 from grader.base.yaml_model import broken
 
 
@@ -19,8 +20,8 @@ Value = Annotated[Any, AfterValidator(_plain)]
 """A parameter's value: bool, int, float or str."""
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+class _Part(Part):
+    model_config = ConfigDict(populate_by_name=True)
 
 
 class Node(_Part):

@@ -11,18 +11,17 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import model_validator
 
+from grader.base.part import Part
 from grader.base.yaml_model import broken
 
 FLOAT32 = 1e-6  # the relative error of a value that went through a float32 field
 KEYS = ("equal", "about", "between", "one_of", "matches", "contains")
 
 
-class Form(BaseModel):
+class Form(Part):
     """A form; exactly one of its keys is set (`within` belongs to `about`)."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     equal: Any = None
     about: float | None = None

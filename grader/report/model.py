@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
+
+from grader.base.part import Part
 
 CheckStatus = Literal["passed", "failed", "skipped", "inconclusive", "error"]
 Visibility = Literal["visible", "hidden", "after_due_date"]
@@ -21,25 +23,21 @@ LIMITS_MET = ("build.timeout", "build.resource", "run.resource", "run.too_much_o
 """The mistakes by which a limit on the submission ended what it did."""
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Mistake(_Part):
+class Mistake(Part):
     """A mistake of the catalogue: a stable id and the parameters of its text."""
 
     id: str
     params: dict[str, str | int | float] = Field(default_factory=dict)
 
 
-class Where(_Part):
+class Where(Part):
     """A place in the submission: `file` relative to the package, `line` counted from 1."""
 
     file: str
     line: int | None = None
 
 
-class CheckResult(_Part):
+class CheckResult(Part):
     """What one check found. `rationale` says why it matters, `fix` the one change that fixes it."""
 
     id: str
@@ -67,7 +65,7 @@ class CheckResult(_Part):
     seconds: float = 0
 
 
-class AssignmentInfo(_Part):
+class AssignmentInfo(Part):
     """The assignment; `sha256` of its definition distinguishes versions."""
 
     id: str
@@ -75,7 +73,7 @@ class AssignmentInfo(_Part):
     sha256: str
 
 
-class SubmissionInfo(_Part):
+class SubmissionInfo(Part):
     """The submission: whose package it is, its path, and what is known about it."""
 
     name: str
@@ -88,7 +86,7 @@ class SubmissionInfo(_Part):
     notes: list[str] = Field(default_factory=list)
 
 
-class LimitInfo(_Part):
+class LimitInfo(Part):
     """A limit; `held_by` enforces it (`cgroup`, `rlimit`, `grader`, `tmpfs` or `none`)."""
 
     value: float
@@ -96,7 +94,7 @@ class LimitInfo(_Part):
     held_by: str
 
 
-class Environment(_Part):
+class Environment(Part):
     """The environment in which the commands ran."""
 
     distro: str
@@ -112,7 +110,7 @@ class Environment(_Part):
     grader: str = ""
 
 
-class Tick(_Part):
+class Tick(Part):
     """One line of the count: its number, its text, and its times."""
 
     n: int | None
@@ -121,7 +119,7 @@ class Tick(_Part):
     wall: float | None = None
 
 
-class Exit(_Part):
+class Exit(Part):
     """How `ros2 run` ended; `seconds` from Ctrl+C to the end."""
 
     status: int | None = None
@@ -129,7 +127,7 @@ class Exit(_Part):
     seconds: float | None = None
 
 
-class Observed(_Part):
+class Observed(Part):
     """What was observed during the run.
 
     `period` is the assignment's, in seconds; `due` the instants (virtual) at which the clock
@@ -145,7 +143,7 @@ class Observed(_Part):
     due: list[float] = Field(default_factory=list)
 
 
-class TopicInfo(_Part):
+class TopicInfo(Part):
     """A topic that was recorded: its type, and how many messages came."""
 
     name: str
@@ -153,7 +151,7 @@ class TopicInfo(_Part):
     count: int
 
 
-class RunInfo(_Part):
+class RunInfo(Part):
     """One run of a scenario: what was observed, and where its turtles drove.
 
     `instants` is how many instants of ROS time the clock showed, `period` s apart (`observed`);
@@ -169,14 +167,14 @@ class RunInfo(_Part):
     wanted: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)
 
 
-class Evidence(_Part):
+class Evidence(Part):
     """The texts on which the verdict is based, cut in the middle to a bounded length."""
 
     build_log: str = ""
     transcript: str = ""
 
 
-class Timing(_Part):
+class Timing(Part):
     """Wall time of each stage, in seconds."""
 
     setup: float = 0
@@ -186,10 +184,10 @@ class Timing(_Part):
     total: float = 0
 
 
-class Report(_Part):
+class Report(Part):
     """The verdict on one submission on one distro."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+    model_config = ConfigDict(populate_by_name=True)
 
     schema_: Literal[1] = Field(default=1, alias="schema")
     assignment: AssignmentInfo

@@ -28,18 +28,11 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Any, Literal, NoReturn
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Discriminator,
-    Field,
-    Tag,
-    model_validator,
-)
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from grader.base.errors import AssignmentError
 from grader.base.nearest import nearest
+from grader.base.part import Part
 from grader.base.positioned_yaml import Document, Loc, read_yaml
 from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, validated
 from grader.mistakes.kind import Kind
@@ -155,11 +148,7 @@ _Mode = Annotated[_Text, AfterValidator(_octal)]
 _Base64 = Annotated[_Text, AfterValidator(_base64)]
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class _Replace(_Part):
+class _Replace(Part):
     path: _InPackage = Field(alias="replace")
     old: _Text
     new: str
@@ -168,7 +157,7 @@ class _Replace(_Part):
         return tree.Replace(self.path, self.old, self.new)
 
 
-class _Write(_Part):
+class _Write(Part):
     path: _InPackage = Field(alias="write")
     text: str = ""
     base64: _Base64 = ""
@@ -185,14 +174,14 @@ class _Write(_Part):
         return tree.Write(self.path, data, _bits(self.mode) if self.mode else None)
 
 
-class _Delete(_Part):
+class _Delete(Part):
     path: _InPackage = Field(alias="delete")
 
     def made(self) -> tree.Edit:
         return tree.Delete(self.path)
 
 
-class _Rename(_Part):
+class _Rename(Part):
     path: _InPackage = Field(alias="rename")
     to: _InPackage
 
@@ -200,7 +189,7 @@ class _Rename(_Part):
         return tree.Move(self.path, self.to)
 
 
-class _Copy(_Part):
+class _Copy(Part):
     path: _InPackage = Field(alias="copy")
     to: _InPackage
 
@@ -208,7 +197,7 @@ class _Copy(_Part):
         return tree.Copy(self.path, self.to)
 
 
-class _Chmod(_Part):
+class _Chmod(Part):
     path: _InPackage = Field(alias="chmod")
     mode: _Mode
 
@@ -216,14 +205,14 @@ class _Chmod(_Part):
         return tree.Chmod(self.path, _bits(self.mode))
 
 
-class _Crlf(_Part):
+class _Crlf(Part):
     path: _InPackage = Field(alias="crlf")
 
     def made(self) -> tree.Edit:
         return tree.Crlf(self.path)
 
 
-class _Link(_Part):
+class _Link(Part):
     path: _InPackage = Field(alias="link")
     to: _Text
 
@@ -231,14 +220,14 @@ class _Link(_Part):
         return tree.Link(self.path, self.to)
 
 
-class _Nest(_Part):
+class _Nest(Part):
     folder: _InPackage = Field(alias="nest")
 
     def made(self) -> tree.Edit:
         return tree.Nest(self.folder)
 
 
-class _Unknown(_Part):
+class _Unknown(Part):
     """Refuses an edit that has none of the known keys."""
 
     @model_validator(mode="before")
@@ -257,7 +246,7 @@ def _bits(mode: str) -> int:
     return int(mode, 8) & 0o777
 
 
-EDITS: tuple[type[_Part], ...] = (
+EDITS: tuple[type[Part], ...] = (
     _Replace,
     _Write,
     _Delete,
@@ -270,7 +259,7 @@ EDITS: tuple[type[_Part], ...] = (
 )
 
 
-def _keys(model: type[_Part]) -> tuple[str, ...]:
+def _keys(model: type[Part]) -> tuple[str, ...]:
     return tuple(field.alias or name for name, field in model.model_fields.items())
 
 
@@ -304,19 +293,19 @@ def _at_least_one(edits: tuple[_AnyEdit, ...]) -> tuple[_AnyEdit, ...]:
     return edits
 
 
-class _Named(_Part):
+class _Named(Part):
     name: _Text
     check: _Text
     mistake: _Text
     edits: Annotated[tuple[_AnyEdit, ...], AfterValidator(_at_least_one)]
 
 
-class _Equivalent(_Part):
+class _Equivalent(Part):
     mutant: _Text
     why: _Text
 
 
-class _Content(_Part):
+class _Content(Part):
     schema_: Literal[1] = Field(alias="schema")
     mutants: tuple[_Named, ...] = ()
     equivalent: tuple[_Equivalent, ...] = ()

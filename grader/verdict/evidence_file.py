@@ -13,10 +13,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
+from grader.base.part import Part
 from grader.base.shown import utf8_name
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
@@ -40,11 +41,7 @@ class Judged:
     recording: Recording
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class CheckVerdict(_Part):
+class CheckVerdict(Part):
     """What makes two results of a check equal."""
 
     id: str
@@ -65,7 +62,7 @@ class CheckVerdict(_Part):
         )
 
 
-class EvidenceFile(_Part):
+class EvidenceFile(Part):
     """The evidence of one verdict."""
 
     schema_: Literal[1] = Field(default=1, alias="schema")

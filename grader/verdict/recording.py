@@ -8,11 +8,10 @@ fixes and the report work on it as they do on a build and a run; nothing is exec
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import cache
 from typing import Annotated, Any, Literal
 
 from pydantic import (
-    BaseModel,
-    ConfigDict,
     Field,
     PlainSerializer,
     PlainValidator,
@@ -24,6 +23,7 @@ from pydantic import (
 from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
 from grader.base.i18n.message import Message, say
+from grader.base.part import Part
 from grader.course.assignment import Assignment, Output
 from grader.course.scenario import Node, RunPlan
 from grader.package.submission import Submission
@@ -35,8 +35,16 @@ from grader.run.workspace import Build
 from grader.verdict.evidence import Evidence
 
 EVENT_LISTS = ("events", "before_start", "early")  # of a Watch; they share their events
-EVENTS = TypeAdapter(list[Event])
-RUN = TypeAdapter(Run)
+
+
+@cache
+def _events() -> TypeAdapter[list[Event]]:
+    return TypeAdapter(list[Event])
+
+
+@cache
+def _run() -> TypeAdapter[Run]:
+    return TypeAdapter(Run)
 
 
 class RecordingError(UsageError):
@@ -54,7 +62,7 @@ def _run_as_json(run: Run) -> dict[str, Any]:
     place = {id(event): index for index, event in enumerate(seen)}
     found: dict[str, Any] = asdict(run)
     found["watch"] |= {name: [place[id(e)] for e in events] for name, events in lists.items()}
-    found["watch"]["seen"] = EVENTS.dump_python(seen, mode="json")
+    found["watch"]["seen"] = _events().dump_python(seen, mode="json")
     note = run.watch.note
     found["watch"]["note"] = note.template if isinstance(note, Message) else note
     if run.seen is None:  # a run that is no scenario's
@@ -66,10 +74,10 @@ def _run_from_json(value: Any) -> Run:
     if isinstance(value, Run):
         return value
     watch = dict(value["watch"])
-    seen = EVENTS.validate_python(watch.pop("seen"))
+    seen = _events().validate_python(watch.pop("seen"))
     lists = {name: [seen[index] for index in watch.pop(name)] for name in EVENT_LISTS}
     note = watch.pop("note")
-    run = RUN.validate_python({**value, "watch": Watch(**watch)})
+    run = _run().validate_python({**value, "watch": Watch(**watch)})
     for name, events in lists.items():
         setattr(run.watch, name, events)
     run.watch.note = say(note) if note else ""
@@ -79,11 +87,7 @@ def _run_from_json(value: Any) -> Run:
 RecordedRun = Annotated[Run, PlainValidator(_run_from_json), PlainSerializer(_run_as_json)]
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Asked(_Part):
+class Asked(Part):
     """What the build and the run depend on in an assignment."""
 
     id: str
@@ -102,7 +106,7 @@ class Asked(_Part):
         return found
 
 
-class Recording(_Part):
+class Recording(Part):
     """What one build and one run showed.
 
     `build` and `run` are None if no check needed them; `unobserved` is the reason if the run was

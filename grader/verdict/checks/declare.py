@@ -14,9 +14,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import BaseModel, ConfigDict
-
 from grader.base.i18n.message import Message, say
+from grader.base.part import Part
 from grader.report.model import Quote
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
@@ -26,10 +25,8 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 
-class Parameters(BaseModel):
+class Parameters(Part):
     """The parameters of a kind of check: the keys of its `with:`."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 CheckFunction = Callable[["Evidence"], "Passed | None"]

@@ -6,9 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from grader.base.i18n.message import say
+from grader.base.part import Part
 from grader.run.in_probe.turtlesim import SIZE
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.outcome import Failed, Passed
@@ -21,10 +22,8 @@ AT_REST = 0.01  # m: a turtle that moved less stands still
 CIRCLE_POINTS = 60  # of a circle that is drawn
 
 
-class Circle(BaseModel):
+class Circle(Part):
     """A circle of a radius (m); poses may be `within` m of it."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     radius: float = Field(gt=0)
     within: float = Field(gt=0)
