@@ -73,6 +73,7 @@ def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
         ('email="jane@todo.todo"', "", "manifest_rules", 7, "email"),
         ("<depend>rclpy</depend>", "<dependd>x</dependd>", "manifest_rules", 9, "dependd"),
         ('format="3"', 'format="9"', "manifest_rules", None, "format"),
+        (">rclpy</depend>", f">{NAME}</depend>", "manifest_rules", 9, "the same name"),
         (">ament_python<", ">ament_cmake<", "build_type", 11, "ament_cmake"),
         (">ament_python<", ">ament_pyton<", "build_type", 11, "ament_pyton"),
         ("<build_type>ament_python</build_type>", "", "build_type", 10, "no <build_type>"),
@@ -111,6 +112,17 @@ def test_a_wrong_manifest_is_reported_with_its_line(
     assert failed.where.file == "package.xml"
     if at is not None:
         assert line(failed) == at
+
+
+def test_a_build_type_counts_only_if_its_condition_holds_under_ros_2(bench: Bench) -> None:
+    both = (
+        '<build_type condition="$ROS_VERSION == 1">catkin</build_type>'
+        '<build_type condition="$ROS_VERSION == 2">ament_python</build_type>'
+    )
+    bench.change("package.xml", "<build_type>ament_python</build_type>", both)
+    bench.passes(package.manifest)
+    bench.change("package.xml", "$ROS_VERSION == 2", "$ROS_VERSION == 3")
+    assert "no <build_type>" in bench.fails(package.manifest).actual
 
 
 def test_a_missing_empty_or_binary_manifest_is_reported(bench: Bench) -> None:

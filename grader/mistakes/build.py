@@ -67,6 +67,13 @@ def _installed(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
 
 KINDS = (
     _build(
+        "ignored",
+        msg("The package has a file COLCON_IGNORE"),
+        msg("Delete COLCON_IGNORE from the package, then build again."),
+        msg("colcon skips every folder that has a file of this name, without a message."),
+        examples=(example("colcon_ignore", Write("COLCON_IGNORE", ""), fails="build.colcon"),),
+    ),
+    _build(
         "setup_prints",
         msg("setup.py prints something"),
         msg("Remove the print() from setup.py, then build again."),
@@ -94,6 +101,13 @@ KINDS = (
             "unreadable": UNREADABLE,
             **dict.fromkeys(PASTED, WEB),
             **PASTED_WHYS,
+            "hidden": msg(
+                "Python finds this file before its own module {name}, which setuptools imports."
+            ),
+            "relative": msg(
+                "The file is there, but colcon build --symlink-install runs setup.py in the build "
+                "folder, and from there a relative path leads to another place."
+            ),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
             **dict.fromkeys(SIGNS, UNREADABLE),
         },
@@ -109,6 +123,8 @@ KINDS = (
             "key": msg(
                 "Write quotes around {name}: '{name}'. A name without quotes is a variable."
             ),
+            "hidden": msg("Give {name}.py another name, or move it out of the package."),
+            "relative": msg("Do not open {name} in setup.py: delete that line and what uses it."),
             **PASTED,
             **DOCUMENTS,
             **LANGUAGE,
@@ -133,6 +149,21 @@ KINDS = (
                 Replace(SETUP, "'console_scripts'", "console_scripts"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_opens_relative_path",
+                Replace(
+                    SETUP,
+                    "setup(\n",
+                    "with open('setup.cfg') as file:\n    file.read()\nwith open('README.md') as file:\n    file.read()\n\nsetup(\n",
+                ),
+                Write("README.md", "A package.\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "module_of_python_hidden",
+                Write("logging.py", "import logging\n\nlogging.basicConfig()\n"),
+                fails="build.colcon",
             ),
             example(
                 "setup_syntax_error",

@@ -17,6 +17,8 @@ from grader.mistakes import (
     flow,
     hidden,
     imports,
+    instead_of_ros,
+    language,
     logger,
     names,
     node_file,
@@ -33,6 +35,7 @@ from grader.mistakes import (
     timer,
     topics,
     values,
+    which_node,
 )
 from grader.mistakes.example import Example
 from grader.mistakes.fixes.case import Finding, Fix
@@ -59,6 +62,9 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             imports,
             entry_function,
             ros_init,
+            which_node,
+            instead_of_ros,
+            language,
             constructor,
             timer,
             callback,

@@ -18,7 +18,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, starts_of, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 from grader.package.source.place import function_at
 from grader.report.model import Where
 
@@ -216,9 +216,24 @@ def _in_text(suspect: Suspect) -> RecognisedMistake | None:
 
 def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
     counter = _counter(suspect)
-    if counter is None or counter.added or counter.set:
+    if counter is None or counter.added or counter.set or not _is_number(suspect, counter.name):
         return None
+    for node in suspect.source.own_nodes:
+        changed = isinstance(node, ast.AugAssign) and dotted(node.target)
+        if changed and last_part(changed) == last_part(counter.name):
+            return None  # (it is increased elsewhere)
     return suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+
+
+def _is_number(suspect: Suspect, name: str) -> bool:
+    """Whether an attribute may be a number: no text is assigned to it."""
+    for node in suspect.source.own_nodes:
+        if isinstance(node, ast.Assign) and name in targets_of(node):
+            value = node.value
+            text = isinstance(value, ast.Constant) and isinstance(value.value, str)
+            if text or isinstance(value, ast.JoinedStr | ast.BinOp):
+                return False
+    return True
 
 
 def _multiplied(suspect: Suspect) -> RecognisedMistake | None:

@@ -303,6 +303,29 @@ KINDS = (
         ),
     ),
     Kind(
+        id="setup.group_twice",
+        stage="entry point",
+        title=msg("console_scripts is written twice, and only the last one counts"),
+        why=msg(
+            "A dictionary has each key once: the console_scripts on line {line} replaces the one "
+            "with this entry, without a message."
+        ),
+        fix=msg("Put all entries into one list, with a comma after each."),
+        link=links.ENTRY_POINTS,
+        examples=(
+            example(
+                "group_twice",
+                Replace(
+                    SETUP,
+                    "        ],\n    },",
+                    "        ],\n        'console_scripts': [],\n    },",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+        ),
+    ),
+    Kind(
         id="setup.misplaced_entry",
         stage="entry point",
         title=msg("the entry is in the wrong place of setup.py"),
@@ -580,6 +603,12 @@ KINDS = (
         stage="entry point",
         title=msg("setup.py computes a different entry than the required one"),
         why=msg("The entry tells ros2 run which function of which module to start."),
+        whys={
+            "project": msg(
+                "The entry is in pyproject.toml, which colcon build --symlink-install does not "
+                "read: it runs setup.py in a folder without that file."
+            )
+        },
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
         fixed_by=(entries.replaced,),
         link=links.DEVELOPING,

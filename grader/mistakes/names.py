@@ -150,6 +150,9 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     known = _of_rclpy(raised, match)
     if known is not None:
         return known
+    if match["type"] in ("NoneType", "rclpy"):
+        found = raised.finding("attribute_unknown", name=match["name"])
+        return replace(found, variant="none" if match["type"] == "NoneType" else "module")
     suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
     close = suggested[1] if suggested else ""
     return raised.finding("attribute_unknown", name=match["name"], close=close)
@@ -415,7 +418,21 @@ KINDS = (
         msg("Compare the name on that line with the documentation or with your own class."),
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
-        fixes={"written": msg("Write {written} instead of {name}.")},
+        whys={
+            "none": msg(
+                "A value on that line is None: nothing was assigned to it, or a function returned "
+                "nothing."
+            ),
+            "module": msg(
+                "The name is misspelt, or Python has imported another rclpy: a file rclpy.py or a "
+                "folder rclpy in your package comes before the one of ROS."
+            ),
+        },
+        fixes={
+            "written": msg("Write {written} instead of {name}."),
+            "none": msg("Find the line that should give it its value, and see what that does."),
+            "module": msg("Compare the name, and remove what is called rclpy from your package."),
+        },
         seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
         r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
         raised={ATTRIBUTE: _unknown},

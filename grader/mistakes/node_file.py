@@ -122,6 +122,25 @@ KINDS = (
         ),
     ),
     Kind(
+        id="source.hidden_by_folder",
+        stage="file",
+        title=msg("A folder hides the node's file"),
+        why=msg(
+            "A folder with an __init__.py is a package. Of a package and a file of the same name, "
+            "Python imports the package."
+        ),
+        fix=msg("Delete the folder {folder}, or give it another name."),
+        link=links.FIRST_NODE,
+        examples=(
+            example(
+                "node_hidden_by_folder",
+                Write(f"{NODE.removesuffix('.py')}/__init__.py", ""),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+        ),
+    ),
+    Kind(
         id="source.misplaced_node_file",
         stage="file",
         title=msg("The node's file is in another folder"),

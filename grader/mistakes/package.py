@@ -234,7 +234,10 @@ KINDS = (
         "manifest_rules",
         msg("package.xml breaks a rule of its format"),
         msg("Correct what the message names, so that colcon accepts the file."),
-        fixes={"version": msg("Write three numbers with points between them, such as 1.0.0.")},
+        fixes={
+            "version": msg("Write three numbers with points between them, such as 1.0.0."),
+            "itself": msg("Delete this line: a package does not depend on itself."),
+        },
         fixed_by=(manifest.version, manifest.three_numbers),
     ),
     Kind(
@@ -561,6 +564,10 @@ KINDS = (
         fixes={
             "section": msg("Write [{other}] on that line: setup.cfg needs both sections."),
             "twice": msg("Delete the second one: each name appears only once."),
+            "encoding": msg(
+                "Save the file again with the encoding UTF-8, without a BOM. Windows PowerShell "
+                "writes UTF-16 with >."
+            ),
         },
         link=links.SETUP_CFG,
         seen=r"configparser\.\w{1,60}Error|File contains no section headers",

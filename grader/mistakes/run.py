@@ -61,6 +61,12 @@ KINDS = (
         SPIN,
         msg("Call rclpy.spin(node) in {function} after creating the node (not spin_once)."),
         links.EXECUTORS,
+        fixes={
+            "spins": msg(
+                "rclpy.spin is there. Follow {function} from its first line: what ends it before "
+                "that, or why is that line not reached?"
+            )
+        },
         fixed_by=(node_life.spin,),
     ),
     _run(
@@ -271,6 +277,12 @@ KINDS = (
             "Check the timer: self.create_timer({period}, self.{callback}) before rclpy.spin, and a "
             "callback that logs."
         ),
+        fixes={
+            "timer": msg(
+                "A timer is there. Is its line reached, does it belong to the node that is spun, "
+                "and does {callback} reach the line that logs?"
+            )
+        },
     ),
     _run(
         "by_hand",
@@ -346,22 +358,6 @@ KINDS = (
         LOG,
         links.LOGGING,
         fixed_by=(node_log.logger,),
-        examples=(
-            example(
-                "python_logging",
-                Replace(NODE, "import rclpy\nfrom", "import logging\nimport rclpy\nfrom"),
-                Replace(
-                    NODE,
-                    "    rclpy.init(args=args)",
-                    (
-                        "    rclpy.init(args=args)\n"
-                        "    logging.basicConfig(level=logging.INFO, format='%(message)s')"
-                    ),
-                ),
-                Replace(NODE, "self.get_logger().info", "logging.info"),
-                fails="run.logger",
-            ),
-        ),
     ),
     _run(
         "faked_log",
@@ -420,6 +416,13 @@ KINDS = (
             "{executable}` in a terminal: the lines must come."
         ),
         links.FIRST_NODE,
+        whys={
+            "sim_time": msg(
+                "With use_sim_time the node takes its time from /clock. Without a simulator, "
+                "nothing publishes on /clock: no time passes, and the timer never fires."
+            )
+        },
+        fixes={"sim_time": msg("Remove the lines that set use_sim_time.")},
         examples=(
             example(
                 "only_under_sim_time",

@@ -44,7 +44,7 @@ def _not_called(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
-def _executors(suspect: Suspect) -> set[str]:
+def executors(suspect: Suspect) -> set[str]:
     """Return the variables of executors."""
     made = [n for n in suspect.source.all_nodes if isinstance(n, ast.Assign)]
     return {
@@ -69,7 +69,7 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return _under_guard(suspect)
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
-        if method == "add_node" and before in _executors(suspect):
+        if method == "add_node" and before in executors(suspect):
             found = suspect.finding("spin_missing", call, name=before)
             return replace(found, variant="executor")
     return suspect.finding("spin_missing", suspect.place_of_function)

@@ -31,6 +31,7 @@ SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record 
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
 TRIES, TRY_SECONDS = 12, 0.5  # barriers and wall time after which a tick is missing
 GRID = 20  # steps per period while the actual period is measured
+MEASURED = 12  # periods of ROS time in which the actual period is measured
 WALL_TICKS = 5
 WALL_SPARE = 3.0  # seconds of wall time in addition to the ticks'
 STILL = 1.3  # periods of wall time without a /clock message, to detect a wall clock
@@ -216,7 +217,7 @@ class VirtualClock:
         step = max(self._period // GRID, MILLISECOND)
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
-        stop = self._at + 12 * self._period
+        stop = self._at + MEASURED * self._period
         counts = any(event.n is not None for event in watch.events)
         lines: list[Event] = []
         fresh: list[float] = []

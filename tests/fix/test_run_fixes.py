@@ -53,7 +53,7 @@ REAL_IN_CI = ("setup_prints", "counter_not_set")
 # Only the student knows what these should be.
 NOT_FIXED = {
     *("import_unknown", "raises_at_import", "exception_in_init", "name_error_in_callback"),
-    *("timer_in_callback", "three_then_exit", "text_of_another_course", "python_logging"),
+    *("timer_in_callback", "three_then_exit", "text_of_another_course"),
     *("waits_for_input", "loop_without_node", "callback_is_another", "log_line_forgotten"),
     *("setup_exits", "setup_raises", "error_at_stop", "ignores_interrupt", "main_empty"),
 }

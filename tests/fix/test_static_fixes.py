@@ -21,6 +21,7 @@ NOT_FIXED = {
     *("no_manifest", "manifest_empty", "manifest_not_utf8", "cmake_package", "setup_missing"),
     *("as_created", "node_not_written", "node_empty", "indentation", "tabs_and_spaces"),
     *("python_2_print", "not_utf8", "null_bytes", "word_document"),
+    *("node_hidden_by_folder", "group_twice"),
 }
 NOTHING_TO_MARK = {
     *("empty_folder", "only_a_text", "only_the_node", "manifest_and_setup_missing"),

@@ -151,6 +151,7 @@ def test_a_terminal_as_input_is_asked_for_the_output_and_ctrl_c_ends_it() -> Non
     other = pexpect.spawn(COMMAND[0], [*COMMAND[1:], "-"], env=environment(), cwd=str(processes.ROOT),
                           encoding="utf-8", timeout=30)  # fmt: skip
     other.expect("Ctrl\\+D")
+    processes.wait_until_asleep(other.pid)
     other.sendintr()
     other.expect("interrupted")
     other.expect(pexpect.EOF)

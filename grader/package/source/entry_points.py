@@ -41,9 +41,13 @@ class Entry:
 
 @dataclass
 class EntryPoints:
-    """The groups; `is_static` is False if some entries are known only by running setup.py."""
+    """The groups; `is_static` is False if some entries are known only by running setup.py.
+
+    `lost` has the entries of a group that is written again later: the later one replaces it.
+    """
 
     groups: dict[str, list[Entry]] = field(default_factory=dict)
+    lost: list[Entry] = field(default_factory=list)
     lines: dict[str, int] = field(default_factory=dict)
     is_static: bool = True
 
@@ -52,7 +56,7 @@ class EntryPoints:
         return self.groups.get(name, [])
 
     def _open(self, group: str, line: int) -> list[Entry]:
-        self.lines.setdefault(group, line)
+        self.lines[group] = line
         return self.groups.setdefault(group, [])
 
 
@@ -63,6 +67,7 @@ def from_setup_py(setup: SetupPy) -> EntryPoints:
     if isinstance(value, Table):
         for key, entries in value.pairs:
             if isinstance(key, Text):
+                found.lost += found.groups.pop(key.value, [])
                 _add(found, found._open(key.value, key.line), entries)
             else:
                 found.is_static = False

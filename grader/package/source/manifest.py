@@ -29,6 +29,7 @@ KNOWN_PACKAGES = (
     *("ament_lint_auto", "ament_lint_common", "ament_cmake", "ament_python", "rviz2", "xacro"),
     *("robot_state_publisher", "joint_state_publisher", "python3-pytest", "python3-setuptools"),
 )
+CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}  # what ROS 2's setup files set
 
 
 class ManifestError(Exception):
@@ -64,6 +65,10 @@ class Manifest:
         """Return the elements of a tag directly within another."""
         return [e for e in self.elements if e.tag == tag and e.within == within]
 
+    def effective(self, tag: str, within: str = "package") -> list[Element]:
+        """Return those of them whose condition holds in a terminal with ROS 2."""
+        return [e for e in self.all(tag, within) if _holds(e.attributes.get("condition", ""))]
+
     def first(self, tag: str, within: str = "package") -> Element | None:
         """Return the first of them, or None."""
         return next(iter(self.all(tag, within)), None)
@@ -83,6 +88,18 @@ class Manifest:
 def meant_package(name: str) -> str:
     """Return the known package whose name is nearly that of a dependency; "" if there is none."""
     return "" if name in KNOWN_PACKAGES else nearest(name, KNOWN_PACKAGES, cutoff=0.8)
+
+
+def _holds(condition: str) -> bool:
+    """Whether a condition of a tag (REP 149) holds; colcon takes it from the environment."""
+    if not condition:
+        return True
+    from catkin_pkg.condition import evaluate_condition  # noqa: PLC0415 - see _judge
+
+    try:
+        return bool(evaluate_condition(condition[:200], CONTEXT))
+    except ValueError:
+        return True
 
 
 def read_manifest(found: bytes) -> Manifest:
@@ -106,7 +123,8 @@ def _judge(found: bytes, warnings: list[str]) -> str:
     try:
         parse_package_string(found, warnings=warnings)
     except InvalidPackage as error:
-        return " ".join(re.sub(r"\s*\n-?\s*", " ", str(error)).split())[:500]
+        lines = [" ".join(line.split()) for line in re.split(r"\n-?\s*", str(error))]
+        return "; ".join(line.rstrip(".") for line in lines if line)[:500]
     except Exception as error:  # colcon would meet the same exception
         return f"{type(error).__name__}: {error}"[:500]
     return ""

@@ -57,7 +57,8 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
     try:
         text = found.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise SetupCfgFault(say("not UTF-8 text"), found.count(b"\n", 0, error.start) + 1) from None
+        first = found.count(b"\n", 0, error.start) + 1
+        raise SetupCfgFault(say("not UTF-8 text"), first, "encoding") from None
     parser = configparser.RawConfigParser()
     parser.optionxform = str  # type: ignore[assignment,method-assign] # the documented way
     try:

@@ -10,6 +10,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.mistakes.fixes.setup_py import called_value
 from grader.mistakes.slips import description, words_of
+from grader.package.intake.choose import IGNORE
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
@@ -23,6 +24,11 @@ from grader.verdict.outcome import Blocked, Failed, Passed
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
+NOTHING_BUILT = "Summary: 0 packages finished"
+HIDDEN = re.compile(
+    r"(?:AttributeError|ImportError): .{0,120}partially initialized module '(\w{1,80})'"
+)
+NOT_THERE = re.compile(r"FileNotFoundError: .{0,60}No such file or directory: '([\w./-]{1,120})'")
 NOT_CALLABLE = re.compile(r"TypeError: '(?:tuple|list|str)' object is not callable")
 NO_FOLDER = re.compile(r"package directory '([^'\n]{1,200})' does not exist")
 NEVER_CALLED = "was never called"
@@ -41,6 +47,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
     build = evidence.build
     package = evidence.assignment.package
     if build.stopped_by:
+        if evidence.has_mistake("package.manifest", "package.manifest_doctype"):
+            raise Blocked(by="package.manifest")  # (its entities can take any time)
         raise _stopped(evidence)
     if build.status == 0 and build.is_installed(package):
         _must_be_the_only_one(evidence)
@@ -157,6 +165,13 @@ def _broken(evidence: Evidence) -> Failed:
             where=Where(file="setup.py", line=_line_of(_setup_py(evidence), "packages=")),
             params={"folder": name},
         )
+    if evidence.submission.file(IGNORE) is not None and NOTHING_BUILT in build.log:
+        return Failed(
+            "build.ignored",
+            expected=expected,
+            actual=_summary(build.log),
+            where=Where(file=IGNORE),
+        )
     ended = say("colcon ended with status {status}", status=str(build.status))
     return Failed(
         "build.failed",
@@ -201,6 +216,28 @@ def _unquoted(found: bytes, error: str) -> ast.Name | None:
 
 def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     """Return the error with which setup.py stopped, or the missing comma that it comes from."""
+    hidden = HIDDEN.match(error)
+    if hidden is not None and evidence.submission.file(f"{hidden[1]}.py") is not None:
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("setup.py stopped with {error}", error=error),
+            where=Where(file=f"{hidden[1]}.py"),
+            variant="hidden",
+            params={"error": error},
+            words={"name": hidden[1]},
+        )
+    opened = NOT_THERE.match(error)
+    if opened is not None and evidence.submission.file(opened[1]) is not None:
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("setup.py stopped with {error}", error=error),
+            where=where,
+            variant="relative",
+            params={"error": error},
+            words={"name": opened[1]},
+        )
     found = called_value(_setup_py(evidence)) if NOT_CALLABLE.match(error) else None
     line = str(found.end_lineno) if found is not None else ""
     key = _unquoted(_setup_py(evidence), error)

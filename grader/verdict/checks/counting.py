@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined, say
+from grader.base.i18n.message import joined, say, say_plural
 from grader.base.nearest import compared
 from grader.package.source.remarks import remarks_on
 from grader.report.model import Where
+from grader.run.clock import MEASURED
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -104,11 +106,13 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
             variant="callback",
             params={"error": error.partition(":")[0]},
         )
+    source = source_of_node(evidence)
     return Failed(
         "run.no_lines",
         expected=expected,
         actual=say("no line came at all"),
         where=node_file(evidence),
+        variant="timer" if source is not None and source.timers else "",
         words=words(evidence),
     )
 
@@ -159,7 +163,7 @@ def _must_stay_a_count(evidence: Evidence, expected: str) -> None:
     raise Failed(
         "run.stops",
         expected=say("{lines} until Ctrl+C", lines=expected),
-        actual=say("{count} lines, then no more came", count=count),
+        actual=say_plural("1 line, then no more came", "{count} lines, then no more came", count),
         where=line_of(evidence, other.record),
     )
 
@@ -180,13 +184,14 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
     run = evidence.run
     watch = run.watch
     events = watch.counted
-    last = max(event.virtual for event in events)
-    silent = bool(watch.missing) and last < watch.dues[watch.missing[0]]
+    silent = bool(watch.missing) and _is_silent(evidence)
     few = watch.clock == "wall" and len(events) < 3
     if not run.ended_by_itself and not silent and not few:
         return
     error, where = traceback_of(evidence, run)
-    actual = say("{count} lines, then no more came", count=len(events))
+    actual = say_plural(
+        "1 line, then no more came", "{count} lines, then no more came", len(events)
+    )
     if run.ended_by_itself:
         actual = say(
             "{count} lines, then the node ended by itself ({error})",
@@ -201,14 +206,30 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
     )
 
 
+def _is_silent(evidence: Evidence) -> bool:
+    """Whether no line came after a due instant at which one was missing.
+
+    After a single line, another one would have come in as much time again, if a timer made it.
+    """
+    watch, period = evidence.run.watch, evidence.assignment.output.period
+    events, missing = watch.counted, watch.dues[watch.missing[0]]
+    last = max(event.virtual for event in events)
+    single = len(events) == 1 and watch.period is None
+    return last < missing or (single and 2 * last < missing + (MEASURED - 1) * period)
+
+
 def _only_when_marked(evidence: Evidence, expected: str) -> Failed:
     remarks = [r for r in remarks_on(evidence.submission.files) if r.kind in ("asks", "hides")]
     where = Where(file=remarks[0].path, line=remarks[0].line) if remarks else node_file(evidence)
+    source = source_of_node(evidence)
+    module = source.module_at(where.file) if source is not None else None
+    simulated = module is not None and "use_sim_time" in module.line(where.line)
     return Failed(
         "run.only_when_marked",
         expected=expected,
         actual=say("the right lines under simulated time, but not in a plain ros2 run"),
         where=where,
+        variant="sim_time" if simulated else "",
         words=words(evidence),
     )
 

@@ -104,6 +104,10 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
     """Return why no executable has the name: another name, another group, or no entry."""
     wanted = evidence.assignment.executable
     entries = points.group("console_scripts")
+    lost = [entry for entry in points.lost if entry.name == wanted]
+    if lost:
+        line = str(points.lines.get("console_scripts", ""))
+        return _failed(evidence, lost[0], "setup.group_twice", line=line)
     same = [e for e in entries if "".join(e.target.split()) == evidence.assignment.target]
     names = [entry.name for entry in entries]
     close = nearest(wanted, names, cutoff=0.7)

@@ -14,6 +14,7 @@ from grader.verdict.checks.build import setup_error
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
+from grader.verdict.checks.parsed import file_of
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -68,8 +69,15 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
         expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
         where=Where(file="setup.py"),
+        variant="project" if _in_project(evidence) else "",
         words={"wanted": entry},
     )
+
+
+def _in_project(evidence: Evidence) -> bool:
+    """Whether pyproject.toml has the entries."""
+    project = file_of(evidence, "pyproject.toml")
+    return project is not None and b"scripts]" in project.data
 
 
 @check(

@@ -163,9 +163,15 @@ def _check_rules(manifest: Manifest) -> None:
             "package.manifest_rules",
             shown_long(manifest.fault),
             _line_of_fault(manifest),
-            variant="version" if "version conventions" in manifest.fault else "",
+            variant=_kind_of_fault(manifest.fault),
             params={"error": shown_long(manifest.fault)},
         )
+
+
+def _kind_of_fault(fault: str) -> str:
+    if "version conventions" in fault:
+        return "version"
+    return "itself" if "with the same name as this package" in fault else ""
 
 
 def _check_tag_name(manifest: Manifest, tag: str, *, within: str) -> None:
@@ -192,6 +198,9 @@ def shown_long(text: str) -> str:
 
 def _line_of_fault(manifest: Manifest) -> int | None:
     """Return the line of the tag that catkin_pkg's message names, if any."""
+    same = [e for e in manifest.depends if e.text == manifest.name]
+    if same and "with the same name as this package" in manifest.fault:
+        return same[0].line
     for element in manifest.elements:
         tag = element.tag
         if tag == "version" and "version conventions" in manifest.fault:
@@ -245,7 +254,7 @@ def _check_build_type_place(manifest: Manifest) -> None:
 
 
 def _check_build_type(manifest: Manifest) -> None:
-    elements = manifest.all("build_type", within="export")
+    elements = manifest.effective("build_type", within="export")
     if not elements:
         _check_tag_name(manifest, "build_type", within="export")
         raise _build_type(manifest.first("export"), say("there is no <build_type>"))

@@ -56,6 +56,15 @@ def node_file(evidence: Evidence) -> Passed:
         parsed = parse_python(file.data)
     except PythonFault as fault:
         raise _not_python(path, fault, file.data) from None
+    folder = path.removesuffix(".py")
+    if evidence.submission.file(f"{folder}/__init__.py") is not None:
+        raise Failed(
+            "source.hidden_by_folder",
+            expected=say("a file {path} that Python imports", path=path),
+            actual=say("there is also a folder {folder}/ with an __init__.py", folder=folder),
+            where=Where(file=folder),
+            words={"path": path, "folder": folder},
+        )
     advice = hints(parsed.tree)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:

@@ -9,6 +9,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, going_on, node_file, resource, traceback_of, words
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
 if TYPE_CHECKING:
@@ -63,11 +64,13 @@ def _ended(evidence: Evidence) -> Outcome:
         )
     if run.watch.counted and not run.nodes:
         return _no_node(evidence, say("lines came, but no node was ever on the graph"))
+    source = source_of_node(evidence)
     return Failed(
         "run.exits_at_once",
         expected=say("the node runs until Ctrl+C"),
         actual=say("it ended by itself at once, with status {status}", status=str(run.status)),
         where=node_file(evidence),
+        variant="spins" if source is not None and source.calls_of("spin") else "",
         words=words(evidence),
     )
 

@@ -1,0 +1,453 @@
+"""Mistakes about Python itself: what async, yield, a property, a decorator or += does."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
+
+CLOCKS = ("time", "monotonic", "perf_counter", "now", "strftime", "seconds_nanoseconds", "ctime")
+"""Functions and methods that return or show a time."""
+MOST_STEPS = 3  # assignments through which a value is followed to the line
+
+
+def _is_async(suspect: Suspect) -> RecognisedMistake | None:
+    function = suspect.function
+    if not isinstance(function, ast.AsyncFunctionDef):
+        return None
+    return suspect.finding("main_async", function, name=function.name)
+
+
+def _of_function(
+    function: Function, kinds: type[ast.AST] | tuple[type[ast.AST], ...]
+) -> ast.AST | None:
+    """Return the first part of these kinds that belongs to a function, not to one inside it."""
+    waiting: list[ast.AST] = list(function.body)
+    for node in waiting:
+        if isinstance(node, kinds):
+            return node
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            waiting += ast.iter_child_nodes(node)
+    return None
+
+
+def _yields(suspect: Suspect) -> RecognisedMistake | None:
+    callback = suspect.source.callback
+    found = _of_function(callback, (ast.Yield, ast.YieldFrom)) if callback is not None else None
+    if not isinstance(found, ast.expr):
+        return None
+    return suspect.finding("callback_yields", found)
+
+
+def _dataclass(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    for found in raised.source.family:
+        for decorator in found.decorator_list:
+            named = decorator.func if isinstance(decorator, ast.Call) else decorator
+            if found.name == match["name"] and last_part(dotted(named)) == "dataclass":
+                return raised.finding("class_is_dataclass", at=decorator, name=found.name)
+    return None
+
+
+def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"] or match["old"] or ""
+    for method in raised.source.own_methods:
+        if method.name == name and any(dotted(d) == "property" for d in method.decorator_list):
+            return raised.finding("property_set", at=method, name=name)
+    return None
+
+
+def _skips_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for super() with another first argument than the own class."""
+    del match
+    own = raised.source.class_names
+    for call, _ in raised.source.calls:
+        called = call.func.value if isinstance(call.func, ast.Attribute) else None
+        if not isinstance(called, ast.Call) or dotted(called.func) != "super" or not called.args:
+            continue
+        named = last_part(dotted(called.args[0]))
+        if named and named not in own and raised.line in (None, call.lineno):
+            return raised.finding("super_of_base", at=call, name=named)
+    return None
+
+
+def _of_class(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a change to the class's variable, while the node's own is logged."""
+    name, node = _other_owner(suspect)
+    if node is None:
+        return None
+    return suspect.finding("counter_of_class", node, name=name, value=_written(node))
+
+
+def _other_owner(suspect: Suspect) -> tuple[str, ast.AugAssign | None]:
+    logged = logged_counter(suspect.source)
+    if logged is None or not logged[1].startswith("self."):
+        return "", None
+    classes = {*suspect.source.class_names, "type(self)", "self.__class__", "cls"}
+    for node in suspect.source.own_nodes:
+        if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Attribute):
+            owner = ast.unparse(node.target.value)
+            if owner in classes and node.target.attr == last_part(logged[1]):
+                return logged[1], node
+    return "", None
+
+
+def _written(node: ast.AugAssign) -> str:
+    return ast.unparse(node.target)
+
+
+def _built_once(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a logged attribute that __init__ sets to a text with a value in it."""
+    source, callback = suspect.source, suspect.source.callback
+    init = source.methods.get("__init__")
+    logged = {
+        dotted(arg) for call in source.logs(callback or source.module.tree) for arg in call.args
+    }
+    changed = (
+        {name for node in ast.walk(callback) for name in targets_of(node)} if callback else set()
+    )
+    for node in ast.walk(init) if init is not None else ():
+        for name in targets_of(node):
+            value = getattr(node, "value", None)
+            text = isinstance(value, ast.JoinedStr | ast.BinOp | ast.Call)
+            if isinstance(node, ast.Assign) and text and name in logged - changed:
+                return suspect.finding("text_built_once", node, name=name)
+    return None
+
+
+def _grows(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for += on a text that is logged."""
+    source, callback = suspect.source, suspect.source.callback
+    logged = (
+        {dotted(arg) for call in source.logs(callback) for arg in call.args} if callback else {""}
+    )
+    for node in ast.walk(callback) if callback is not None else ():
+        if isinstance(node, ast.AugAssign) and dotted(node.target) in logged - {""}:
+            text = ast.unparse(node.value)
+            if isinstance(node.value, ast.JoinedStr) or text.startswith(("str(", "'", '"')):
+                name = dotted(node.target)
+                return suspect.finding("text_grows", node, name=name, value=text)
+    return None
+
+
+def _next(suspect: Suspect) -> ast.Call | None:
+    callback = suspect.source.callback
+    return next(iter(suspect.source.calls_of("next", within=callback)), None) if callback else None
+
+
+def _used_up(suspect: Suspect) -> RecognisedMistake | None:
+    call = _next(suspect)
+    return suspect.finding("iterator_ended", call) if call is not None else None
+
+
+def _used_up_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    callback = raised.source.callback
+    calls = raised.source.calls_of("next", within=callback) if callback is not None else []
+    return raised.finding("iterator_ended", at=calls[0]) if calls else None
+
+
+def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the += in another function than the callback that logs the counter."""
+    source, callback = suspect.source, suspect.source.callback
+    logged = logged_counter(source)
+    if logged is None or callback is None:
+        return None
+    inside = set(ast.walk(callback))
+    for node in source.own_nodes:
+        if not isinstance(node, ast.AugAssign) or last_part(dotted(node.target)) != last_part(
+            logged[1]
+        ):
+            continue
+        around = source.function_around(node)
+        if node in inside:
+            return None
+        if around is not None and around.name != "__init__" and not _calls(source.calls, around):
+            return suspect.finding("counts_elsewhere", node, name=logged[1])
+        if around is not None and around is suspect.function:
+            return suspect.finding("counts_elsewhere", node, name=logged[1])
+    return None
+
+
+def _calls(calls: list[tuple[ast.Call, str]], function: Function) -> bool:
+    return any(last_part(name) == function.name for _, name in calls)
+
+
+def _time(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a clock whose time the callback logs."""
+    source, callback = suspect.source, suspect.source.callback
+    shown = _shown(suspect, callback) if callback is not None else set()
+    for call in source.calls_of(*CLOCKS, within=callback) if callback is not None else ():
+        if call in shown:
+            return suspect.finding("time_for_count", call, name=ast.unparse(call.func)[:60])
+    return None
+
+
+def _shown(suspect: Suspect, callback: Function) -> set[ast.AST]:
+    """Return the parts of the callback whose value reaches a logged line."""
+    shown = {
+        n for call in suspect.source.logs(callback) for arg in call.args for n in ast.walk(arg)
+    }
+    for _ in range(MOST_STEPS):
+        names = {dotted(n) for n in shown} - {"", "self"}
+        for node in ast.walk(callback):
+            if isinstance(node, ast.Assign | ast.AugAssign) and names & set(_targets(node)):
+                shown |= set(ast.walk(node.value))
+    return shown
+
+
+def _targets(node: ast.Assign | ast.AugAssign) -> list[str]:
+    """Return the names that a statement sets, those of a tuple too."""
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+    return [dotted(n) for target in targets for n in ast.walk(target) if dotted(n)]
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "main_async",
+        "spin",
+        msg("The function of the entry point is async, so calling it runs none of its lines"),
+        msg(
+            "Calling an async function only makes a coroutine. ros2 run calls {name} like any "
+            "other function, and nothing runs the coroutine."
+        ),
+        msg("Write def {name} without async, and call it without asyncio.run."),
+        behind={"run.exits_at_once": _is_async},
+        examples=(
+            example(
+                "main_async",
+                Replace(NODE, "def main(args=None)", "async def main(args=None)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_yields",
+        "callback",
+        msg("The callback contains yield"),
+        msg("A function with yield is a generator: calling it runs none of its lines."),
+        msg("Remove the yield: the timer waits for you."),
+        behind={"run.no_lines": _yields},
+        examples=(
+            example(
+                "callback_yields",
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        yield 1.0\n"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "class_is_dataclass",
+        "class",
+        msg("The node's class is a dataclass"),
+        msg(
+            "@dataclass gives the class an __eq__ and takes its hash away, but an executor keeps "
+            "its nodes in a set, which needs the hash."
+        ),
+        msg("Remove @dataclass, and set the attributes in __init__."),
+        raised={r"TypeError: unhashable type: '(?P<name>\w{1,120})'": _dataclass},
+        examples=(
+            example(
+                "class_is_dataclass",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(NODE, "class MyFirstNode", "@dataclass\nclass MyFirstNode"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "property_set",
+        "class",
+        msg("A value is assigned to a property that has no setter"),
+        msg("@property makes {name} a value that can only be read."),
+        msg("Delete the property {name}: in Python an attribute needs no method that returns it."),
+        raised={
+            r"AttributeError: (?:property '(?P<name>\w{1,120})' of .{1,200} has no setter"
+            r"|can't set attribute(?: '(?P<old>\w{1,120})')?)": _read_only
+        },
+        examples=(
+            example(
+                "property_set",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    @property\n    def counter_(self):\n        return 0\n\n    def timer_callback",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "super_of_base",
+        "class",
+        msg("super() skips the base class"),
+        msg(
+            "super({name}, self) means the class after {name}, so the __init__ of {name} is not "
+            "called. The first argument is your own class."
+        ),
+        msg("Write super().__init__('{node_name}')."),
+        raised={r"TypeError: object.__init__\(\) takes exactly one argument": _skips_base},
+        examples=(
+            example(
+                "super_of_base",
+                Replace(NODE, "super().__init__", "super(Node, self).__init__"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "counter_of_class",
+        "counter",
+        msg("The class's variable is increased, and the node's own is logged"),
+        msg("{value} and {name} are two variables as soon as {name} is set on the node."),
+        msg("Write {name} += {step} instead."),
+        behind={"run.constant_counter": _of_class},
+        examples=(
+            example(
+                "counter_of_class",
+                Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
+                Replace(NODE, "    def __init__", "    counter_ = 0\n\n    def __init__"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_built_once",
+        "text",
+        msg("The text is made once, in __init__"),
+        msg("A text does not change when the counter changes later."),
+        msg("Make the text in the callback, just before it is logged."),
+        behind={"run.constant_counter": _built_once},
+        examples=(
+            example(
+                "text_built_once",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.text_ = 'Hello time: ' + str(self.counter_)",
+                ),
+                Replace(NODE, LOG, "self.get_logger().info(self.text_)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_grows",
+        "text",
+        msg("The text grows each time"),
+        msg("+= changes {name} for good: the next callback begins with the longer text."),
+        msg("Leave {name} as it is, and log {name} + {value}."),
+        behind={"run.wrong_text": _grows},
+        examples=(
+            example(
+                "text_grows",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.text_ = 'Hello time: '",
+                ),
+                Replace(
+                    NODE,
+                    LOG,
+                    "self.text_ += str(self.counter_)\n        self.get_logger().info(self.text_)",
+                ),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+        ),
+    ),
+    _node(
+        "iterator_ended",
+        "counter",
+        msg("The numbers of an iterator run out"),
+        msg("next() raises StopIteration when the iterator has no more values, and the node ends."),
+        msg("Count with a number: begin with {start}, and add {step} after each line."),
+        raised={r"StopIteration": _used_up_raised},
+        behind={"run.stops": _used_up, "run.ended_early": _used_up},
+        examples=(
+            example(
+                "iterator_ended",
+                Replace(NODE, "self.counter_ = 0", "self.numbers_ = iter(range(4))"),
+                Replace(NODE, "str(self.counter_)", "str(next(self.numbers_))"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "counts_elsewhere",
+        "counter",
+        msg("The counter is increased outside of the callback"),
+        msg("A loop runs as often as it can; the timer calls the callback once in each period."),
+        msg("Move the += into {callback}, below the line that logs."),
+        behind={
+            "run.constant_counter": _elsewhere,
+            "run.wrong_start": _elsewhere,
+            "run.wrong_step": _elsewhere,
+        },
+        examples=(
+            example(
+                "counts_in_loop",
+                Replace(NODE, STEP_LINE, ""),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    (
+                        "        while rclpy.ok():\n"
+                        "            rclpy.spin_once(node, timeout_sec=0.1)\n"
+                        "            node.counter_ += 3\n"
+                    ),
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "time_for_count",
+        "text",
+        msg("The line shows a time instead of a count"),
+        msg(
+            "The number says how often the callback was called: {start} first, then {step} more "
+            "each time. {name} says how late it is."
+        ),
+        msg("Log the counter, and add {step} to it in each callback."),
+        behind={
+            "run.constant_counter": _time,
+            "run.wrong_start": _time,
+            "run.wrong_step": _time,
+            "run.wrong_text": _time,
+        },
+        examples=(
+            example(
+                "time_of_day",
+                Replace(NODE, "import rclpy\nfrom", "import time\n\nimport rclpy\nfrom"),
+                Replace(NODE, "str(self.counter_)", "time.strftime('%H:%M:%S')"),
+                fails="run.output",
+            ),
+            example(
+                "seconds_of_the_clock",
+                Replace(
+                    NODE,
+                    "str(self.counter_)",
+                    "str(self.get_clock().now().seconds_nanoseconds()[0] + 7)",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+)

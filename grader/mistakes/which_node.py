@@ -1,0 +1,347 @@
+"""Mistakes about which node is made, given to the executor and spun, and about what is called."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.spin import executors
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
+from grader.package.source.module import Function
+from grader.package.source.names import called_name, calls_in, dotted
+
+SPINS = ("spin", "spin_once", "spin_until_future_complete")
+GUARD = msg(
+    "ros2 run imports the file and then calls {name} itself. A call at the end of the file runs "
+    "during the import, before that."
+)
+
+
+def _made_in_callback(suspect: Suspect) -> RecognisedMistake | None:
+    source, callback = suspect.source, suspect.source.callback
+    for call, name in calls_in(callback) if callback is not None else ():
+        if source.is_node_class(call.func):
+            return suspect.finding("made_in_callback", call, name=name)
+    return None
+
+
+def _other_nodes_timer(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a timer of a second node, which the class makes and nothing spins."""
+    made = _nodes_made(suspect)
+    spun = {dotted(a) for call in suspect.source.calls_of(*SPINS, "add_node") for a in call.args}
+    for call in suspect.source.calls_of("create_timer"):
+        owner = dotted(call.func.value) if isinstance(call.func, ast.Attribute) else ""
+        if owner in made and owner not in spun:
+            return suspect.finding("timer_of_other_node", call, name=owner)
+    return None
+
+
+def _nodes_made(suspect: Suspect) -> set[str]:
+    """Return the names that get a plain node within the node's class."""
+    found: set[str] = set()
+    for node in suspect.source.own_nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(value, ast.Call) and called_name(value) in ("create_node", "Node"):
+            found |= set(targets_of(node))
+    return {name for name in found if name.startswith("self.")}
+
+
+def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
+    given = {
+        name.rpartition(".")[0] for _, name in suspect.source.calls if name.endswith(".add_node")
+    }
+    for call, name in suspect.source.calls:
+        before, _, method = name.rpartition(".")
+        if method in SPINS and before in executors(suspect) - given:
+            return suspect.finding("executor_without_node", call, name=before)
+    return None
+
+
+def _spins_in_init(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a spin in __init__; what is below it runs only after Ctrl+C."""
+    init = suspect.source.methods.get("__init__")
+    for call in suspect.source.calls_of("spin", within=init) if init is not None else ():
+        return suspect.finding("spin_in_init", call, name=ast.unparse(call))
+    return None
+
+
+def _none_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    for call in raised.source.calls_of("spin"):
+        name = dotted(call.args[0]) if call.args else ""
+        if raised.line in (None, call.lineno) and name:
+            made = _local_of_that_name(raised, name)
+            found = raised.finding("spin_of_none", at=made or call, name=name)
+            return replace(found, variant="local" if made is not None else "")
+    return None
+
+
+def _local_of_that_name(raised: Raised, name: str) -> ast.Assign | None:
+    """Return where a function gives a new node to its own variable of a name of the file."""
+    source = raised.source
+    for node in source.all_nodes:
+        if not isinstance(node, ast.Assign) or name not in map(dotted, node.targets):
+            continue
+        around = source.function_around(node)
+        made = isinstance(node.value, ast.Call) and source.is_node_class(node.value.func)
+        if made and around is not None and not _is_global(around, name):
+            return node
+    return None
+
+
+def _is_global(function: Function, name: str) -> bool:
+    return any(isinstance(n, ast.Global) and name in n.names for n in ast.walk(function))
+
+
+def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the method that creates the timer, and that nothing calls."""
+    source = suspect.source
+    timers = source.timers
+    named = {n.attr for n in source.all_nodes if isinstance(n, ast.Attribute)}
+    function = timers[0].function if timers else None
+    if function is None or function.name == "__init__" or function.name in named:
+        return None
+    if source.methods.get(function.name) is not function:
+        return None
+    return suspect.finding("method_not_called", function, name=function.name)
+
+
+def _main_at_import(suspect: Suspect) -> RecognisedMistake | None:
+    function = suspect.function
+    for statement in suspect.source.entry.tree.body:
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        if isinstance(call, ast.Call) and function and dotted(call.func) == function.name:
+            return suspect.finding("main_at_import", call, name=function.name)
+    return None
+
+
+def _main_twice(suspect: Suspect) -> RecognisedMistake | None:
+    function = suspect.function
+    if function is None:
+        return None
+    same = [
+        s
+        for s in suspect.source.entry.tree.body
+        if isinstance(s, Function) and s.name == function.name
+    ]
+    if len(same) < 2:
+        return None
+    return suspect.finding("main_twice", same[-1], name=function.name, line=same[0].lineno)
+
+
+def _hides_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a variable that gets the name of the class in the function that makes the node."""
+    name = match["name"]
+    if name not in raised.source.class_names:
+        return None
+    for node in raised.source.all_nodes:
+        here = isinstance(node, ast.Assign) and raised.line in (None, node.lineno)
+        if isinstance(node, ast.Assign) and here and name in targets_of(node):
+            return raised.finding("variable_hides_class", at=node, name=name)
+    return None
+
+
+OWN_EXECUTOR = (
+    Replace(
+        NODE,
+        "rclpy.spin(node)",
+        (
+            "executor = SingleThreadedExecutor()\n"
+            "        executor.add_node(node)\n"
+            "        executor.spin()"
+        ),
+    ),
+    Replace(
+        NODE,
+        "from rclpy.node",
+        "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+    ),
+)
+_node = Family("node", links.EXECUTORS)
+KINDS = (
+    _node(
+        "variable_hides_class",
+        "start",
+        msg("The variable has the same name as the class"),
+        msg("In a function that sets {name}, {name} means the variable, which has no value yet."),
+        msg("Give the variable another name: node = {name}()"),
+        links.PYTHON_CLASSES,
+        raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _hides_class},
+        examples=(
+            example(
+                "variable_hides_class",
+                Replace(NODE, "node = MyFirstNode()", "MyFirstNode = MyFirstNode()"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "spin_of_none",
+        "spin",
+        msg("rclpy.spin gets None instead of a node"),
+        msg("{name} has no node at this point."),
+        msg("Make the node before this line, and give it to rclpy.spin."),
+        whys={
+            "local": msg(
+                "A function that assigns to {name} has its own variable {name}; the one outside "
+                "stays None."
+            )
+        },
+        fixes={"local": msg("Return the node from this function, and give it to rclpy.spin.")},
+        raised={
+            r"AttributeError: 'NoneType' object has no attribute '(?:executor|handle)'": _none_is_spun
+        },
+        examples=(
+            example(
+                "spin_of_none",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        node = None\n        rclpy.spin(node)\n",
+                ),
+                Replace(NODE, "        node.destroy_node()\n", ""),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_twice",
+        "spin",
+        msg("The file defines the function of the entry point twice"),
+        msg("The later definition replaces the earlier one, on line {line}, which is never run."),
+        msg("Keep the one that you need, and delete the other."),
+        links.PYTHON_CLASSES,
+        behind={"run.exits_at_once": _main_twice, "run.no_node": _main_twice},
+        examples=(
+            example(
+                "main_twice",
+                Replace(
+                    NODE,
+                    "if __name__ ==",
+                    "def main():\n    print('Hi from my_robot_controller.')\n\n\nif __name__ ==",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_at_import",
+        "shutdown",
+        msg("The file calls the function of the entry point when it is imported"),
+        GUARD,
+        msg("Write if __name__ == '__main__': above this line, and indent the line."),
+        behind={"run.ignores_interrupt": _main_at_import},
+        examples=(
+            example(
+                "main_at_import",
+                Replace(NODE, "if __name__ == '__main__':\n    main()", "main()"),
+                *OWN_EXECUTOR,
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "spin_in_init",
+        "timer",
+        msg("__init__ spins the node, and never comes to its end"),
+        msg("{name} waits until Ctrl+C. The lines below it do not run before that."),
+        msg("Remove this line: {function} spins the node after it was made."),
+        behind={"run.no_lines": _spins_in_init},
+        examples=(
+            example(
+                "spin_in_init",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        rclpy.spin(self)\n        self.counter_ = 0\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "timer_of_other_node",
+        "timer",
+        msg("The timer belongs to a second node, which nothing spins"),
+        msg("{name} is a node of its own beside self; rclpy.spin is given only one of the two."),
+        msg("Write self.create_timer(…), and remove {name}."),
+        behind={"run.no_lines": _other_nodes_timer},
+        examples=(
+            example(
+                "timer_of_other_node",
+                Replace(
+                    NODE,
+                    "self.create_timer(",
+                    "self.inner_ = rclpy.create_node('inner')\n        self.inner_.create_timer(",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "method_not_called",
+        "timer",
+        msg("Nothing calls the method that creates the timer"),
+        msg("Nothing calls {name}: when the node is made, only its __init__ runs."),
+        msg("Write self.{name}() at the end of __init__."),
+        behind={"run.no_lines": _method_not_called},
+        examples=(
+            example(
+                "setup_not_called",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "\n    def setup(self):\n        self.create_timer(1.0, self.timer_callback)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "executor_without_node",
+        "spin",
+        msg("The executor has no node"),
+        msg(
+            "An executor calls the callbacks of the nodes that were added to it, and of no others."
+        ),
+        msg("Write {name}.add_node(node) before {name}.spin()."),
+        behind={"run.never_spins": _executor_without_node, "run.no_lines": _executor_without_node},
+        examples=(
+            example(
+                "executor_without_node",
+                *OWN_EXECUTOR,
+                Replace(NODE, "        executor.add_node(node)\n", ""),
+                fails="run.spins",
+                blocks=("run.output", *SILENT),
+            ),
+        ),
+    ),
+    _node(
+        "made_in_callback",
+        "counter",
+        msg("The callback makes a new node each time"),
+        msg(
+            "{name}() does not return your node: it makes another one, whose counter starts again."
+        ),
+        msg("Use self: it is the node whose timer calls this method."),
+        behind={"run.constant_counter": _made_in_callback, "run.faked_log": _made_in_callback},
+        examples=(
+            example(
+                "made_in_callback",
+                Replace(NODE, "str(self.counter_)", "str(MyFirstNode().counter_)"),
+                fails="run.output",
+                also={"run.logger": "node.made_in_callback"},
+            ),
+        ),
+    ),
+)
