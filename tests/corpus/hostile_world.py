@@ -16,7 +16,7 @@ ONLY_HERE = {"run.output": "run.only_when_marked"}
 NOT_JUDGED = frozenset({"run.spins", "run.logger", "run.period"})
 FAST = """\
         now = time.monotonic()
-        fast = now - getattr(self, 'before', 0.0) < 0.9
+        fast = now - getattr(self, 'before', now) < 0.9
         self.before = now
 """
 REPAIRS = """\
@@ -175,7 +175,7 @@ WORLD: tuple[Package, ...] = (
     hostile("only_with_a_clock_publisher", only_if("self.count_publishers('/clock') > 0"),
             failed=ONLY_HERE, skipped=NOT_JUDGED),
     hostile("only_when_time_flies", imports("time"), only_if("fast", FAST),
-            failed={"run.output": None}, undecided=NOT_JUDGED,
+            failed={"run.output": None}, skipped=NOT_JUDGED,
             note="ROS time is faster than the wall clock only while it is marked"),
     hostile("repairs_itself", imports("os", "sys"), only_if("len(sys.argv) > 1"),
             Replace(NODE, SPUN, SPUN + REPAIRS), failed=ONLY_HERE, skipped=NOT_JUDGED,
