@@ -123,6 +123,9 @@ KINDS = (
             "key": msg(
                 "Write quotes around {name}: '{name}'. A name without quotes is a variable."
             ),
+            "repeated": msg(
+                "Give {name} to setup() only once: delete the one that you do not need."
+            ),
             "hidden": msg("Give {name}.py another name, or move it out of the package."),
             "relative": msg("Do not open {name} in setup.py: delete that line and what uses it."),
             **PASTED,
@@ -147,6 +150,12 @@ KINDS = (
             example(
                 "group_without_quotes",
                 Replace(SETUP, "'console_scripts'", "console_scripts"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_argument_repeated",
+                Replace(SETUP, "    entry_points={", "    entry_points={},\n    entry_points={"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),

@@ -181,6 +181,46 @@ def _calls(calls: list[tuple[ast.Call, str]], function: Function) -> bool:
     return any(last_part(name) == function.name for _, name in calls)
 
 
+def _frozen(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a callback that logs its own parameter: its value was passed with the timer."""
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None:
+        return None
+    given = {arg.arg for arg in (*callback.args.args, *callback.args.kwonlyargs)} - {"self"}
+    logged = {dotted(n) for call in source.logs(callback) for a in call.args for n in ast.walk(a)}
+    changed = {name for node in ast.walk(callback) for name in targets_of(node)}
+    for name in sorted(given & logged - changed):
+        return suspect.finding(
+            "argument_frozen", source.timers[0].call if source.timers else None, name=name
+        )
+    return None
+
+
+def _other_attribute(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a sum with the counter that is kept under another name."""
+    logged, callback = logged_counter(suspect.source), suspect.source.callback
+    if logged is None or callback is None:
+        return None
+    for node in ast.walk(callback):
+        value = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add):
+            names = {dotted(n) for n in ast.walk(value)}
+            others = [name for name in targets_of(node) if name != logged[1]]
+            if isinstance(node, ast.Assign) and logged[1] in names and others:
+                return suspect.finding("counter_other_name", node, name=logged[1], value=others[0])
+    return None
+
+
+def _condition(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an exception's class as a condition."""
+    for node in suspect.source.all_nodes:
+        test = node.test if isinstance(node, ast.If | ast.While) else None
+        name = last_part(dotted(test)) if test is not None else ""
+        if test is not None and name.endswith(("Interrupt", "Exception", "Error")):
+            return suspect.finding("exception_as_condition", test, name=name)
+    return None
+
+
 def _time(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a clock whose time the callback logs."""
     source, callback = suspect.source, suspect.source.callback
@@ -414,6 +454,79 @@ KINDS = (
                     ),
                 ),
                 fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "argument_frozen",
+        "counter",
+        msg("The callback gets the number as an argument, which never changes"),
+        msg("An argument is evaluated once, when the timer is created, and not at each call."),
+        msg("Give the timer the callback alone, and read the counter in the callback."),
+        behind={"run.constant_counter": _frozen},
+        examples=(
+            example(
+                "argument_frozen",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from functools import partial\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, partial(self.timer_callback, self.counter_))",
+                ),
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(self, number)"),
+                Replace(NODE, "str(self.counter_)", "str(number)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "counter_other_name",
+        "counter",
+        msg("The sum is kept under another name"),
+        msg("This line sets {value}. {name}, which is logged, stays as it is."),
+        msg("Write {name} += {step}"),
+        behind={"run.constant_counter": _other_attribute},
+        examples=(
+            example(
+                "counter_other_name",
+                Replace(NODE, "self.counter_ += 1", "self.counter = self.counter_ + 1"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "exception_as_condition",
+        "spin",
+        msg("A class of exceptions is used as a condition"),
+        msg(
+            "A class always counts as true: if {name}: does not ask whether the exception came. "
+            "try and except do."
+        ),
+        msg("Write try: before rclpy.spin(node), and except {name}: below it."),
+        links.PYTHON_ERRORS,
+        behind={
+            "run.exits_at_once": _condition,
+            "run.ended_early": _condition,
+            "run.stops": _condition,
+        },
+        examples=(
+            example(
+                "exception_as_condition",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    (
+                        "        while rclpy.ok():\n"
+                        "            rclpy.spin_once(node)\n"
+                        "            if KeyboardInterrupt:\n"
+                        "                break\n"
+                    ),
+                ),
+                fails="run.starts",
             ),
         ),
     ),

@@ -131,6 +131,7 @@ KINDS = (
             "ampersand": msg("Write &amp; instead of &."),
             "before": msg("Delete what is before the first < of the file."),
             "after": msg("Delete what is after the last > of the file."),
+            "outside": msg("Move this line above </{name}>: all tags belong inside <{name}>."),
             "bare": msg("Write quotes around the value: {wanted}"),
             "comment": msg("Write --> where the comment ends."),
         },

@@ -8,14 +8,14 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, calls_in, dotted
+from grader.package.source.names import called_name, calls_in, dotted, last_part
 
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 GUARD = msg(
@@ -136,6 +136,17 @@ def _main_twice(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("main_twice", same[-1], name=function.name, line=same[0].lineno)
 
 
+def _daemon(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a daemon thread that spins, while the function comes to its end."""
+    for call in suspect.source.calls_of("Thread"):
+        given = {keyword.arg: keyword.value for keyword in call.keywords}
+        target, daemon = given.get("target"), given.get("daemon")
+        spins = target is not None and last_part(dotted(target)) in SPINS
+        if spins and isinstance(daemon, ast.Constant) and daemon.value is True:
+            return suspect.finding("spin_in_daemon", call)
+    return None
+
+
 def _hides_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Look for a variable that gets the name of the class in the function that makes the node."""
     name = match["name"]
@@ -207,6 +218,26 @@ KINDS = (
                     "        node = None\n        rclpy.spin(node)\n",
                 ),
                 Replace(NODE, "        node.destroy_node()\n", ""),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "spin_in_daemon",
+        "spin",
+        msg("A daemon thread spins the node, and nothing waits for it"),
+        msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
+        msg("Call rclpy.spin(node) in {function} itself, without the thread."),
+        behind={"run.exits_at_once": _daemon},
+        examples=(
+            example(
+                "spin_in_daemon",
+                Replace(NODE, "import rclpy\nfrom", "import threading\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n",
+                ),
                 fails="run.starts",
             ),
         ),

@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "bare", "comment",
+    "after", "outside", "bare", "comment",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
 TYPOGRAPHIC = re.compile(rb"\xe2\x80[\x98-\x9f]")  # U+2018 to U+201F in UTF-8
@@ -220,6 +220,9 @@ def _after(reader: _Reader, at: int) -> XmlFault | None:
     """Return what is below the last end tag."""
     found = reader.found
     start = found.rfind(b">") + 1
+    root = found.rfind(b"</package>", 0, at)
+    if root >= 0 and found[start:].strip() == b"":
+        return reader.fault("outside", "package", at)
     if found[start:].strip() == b"" or start > at:
         return None
     return reader.fault("after", "", at, (start, len(found), b"\n"))

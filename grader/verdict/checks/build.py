@@ -262,6 +262,17 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
 
 
 def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
+    repeated = re.search(r"keyword argument repeated: (\w{1,80})", error)
+    if repeated is not None:
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("Python cannot read setup.py: {error}", error=error),
+            where=where,
+            variant="repeated",
+            params={"error": error},
+            words={"name": repeated[1]},
+        )
     slip = slip_of(_setup_py(evidence))
     actual: str = say("Python cannot read setup.py: {error}", error=error)
     if slip is not None:

@@ -138,6 +138,7 @@ def _described(fault: XmlFault) -> Message:
         "ampersand": say("there is a bare &"),
         "before": say("there is something before the first tag"),
         "after": say("there is something after the last tag"),
+        "outside": say("there is a tag below </{name}>", **words),
         "bare": say("<{tag} …> has a value without quotes", **words),
         "comment": say("a comment that begins with <!-- has no end"),
     }
