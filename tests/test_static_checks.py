@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from grader.verdict.checks import package
+from grader.verdict.checks import package, source
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import INTAKE
 
-from .static_bench import FILES, MARKER, NAME, Bench, line, mistake
+from .static_bench import FILES, MARKER, NAME, NODE, Bench, line, mistake
 
 
 @pytest.fixture
@@ -266,3 +266,14 @@ def test_dashes_in_setup_cfg_pass_with_advice_and_spaces_and_crlf_without(bench:
     assert len(bench.passes(package.setup_cfg).advice) == 2
     bench.write("setup.cfg", text.replace("=", " = ").replace("\n", "\r\n"))
     assert not bench.passes(package.setup_cfg).advice
+
+
+# source.node_file
+
+
+def test_another_version_of_the_node_beside_one_without_a_timer_is_advice(bench: Bench) -> None:
+    bench.write(f"{NAME}/my_first_node_final.py", FILES[NODE])
+    (advice,) = bench.passes(source.node_file).advice
+    bench.change(NODE, "pass", "node.create_timer(1.0, print)")
+    assert not bench.passes(source.node_file).advice
+    assert advice.startswith(f"{NAME}/my_first_node_final.py has a node too")

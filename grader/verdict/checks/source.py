@@ -74,7 +74,25 @@ def node_file(evidence: Evidence) -> Passed:
             inner=inner,
         )
         advice.insert(0, no_init)
+    other = _other_version(evidence, path)
+    if other:
+        two = say("{other} has a node too, but ros2 run starts {path}.", other=other, path=path)
+        advice.insert(0, two)
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _other_version(evidence: Evidence, path: str) -> str:
+    """Return another file with a node beside a node's file that has no timer; "" if there is none."""
+    file, inner = file_of(evidence, path), evidence.assignment.folder
+    code = file.data if file is not None else b""
+    if b"create_timer" in code:
+        return ""
+    for name in names_in(evidence, inner):
+        there = f"{inner}/{name}"
+        known = name == "__init__.py" or there == path or name.removesuffix(".py").encode() in code
+        if name.endswith(".py") and not known and _has_node(evidence, there):
+            return shown(there)
+    return ""
 
 
 def _empty(evidence: Evidence, path: str) -> Failed:
