@@ -193,9 +193,10 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
         "1 line, then no more came", "{count} lines, then no more came", len(events)
     )
     if run.ended_by_itself:
-        actual = say(
+        actual = say_plural(
+            "1 line, then the node ended by itself ({error})",
             "{count} lines, then the node ended by itself ({error})",
-            count=len(events),
+            len(events),
             error=error or _status(evidence),
         )
     raise Failed(
