@@ -9,3 +9,5 @@ from .hostile_world import WORLD
 from .model import Package
 
 HOSTILE: tuple[Package, ...] = (*NODES, *SETUPS, *POINTS_ATTACKS, *WORLD)
+WAITED_FOR = ("sleeps_twice", "stops_itself", "setup_makes_unreadable_folders")
+"""Packages whose verdict is waited for, half a minute and more: `make test-long`, not CI."""

@@ -209,6 +209,6 @@ POINTS_ATTACKS: tuple[Package, ...] = (
                   "    threading.Thread(target=flood, daemon=True).start()\n"),
             failed={"run.logger": "run.faked_log"}),
     hostile("deaf_for_fifteen_seconds", imports("os", "signal", "threading", "time"),
-            made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "run.ignores_interrupt"},
+            made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "node.signal_handler"},
             note="dots after Ctrl+C, then it ends by itself"),
 )  # fmt: skip

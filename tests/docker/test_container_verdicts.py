@@ -16,7 +16,7 @@ from grader.sandbox import orphans
 from tests import engine, processes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
-from tests.corpus.hostile import HOSTILE
+from tests.corpus.hostile import HOSTILE, WAITED_FOR
 from tests.corpus.model import Package
 from tests.corpus.right import RIGHT
 from tests.docker.test_containers import made_by
@@ -29,7 +29,11 @@ VERDICTS = 50
 def some(corpus: tuple[Package, ...], each: int, *, later: int) -> list[object]:
     """Return every n-th package of a corpus for CI, and more of them for the long run."""
     return [
-        pytest.param(package, id=package.name, marks=() if n % each == 0 else pytest.mark.long)
+        pytest.param(
+            package,
+            id=package.name,
+            marks=() if n % each == 0 and package.name not in WAITED_FOR else pytest.mark.long,
+        )
         for n, package in enumerate(corpus)
         if n % each == 0 or n % later == 0
     ]
