@@ -57,7 +57,7 @@ def _python_logging(suspect: Suspect) -> RecognisedMistake | None:
 def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
     for call in suspect.source.calls_of("signal"):
         ignored = len(call.args) > 1 and last_part(dotted(call.args[1])).startswith("SIG_")
-        if _full_name(suspect, call) in ("signal.signal", "signal.signal.signal") and not ignored:
+        if _full_name(suspect, call) == "signal.signal" and not ignored:
             return suspect.finding("signal_handler", call)
     return None
 
@@ -211,10 +211,7 @@ KINDS = (
         msg("The base class is not the Node of ROS"),
         msg("This line imports {module}, another class of that name, which is no ROS node."),
         msg("Write: from rclpy.node import Node"),
-        raised={
-            r"TypeError: object.__init__\(\) takes exactly one argument": _other_node_class,
-            r"TypeError: .{1,80}\.__init__\(\) ": _other_node_class,
-        },
+        raised={r"TypeError: .{1,80}\.__init__\(\) ": _other_node_class},
         examples=(
             example(
                 "other_node_class",

@@ -14,6 +14,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
+from grader.package.source.node import NodeSource
 
 CLOCKS = ("time", "monotonic", "perf_counter", "now", "strftime", "seconds_nanoseconds", "ctime")
 """Functions and methods that return or show a time."""
@@ -81,39 +82,35 @@ def _skips_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
 
 def _of_class(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a change to the class's variable, while the node's own is logged."""
-    name, node = _other_owner(suspect)
-    if node is None:
-        return None
-    return suspect.finding("counter_of_class", node, name=name, value=_written(node))
-
-
-def _other_owner(suspect: Suspect) -> tuple[str, ast.AugAssign | None]:
     logged = logged_counter(suspect.source)
     if logged is None or not logged[1].startswith("self."):
-        return "", None
+        return None
     classes = {*suspect.source.class_names, "type(self)", "self.__class__", "cls"}
     for node in suspect.source.own_nodes:
         if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Attribute):
-            owner = ast.unparse(node.target.value)
-            if owner in classes and node.target.attr == last_part(logged[1]):
-                return logged[1], node
-    return "", None
+            owner, name = ast.unparse(node.target.value), node.target.attr
+            if owner in classes and name == last_part(logged[1]):
+                written = ast.unparse(node.target)
+                return suspect.finding("counter_of_class", node, name=logged[1], value=written)
+    return None
 
 
-def _written(node: ast.AugAssign) -> str:
-    return ast.unparse(node.target)
+def _logged(source: NodeSource, part: ast.AST) -> list[ast.expr]:
+    """Return the texts that the log calls in a part of the source get."""
+    return [arg for call in source.logs(part) for arg in call.args]
+
+
+def _set_in(function: Function) -> set[str]:
+    """Return the names that a function assigns to."""
+    return {name for node in ast.walk(function) for name in targets_of(node)}
 
 
 def _built_once(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a logged attribute that __init__ sets to a text with a value in it."""
     source, callback = suspect.source, suspect.source.callback
     init = source.methods.get("__init__")
-    logged = {
-        dotted(arg) for call in source.logs(callback or source.module.tree) for arg in call.args
-    }
-    changed = (
-        {name for node in ast.walk(callback) for name in targets_of(node)} if callback else set()
-    )
+    logged = set(map(dotted, _logged(source, callback or source.module.tree)))
+    changed = _set_in(callback) if callback is not None else set()
     for node in ast.walk(init) if init is not None else ():
         for name in targets_of(node):
             value = getattr(node, "value", None)
@@ -126,11 +123,11 @@ def _built_once(suspect: Suspect) -> RecognisedMistake | None:
 def _grows(suspect: Suspect) -> RecognisedMistake | None:
     """Look for += on a text that is logged."""
     source, callback = suspect.source, suspect.source.callback
-    logged = (
-        {dotted(arg) for call in source.logs(callback) for arg in call.args} if callback else {""}
-    )
-    for node in ast.walk(callback) if callback is not None else ():
-        if isinstance(node, ast.AugAssign) and dotted(node.target) in logged - {""}:
+    if callback is None:
+        return None
+    logged = set(map(dotted, _logged(source, callback))) - {""}
+    for node in ast.walk(callback):
+        if isinstance(node, ast.AugAssign) and dotted(node.target) in logged:
             text = ast.unparse(node.value)
             if isinstance(node.value, ast.JoinedStr) or text.startswith(("str(", "'", '"')):
                 name = dotted(node.target)
@@ -138,21 +135,21 @@ def _grows(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
-def _next(suspect: Suspect) -> ast.Call | None:
-    callback = suspect.source.callback
-    return next(iter(suspect.source.calls_of("next", within=callback)), None) if callback else None
+def _next(source: NodeSource) -> ast.Call | None:
+    """Return the callback's first call of next()."""
+    callback = source.callback
+    return next(iter(source.calls_of("next", within=callback)), None) if callback else None
 
 
 def _used_up(suspect: Suspect) -> RecognisedMistake | None:
-    call = _next(suspect)
+    call = _next(suspect.source)
     return suspect.finding("iterator_ended", call) if call is not None else None
 
 
 def _used_up_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
-    callback = raised.source.callback
-    calls = raised.source.calls_of("next", within=callback) if callback is not None else []
-    return raised.finding("iterator_ended", at=calls[0]) if calls else None
+    call = _next(raised.source)
+    return raised.finding("iterator_ended", at=call) if call is not None else None
 
 
 def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
@@ -170,9 +167,9 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         around = source.function_around(node)
         if node in inside:
             return None
-        if around is not None and around.name != "__init__" and not _calls(source.calls, around):
-            return suspect.finding("counts_elsewhere", node, name=logged[1])
-        if around is not None and around is suspect.function:
+        if around is None or around.name == "__init__":
+            continue
+        if around is suspect.function or not _calls(source.calls, around):
             return suspect.finding("counts_elsewhere", node, name=logged[1])
     return None
 
@@ -187,9 +184,8 @@ def _frozen(suspect: Suspect) -> RecognisedMistake | None:
     if callback is None:
         return None
     given = {arg.arg for arg in (*callback.args.args, *callback.args.kwonlyargs)} - {"self"}
-    logged = {dotted(n) for call in source.logs(callback) for a in call.args for n in ast.walk(a)}
-    changed = {name for node in ast.walk(callback) for name in targets_of(node)}
-    for name in sorted(given & logged - changed):
+    logged = {dotted(n) for text in _logged(source, callback) for n in ast.walk(text)}
+    for name in sorted(given & logged - _set_in(callback)):
         return suspect.finding(
             "argument_frozen", source.timers[0].call if source.timers else None, name=name
         )
@@ -233,9 +229,7 @@ def _time(suspect: Suspect) -> RecognisedMistake | None:
 
 def _shown(suspect: Suspect, callback: Function) -> set[ast.AST]:
     """Return the parts of the callback whose value reaches a logged line."""
-    shown = {
-        n for call in suspect.source.logs(callback) for arg in call.args for n in ast.walk(arg)
-    }
+    shown = {n for text in _logged(suspect.source, callback) for n in ast.walk(text)}
     for _ in range(MOST_STEPS):
         names = {dotted(n) for n in shown} - {"", "self"}
         for node in ast.walk(callback):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
@@ -216,64 +217,56 @@ def _unquoted(found: bytes, error: str) -> ast.Name | None:
 
 def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     """Return the error with which setup.py stopped, or the missing comma that it comes from."""
-    hidden = HIDDEN.match(error)
-    if hidden is not None and evidence.submission.file(f"{hidden[1]}.py") is not None:
-        return Failed(
-            "build.setup_error",
-            expected=expected,
-            actual=say("setup.py stopped with {error}", error=error),
-            where=Where(file=f"{hidden[1]}.py"),
-            variant="hidden",
-            params={"error": error},
-            words={"name": hidden[1]},
-        )
-    opened = NOT_THERE.match(error)
-    if opened is not None and evidence.submission.file(opened[1]) is not None:
-        return Failed(
-            "build.setup_error",
-            expected=expected,
-            actual=say("setup.py stopped with {error}", error=error),
-            where=where,
-            variant="relative",
-            params={"error": error},
-            words={"name": opened[1]},
-        )
-    found = called_value(_setup_py(evidence)) if NOT_CALLABLE.match(error) else None
-    line = str(found.end_lineno) if found is not None else ""
-    key = _unquoted(_setup_py(evidence), error)
+    submission, code = evidence.submission, _setup_py(evidence)
+    hidden, opened = HIDDEN.match(error), NOT_THERE.match(error)
+    if hidden is not None and submission.file(f"{hidden[1]}.py") is not None:
+        place, words = Where(file=f"{hidden[1]}.py"), {"name": hidden[1]}
+        return _stopped_with(expected, error, place, "hidden", words=words)
+    if opened is not None and submission.file(opened[1]) is not None:
+        return _stopped_with(expected, error, where, "relative", words={"name": opened[1]})
+    key = _unquoted(code, error)
     if key is not None:
-        return Failed(
-            "build.setup_error",
-            expected=expected,
-            actual=say("setup.py stopped with {error}", error=error),
-            where=Where(file="setup.py", line=key.lineno),
-            variant="key",
-            params={"error": error, "name": key.id},
+        place = Where(file="setup.py", line=key.lineno)
+        return _stopped_with(expected, error, place, "key", params={"name": key.id})
+    found = called_value(code) if NOT_CALLABLE.match(error) else None
+    if found is not None and found.end_lineno:
+        place, words = (
+            Where(file="setup.py", line=found.end_lineno),
+            {"line": str(found.end_lineno)},
         )
+        return _stopped_with(expected, error, place, "comma", words=words)
+    return _stopped_with(expected, error, where)
+
+
+def _stopped_with(
+    expected: str,
+    error: str,
+    where: Where,
+    variant: str = "",
+    *,
+    params: Mapping[str, str] | None = None,
+    words: Mapping[str, str] | None = None,
+) -> Failed:
+    """Return that setup.py stopped with an error."""
     return Failed(
         "build.setup_error",
         expected=expected,
         actual=say("setup.py stopped with {error}", error=error),
-        where=Where(file="setup.py", line=int(line)) if line else where,
-        variant="comma" if line else "",
-        params={"error": error},
-        words={"line": line},
+        where=where,
+        variant=variant,
+        params={"error": error, **(params or {})},
+        words=words,
     )
 
 
 def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     repeated = re.search(r"keyword argument repeated: (\w{1,80})", error)
+    slip = slip_of(_setup_py(evidence)) if repeated is None else None
+    variant, words = "unreadable", {}
     if repeated is not None:
-        return Failed(
-            "build.setup_error",
-            expected=expected,
-            actual=say("Python cannot read setup.py: {error}", error=error),
-            where=where,
-            variant="repeated",
-            params={"error": error},
-            words={"name": repeated[1]},
-        )
-    slip = slip_of(_setup_py(evidence))
+        variant, words = "repeated", {"name": repeated[1]}
+    elif slip is not None:
+        variant, words = slip.variant, words_of(slip)
     actual: str = say("Python cannot read setup.py: {error}", error=error)
     if slip is not None:
         actual, where = (
@@ -285,9 +278,9 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
         expected=expected,
         actual=actual,
         where=where,
-        variant=slip.variant if slip is not None else "unreadable",
+        variant=variant,
         params={"error": error},
-        words=words_of(slip) if slip is not None else {},
+        words=words,
     )
 
 
