@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Builds and tests all distros and bases on a machine with access to a registry, and prints the table
 # for the README:  docker/all.sh [DISTRO...]
-# For each: builds both images, marks the solution in a container (it must get full marks), and runs
-# `ros2 pkg prefix` in the lab. WHEELS_BASE names another image for the base `wheels`.
+# For each: builds both images, marks the solutions of all lessons in a container (they must get full
+# marks), and runs `ros2 pkg prefix` in the lab. WHEELS_BASE names another image for the base `wheels`.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 python3 grader/bootstrap.py || exit 3
 [ $# -gt 0 ] || set -- $(sed -n 's/^\[\([a-z]*\)\]$/\1/p' grader/ros/distros.toml)
 repository=${GRADER_IMAGES:-ros2-teaching-lab}
-solution=grader/keys/hello_time/solution/my_robot_controller
+lessons=$(sed -n 's/^lessons: *\[\(.*\)\]$/\1/p' lab/course/course.yaml | tr -d ,)
 log=$(mktemp -d)
 failed=0
 printf '| distro | base | built | marked | lab | grade image | lab image |\n|---|---|---|---|---|---|---|\n'
@@ -25,8 +25,12 @@ for distro in "$@"; do
       ${EXTRA_CA:+--extra-ca "$EXTRA_CA"} ${APT_MIRROR:+--apt-mirror "$APT_MIRROR"} \
       ${PIP_INDEX_URL:+--pip-index "$PIP_INDEX_URL"} > "$log/$distro-$base.log" 2>&1; then
       built=yes
-      .venv/bin/python -m grader grade "$solution" --sandbox docker --distro "$distro" \
-        --out "$log/reports-$base" >> "$log/$distro-$base.log" 2>&1 && marked=yes
+      marked=yes
+      for lesson in $lessons; do
+        .venv/bin/python -m grader grade "grader/keys/$lesson/solution" --assignment "$lesson" \
+          --sandbox docker --distro "$distro" --out "$log/reports-$base" \
+          >> "$log/$distro-$base.log" 2>&1 || marked=no
+      done
       docker run --rm "$GRADER_IMAGES:lab-$distro$suffix" bash -c \
         ". /opt/ros/$distro/setup.bash && ros2 pkg prefix rclpy" >> "$log/$distro-$base.log" 2>&1 &&
         lab=yes

@@ -11,7 +11,8 @@ ARG WHEELS_BASE=debian:trixie-slim
 FROM ${WHEELS_BASE} AS python
 ARG APT_MIRROR=
 COPY docker/apt_install.sh /usr/local/sbin/
-RUN apt_install.sh python3 libatomic1
+# a compiler and Python's headers: students build interfaces of their own
+RUN apt_install.sh python3 libatomic1 g++ make python3-dev
 
 FROM python AS prefix
 ARG APT_MIRROR=
@@ -30,15 +31,19 @@ COPY grader/base/__init__.py grader/base/errors.py grader/base/cache.py grader/b
      grader/base/nearest.py grader/base/shown.py grader/base/
 COPY grader/base/i18n/__init__.py grader/base/i18n/message.py grader/base/i18n/
 COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/prefix.py grader/ros/prefix_build.py \
-     grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in grader/ros/
+     grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in \
+     grader/ros/interfaces.py grader/ros/interface_package.py grader/ros/interfaces.cmake.in grader/ros/
+COPY grader/ros/turtlesim grader/ros/turtlesim
 COPY grader/ros/locks grader/ros/locks
 COPY grader/ros/ros2_command grader/ros/ros2_command
 ARG DISTRO=jazzy
 RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
  && mkdir -p /opt/ros \
  && GRADER_CACHE=/cache .venv/bin/python -c "from grader.ros.distro import find_distro; \
-from grader.ros.prefix import wheels_prefix; \
-wheels_prefix(find_distro('$DISTRO'), prove=lambda ros: None).rename('/opt/ros/$DISTRO')"
+from grader.ros.interfaces import with_interfaces; \
+from grader.ros.prefix import find_ros; \
+ros = find_ros(find_distro('$DISTRO'), prove=lambda ros: None); \
+with_interfaces(ros, notify=print).path.rename('/opt/ros/$DISTRO')"
 
 FROM python AS wheels
 COPY --from=prefix /opt/ros /opt/ros

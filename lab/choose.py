@@ -20,8 +20,10 @@ Enter = Callable[[LabConfig], int]
 """Opens a lab and returns the exit status of its command."""
 
 
-def choose(kind: str, distro: Distro, *, notify: Notify) -> Enter:
+def choose(kind: str, distro: Distro, *, interfaces: bool = False, notify: Notify) -> Enter:
     """Return the function that opens a lab of this kind; report the choice with `notify`.
+
+    With `interfaces`, ROS has those of turtlesim, and what builds a student's own.
 
     Raises UsageError for an unknown kind, SurroundingsError if the lab is not available.
     """
@@ -32,13 +34,13 @@ def choose(kind: str, distro: Distro, *, notify: Notify) -> Enter:
             remedy=joined(did_you_mean(kind, KINDS), known),
         )
     if kind == "bubblewrap":
-        return _bubblewrap(distro, notify)
+        return _bubblewrap(distro, interfaces, notify)
     try:
         enter, image = _docker(distro)
     except SurroundingsError as error:
         if kind == "docker":
             raise
-        return _without_docker(distro, error, notify)
+        return _without_docker(distro, error, interfaces, notify)
     notify(
         say("opening ROS 2 {distro} in a container from {image}", distro=distro.name, image=image)
     )
@@ -60,11 +62,13 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     return lab.enter, image.tags[0] if image.tags else str(image.short_id)
 
 
-def _bubblewrap(distro: Distro, notify: Notify) -> Enter:
-    return BubblewrapLab(proven_ros(distro, notify=notify)).enter
+def _bubblewrap(distro: Distro, interfaces: bool, notify: Notify) -> Enter:
+    return BubblewrapLab(proven_ros(distro, interfaces=interfaces, notify=notify)).enter
 
 
-def _without_docker(distro: Distro, error: SurroundingsError, notify: Notify) -> Enter:
+def _without_docker(
+    distro: Distro, error: SurroundingsError, interfaces: bool, notify: Notify
+) -> Enter:
     if distro.lock is None and not has_system_ros(distro):
         raise SurroundingsError(
             say(
@@ -81,4 +85,4 @@ def _without_docker(distro: Distro, error: SurroundingsError, notify: Notify) ->
             problem=error.message,
         )
     )
-    return _bubblewrap(distro, notify)
+    return _bubblewrap(distro, interfaces, notify)

@@ -75,7 +75,8 @@ def command(
     words: tuple[str, ...],
 ) -> int:
     """Open the lab on this terminal."""
-    from grader.ros.distro import find_distro  # noqa: PLC0415 - keeps --help fast
+    from grader.course.load import load_assignment  # noqa: PLC0415 - keeps --help fast
+    from grader.ros.distro import find_distro  # noqa: PLC0415
     from lab.choose import choose  # noqa: PLC0415
     from lab.config import LabConfig  # noqa: PLC0415
     from lab.lesson import chosen_lesson  # noqa: PLC0415
@@ -85,7 +86,12 @@ def command(
     with errors_in(translate.lang):
         found = find_distro(distro)
         lesson = chosen_lesson(assignment)
-        enter = choose(sandbox, found, notify=lambda text: _notify(translate(text)))
+        enter = choose(
+            sandbox,
+            found,
+            interfaces=load_assignment(lesson.file).needs_interfaces,
+            notify=lambda text: _notify(translate(text)),
+        )
         config = LabConfig(found, prepare(workspace), lesson, command=words, lang=translate.lang)
         status = enter(config)
     interactive = not words and sys.stdin.isatty()

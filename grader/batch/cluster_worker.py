@@ -36,7 +36,13 @@ def check_here(job: str) -> str:
     own = source_digest(PACKAGE, NOT_MARKING)
     try:
         distro = find_distro(wanted.distro)
-        sandbox = open_sandbox(wanted.sandbox, distro, wanted.limits, notify=unheard)
+        sandbox = open_sandbox(
+            wanted.sandbox,
+            distro,
+            wanted.limits,
+            interfaces=wanted.assignment.needs_interfaces,
+            notify=unheard,
+        )
         try:
             try_out(sandbox)
         finally:

@@ -52,7 +52,13 @@ class MarkingSetting:
 
 def prepare(order: Order, *, notify: Callable[[str], None]) -> MarkingSetting:
     """Open the order's sandbox once and return the setting; SurroundingsError if none opens."""
-    sandbox = open_sandbox(order.sandbox, order.distro, order.limits, notify=notify)
+    sandbox = open_sandbox(
+        order.sandbox,
+        order.distro,
+        order.limits,
+        interfaces=order.assignment.needs_interfaces,
+        notify=notify,
+    )
     sandbox.close()
     return MarkingSetting(
         assignment=order.assignment,

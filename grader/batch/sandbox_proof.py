@@ -16,7 +16,13 @@ from grader.sandbox.choose import open_sandbox
 
 def prove(job: Job) -> None:
     """Open the job's sandbox and try it; raise SurroundingsError for what does not work."""
-    sandbox = open_sandbox(job.sandbox, find_distro(job.distro), job.limits, notify=unheard)
+    sandbox = open_sandbox(
+        job.sandbox,
+        find_distro(job.distro),
+        job.limits,
+        interfaces=job.assignment.needs_interfaces,
+        notify=unheard,
+    )
     try:
         try_out(sandbox)
     finally:

@@ -26,7 +26,8 @@ class Distro:
     """A ROS 2 release.
 
     `lock` is the lock file of its wheels prefix, None if PyPI has no wheels; `documentation` is a
-    URL; `dds_profile` is the environment variable that names a Fast DDS profile.
+    URL; `dds_profile` is the environment variable that names a Fast DDS profile; `turtlesim` is the
+    package of turtlesim's interfaces.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Distro:
     end_of_life: str = ""
     digest: str = ""
     rclpy: str = ""
+    turtlesim: str = "turtlesim_msgs"
     lock: Path | None = None
 
     @property

@@ -36,7 +36,9 @@ def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, notify: Not
     Raises SurroundingsError if pip cannot install the wheels.
     """
     python = f"{sys.version_info.major}.{sys.version_info.minor}"
-    _install(distro, staging, notify)
+    lock = distro.lock
+    assert lock is not None
+    install(distro.name, lock, staging, notify)
     site = staging / "lib" / f"python{python}" / "site-packages"
     if not (site / "rclpy").is_dir():
         raise SurroundingsError(f"pip did not install rclpy into {site}")
@@ -57,9 +59,8 @@ def make_prefix(distro: Distro, staging: Path, interpreter: Path, *, notify: Not
     (staging / "wheels-prefix.json").write_text(json.dumps(versions, indent=1), encoding="utf-8")
 
 
-def _install(distro: Distro, staging: Path, notify: Notify) -> None:
-    lock = distro.lock
-    assert lock is not None
+def install(distro: str, lock: Path, staging: Path, notify: Notify) -> None:
+    """Install the packages of a lock file into a prefix; raises SurroundingsError if pip fails."""
     total = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
     command = [sys.executable, "-I", "-m", "pip", "install", "--prefix", str(staging)]
     command += ["--ignore-installed", "--no-deps", "--require-hashes", "-r", str(lock)]
@@ -88,7 +89,7 @@ def _install(distro: Distro, staging: Path, notify: Notify) -> None:
                 notify(Message(UNPACKING))
     if pip.returncode:
         raise SurroundingsError(
-            Message(PIP_FAILED, {"distro": distro.name, "output": _without_no_version(tail)}),
+            Message(PIP_FAILED, {"distro": distro, "output": _without_no_version(tail)}),
             remedy=Message(CHECK_NETWORK),
         )
 

@@ -12,7 +12,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import did_you_mean
 from grader.ros import image_build, images
 from grader.ros.distro import Distro
-from grader.ros.prefix import BrokenRosError, instead_of_docker
+from grader.ros.prefix import BrokenRosError, Ros, instead_of_docker
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
@@ -35,11 +35,17 @@ def check_name(name: str) -> None:
 
 
 def open_sandbox(
-    name: str, distro: Distro, limits: Limits, *, own_code: bool = False, notify: Notify = print
+    name: str,
+    distro: Distro,
+    limits: Limits,
+    *,
+    interfaces: bool = False,
+    own_code: bool = False,
+    notify: Notify = print,
 ) -> Sandbox:
     """Return an open sandbox with a ROS installation of that distro; the caller closes it.
 
-    `own_code` allows `auto` to fall back to `none`, for a student's own package. `notify` is called
+    With `interfaces`, ROS has those of turtlesim. `own_code` allows `auto` to fall back to `none`, for a student's own package. `notify` is called
     with progress texts while a prefix or an image is made. Raises SurroundingsError with cause and
     remedy if no sandbox is available.
     """
@@ -47,7 +53,11 @@ def open_sandbox(
     tried: list[SurroundingsError] = []
     for choice in _choices(name, own_code=own_code):
         try:
-            sandbox = _make(choice, distro, limits, notify, required=name != "auto")
+            if choice == "docker":
+                sandbox = _docker(distro, limits, notify, required=name != "auto")
+            else:
+                ros = proven_ros(distro, interfaces=interfaces, notify=notify)
+                sandbox = _make(choice, ros, limits)
             if sandbox is not None:
                 return sandbox.__enter__()
         except BrokenRosError:
@@ -74,12 +84,7 @@ def _choices(name: str, *, own_code: bool) -> list[str]:
     return [*choices, "none"] if own_code else choices
 
 
-def _make(
-    choice: str, distro: Distro, limits: Limits, notify: Notify, *, required: bool
-) -> Sandbox | None:
-    if choice == "docker":
-        return _docker(distro, limits, notify, required=required)
-    ros = proven_ros(distro, notify=notify)
+def _make(choice: str, ros: Ros, limits: Limits) -> Sandbox:
     if choice == "bubblewrap":
         return Bubblewrap(ros, limits)
     return AccountSandbox(ros, limits) if choice == "account" else NoSandbox(ros, limits)

@@ -11,6 +11,7 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.base.unheard import unheard
 from grader.ros.distro import Distro
+from grader.ros.interfaces import with_interfaces
 from grader.ros.prefix import BrokenRosError, Ros, find_ros, is_in_cache
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
@@ -38,9 +39,13 @@ done
 """
 
 
-def proven_ros(distro: Distro, *, notify: Notify = print) -> Ros:
-    """Return the ROS installation for a distro (see `find_ros`); a newly made one is tested."""
-    return find_ros(distro, prove=prove_ros, notify=notify)
+def proven_ros(distro: Distro, *, interfaces: bool = False, notify: Notify = print) -> Ros:
+    """Return the ROS installation for a distro (see `find_ros`); a newly made one is tested.
+
+    With `interfaces`, it has those of turtlesim (see `with_interfaces`).
+    """
+    ros = find_ros(distro, prove=prove_ros, notify=notify)
+    return with_interfaces(ros, notify=notify) if interfaces else ros
 
 
 def prove_ros(ros: Ros) -> None:
