@@ -28,7 +28,14 @@ runs:
       - name: five
         at: 3.5
         publish: {topic: /number, type: std_msgs/msg/Int32, values: {data: 5}}
+      - {name: small, at: 2.2, goal: {action: /turn, type: turtlesim/action/RotateAbsolute, values: {theta: 1.5}}}
+      - {name: large, at: 2.4, goal: {action: /turn, type: turtlesim/action/RotateAbsolute, values: {theta: 6.0}}}
+      - {name: enough, at: 2.8, cancel: large}
+      - {name: excessive, at: 3.2, goal: {action: /turn, type: turtlesim/action/RotateAbsolute, values: {theta: 20.0}}}
 checks:
+  - {id: package.found, points: 1}
+  - {id: readme, check: files.exists, points: 1, with: {path: README.md}}
+  - {id: readme.text, check: files.matches, points: 1, with: {path: README.md, text: {contains: doubles}}}
   - {id: run.starts, points: 1}
   - {id: run.spins, points: 1}
   - {id: run.node_name, points: 1}
@@ -46,6 +53,16 @@ checks:
   - {id: answers, check: service.answers, points: 1, after: reset, with: {service: /reset, each: {success: true, message: {contains: reset}}}}
   - {id: calls, check: service.calls, points: 1, with: {service: /go, type: std_srvs/srv/SetBool}}
   - {id: says, check: log.matches, points: 1, with: {text: {matches: '^got \\d+$'}, level: info, at_least: 2, at_most: 2}}
+  - {id: nodes, check: graph.nodes, points: 1, with: {names: [/doubler], others: false}}
+  - {id: itself, check: graph.connects, points: 1, with: {topic: /doubled, sender: /doubler, receiver: /doubler}}
+  - {id: quiet, check: topic.silent, points: 1, during: [0, 0.9], with: {topic: /doubled}}
+  - {id: count, check: log.counts, points: 1, with: {text: "beat {n}", at_least: 10, period: 0.2}}
+  - {id: turn, check: action.offers, points: 1, with: {action: /turn, type: turtlesim/action/RotateAbsolute}}
+  - {id: turn.small, check: action.accepts, points: 1, after: small, with: {action: /turn}}
+  - {id: turn.excessive, check: action.accepts, points: 1, after: excessive, with: {action: /turn, accepted: false}}
+  - {id: turn.feedback, check: action.feedback, points: 1, after: small, with: {action: /turn, at_least: 2, each: {remaining: {between: [0, 1.5]}}}}
+  - {id: turn.result, check: action.result, points: 1, after: small, with: {action: /turn, within: 0.1, each: {delta: -1.5}}}
+  - {id: turn.cancel, check: action.cancels, points: 1, after: enough, with: {action: /turn, within: 0.3}}
   - {id: silent, check: log.never, points: 1, with: {text: {contains: lost}}}
   - {id: run.interrupt, points: 1}
 """
@@ -53,10 +70,13 @@ checks:
 NODE = """\
 #!/usr/bin/env python3
 import rclpy
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.node import Node
+from rclpy.task import Future
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Bool, Int32
 from std_srvs.srv import SetBool, Trigger
+from turtlesim.action import RotateAbsolute
 
 
 class Doubler(Node):
@@ -70,8 +90,34 @@ class Doubler(Node):
         self.create_subscription(Int32, '/number', self.on_number, 10)
         self.create_service(Trigger, '/reset', self.on_reset)
         self.go = self.create_client(SetBool, '/go')
+        self.create_subscription(Int32, '/doubled', lambda _: None, 1)
+        self.beats = 0
+        self.waiting = None
+        self.turn = ActionServer(self, RotateAbsolute, '/turn', self.on_goal,
+                                 goal_callback=self.may,
+                                 cancel_callback=lambda _: CancelResponse.ACCEPT)
+
+    def may(self, goal):
+        return GoalResponse.ACCEPT if goal.theta < 10 else GoalResponse.REJECT
+
+    async def on_goal(self, handle):
+        theta = handle.request.theta
+        for part in (1.0, 0.5):
+            handle.publish_feedback(RotateAbsolute.Feedback(remaining=part * theta))
+        if theta > 5:
+            self.goal, self.waiting = handle, Future()
+            await self.waiting
+            handle.canceled()
+            return RotateAbsolute.Result()
+        handle.succeed()
+        return RotateAbsolute.Result(delta=-theta)
 
     def on_timer(self):
+        if self.waiting and self.goal.is_cancel_requested:
+            self.waiting.set_result(True)
+            self.waiting = None
+        self.get_logger().info(f'beat {self.beats}')
+        self.beats += 1
         self.beat.publish(Bool(data=True))
 
     def on_number(self, message):
@@ -132,8 +178,10 @@ class Form:
     edits: tuple[tuple[str, str], ...]
     fails: dict[str, str]
     skipped: tuple[str, ...] = ()
+    readme: tuple[str, str] = ("README.md", "A node that doubles.")
 
 
+TURNS = ("turn.small", "turn.excessive", "turn.feedback", "turn.result", "turn.cancel")
 FORMS = (
     Form("right", (), {}),
     Form(
@@ -288,6 +336,130 @@ FORMS = (
         },
         ("beat.period", "beat.values", "fifteen", "factor", "factor.set", "says", "run.interrupt"),
     ),
+    Form(
+        "no_action",
+        (
+            (
+                "        self.turn = ActionServer(self, RotateAbsolute, '/turn', self.on_goal,\n"
+                "                                 goal_callback=self.may,\n"
+                "                                 cancel_callback=lambda _: CancelResponse.ACCEPT)\n",
+                "",
+            ),
+            ("self.beats = 0", "self.beats = 1"),
+            ("create_subscription(Int32, '/doubled'", "create_subscription(Int32, '~/doubled'"),
+            (
+                "        self.get_logger().info(f'beat",
+                "        if not self.beats:\n            self.doubled.publish(Int32())\n"
+                "        self.get_logger().info(f'beat",
+            ),
+            (
+                "super().__init__('doubler')",
+                "super().__init__('doubler')\n        self.other = Node('other')",
+            ),
+        ),
+        {
+            "turn": "action.missing",
+            "count": "log.wrong_count",
+            "itself": "graph.not_connected",
+            "nodes": "graph.node_unexpected",
+            "readme.text": "files.no_match",
+        },
+        TURNS,
+        ("README.md", "A node."),
+    ),
+    Form(
+        "action_named_otherwise",
+        (
+            ("'/turn'", "'/turns'"),
+            ("f'beat {self.beats}'", "f'Beat {self.beats}'"),
+            ("        self.create_subscription(Int32, '/doubled', lambda _: None, 1)\n", ""),
+            (
+                "        self.get_logger().info(f'Beat",
+                "        if not self.beats:\n            self.doubled.publish(Int32())\n"
+                "        self.get_logger().info(f'Beat",
+            ),
+        ),
+        {
+            "turn": "action.wrong_name",
+            "count": "log.missing",
+            "itself": "graph.not_connected",
+            "quiet": "topic.not_silent",
+            "readme": "files.missing",
+        },
+        ("readme.text", *TURNS),
+        ("readme.txt", "A node that doubles."),
+    ),
+    Form(
+        "action_refuses",
+        (
+            (
+                "GoalResponse.ACCEPT if goal.theta < 10 else GoalResponse.REJECT",
+                "GoalResponse.REJECT",
+            ),
+            ("self.beats += 1", "self.beats += 2"),
+            ("'/doubled', lambda _: None", "'/doubles', lambda _: None"),
+            (
+                "        self.beat.publish",
+                "        self.doubled.publish(Int32())\n        self.beat.publish",
+            ),
+        ),
+        {
+            "turn.small": "action.refused",
+            "count": "log.wrong_count",
+            "itself": "graph.not_connected",
+            "quiet": "topic.not_silent",
+        },
+        ("turn.feedback", "turn.result", "turn.cancel"),
+    ),
+    Form(
+        "action_takes_all",
+        (
+            (
+                "GoalResponse.ACCEPT if goal.theta < 10 else GoalResponse.REJECT",
+                "GoalResponse.ACCEPT",
+            ),
+            (
+                "        for part in (1.0, 0.5):\n            handle.publish_feedback(RotateAbsolute.Feedback(remaining=part * theta))\n",
+                "",
+            ),
+            ("Result(delta=-theta)", "Result(delta=theta)"),
+            ("CancelResponse.ACCEPT)", "CancelResponse.REJECT)"),
+        ),
+        {
+            "turn.excessive": "action.accepted",
+            "turn.feedback": "action.no_feedback",
+            "turn.result": "action.wrong_result",
+            "turn.cancel": "action.not_cancelled",
+        },
+    ),
+    Form(
+        "action_aborts",
+        (
+            ("        handle.succeed()\n", ""),
+            ("remaining=part * theta", "remaining=-part * theta"),
+            ("            handle.canceled()\n", "            handle.succeed()\n"),
+            ("goal.theta < 10", "goal.theta < 30"),
+        ),
+        {
+            "turn.excessive": "action.accepted",
+            "turn.feedback": "action.wrong_feedback",
+            "turn.result": "action.wrong_status",
+            "turn.cancel": "action.not_cancelled",
+        },
+    ),
+    Form(
+        "action_never_ends",
+        (
+            ("        if theta > 5:", "        if theta > 0:"),
+            ("for part in (1.0, 0.5)", "for part in (1.0,)"),
+            ("if self.waiting and self.goal.is_cancel_requested", "if False"),
+        ),
+        {
+            "turn.feedback": "action.no_feedback",
+            "turn.result": "action.no_result",
+            "turn.cancel": "action.not_cancelled",
+        },
+    ),
 )
 
 
@@ -313,6 +485,7 @@ def write_package(form: Form, folder: Path) -> Path:
         "[install]\ninstall_scripts=$base/lib/doubling\n",
         "resource/doubling": "",
         "doubling/__init__.py": "",
+        form.readme[0]: form.readme[1],
         "doubling/doubler.py": node,
     }
     for path, text in texts.items():

@@ -31,4 +31,4 @@ def test_the_example_of_the_guide_is_an_assignment(tmp_path: Path) -> None:
     file.write_text(example, encoding="utf-8")
     found = load_assignment(file, known_checks=CHECKS)
     assert found.max_score == 30
-    assert found.runs[0].topics["/number"] == "std_msgs/msg/Int32"
+    assert found.runs[0].topics["/doubled"] == "std_msgs/msg/Int32"

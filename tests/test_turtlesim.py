@@ -100,7 +100,7 @@ def test_a_turtle_turns_to_an_angle_on_the_shorter_way() -> None:
 
 def test_turtles_get_names_that_are_free() -> None:
     field = Field()
-    assert field.spawn(1, 1, 0, "turtle2") == "turtle2"
-    assert field.spawn(2, 2, 0) == "turtle3"
-    assert field.spawn(3, 3, 0, "turtle2") == ""
-    assert set(field.turtles) == {"turtle1", "turtle2", "turtle3"}
+    assert field.spawn("turtle2", 1, 1, 0)
+    assert field.new_name() == "turtle3"
+    assert not field.spawn("turtle2", 3, 3, 0)
+    assert set(field.turtles) == {"turtle1", "turtle2"}

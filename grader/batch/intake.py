@@ -85,6 +85,7 @@ def _take_in(attempt: HandedIn, assignment: Assignment) -> Submission:
         attempt.path,
         package=assignment.package,
         node_file=assignment.node_file,
+        others=assignment.interface_packages,
         name=attempt.student.name or attempt.student.key,
         modes_kept=attempt.modes_kept,
     )

@@ -59,6 +59,7 @@ def verify_report(found: FoundEvidence, key: PublicKey | None, submission: Path 
         submission,
         package=evidence.assignment.package,
         node_file=evidence.assignment.node_file,
+        others=evidence.assignment.interface_packages,
         modes_kept=marked.modes == "recorded",
     )
     if given.sha256 == marked.sha256:

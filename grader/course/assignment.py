@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
@@ -10,6 +11,10 @@ from grader.base.part import Part
 from grader.course.policy import Policy
 from grader.course.scenario import Node, RunPlan
 from grader.report.model import Visibility
+from grader.ros.distro import Distro
+
+TURTLESIM = ("turtlesim", "turtlesim_msgs")
+"""The package of turtlesim's interfaces: `turtlesim` up to jazzy, `turtlesim_msgs` later."""
 
 
 class Output(Part):
@@ -51,6 +56,14 @@ class CheckUse(Part):
         """The kind of check."""
         return self.check or self.id
 
+    def with_types(self, named: Callable[[str], str]) -> CheckUse:
+        """Return the same with other names of types."""
+        if "type" not in self.with_:
+            return self
+        return self.model_copy(
+            update={"with_": {**self.with_, "type": named(str(self.with_["type"]))}}
+        )
+
 
 class Lesson(Part):
     """The content of an assignment's file of schema 2: nodes, and runs in which they are judged."""
@@ -61,6 +74,7 @@ class Lesson(Part):
     package: str
     nodes: dict[str, Node]
     runs: tuple[RunPlan, ...]
+    interface_packages: tuple[str, ...] = ()
     modes: Literal["accept-unknown", "require"] = "accept-unknown"
     hidden_checks: int = Field(default=0, ge=0)
     limits: dict[str, float] = Field(default_factory=dict)
@@ -88,6 +102,7 @@ class Lesson(Part):
             policy=self.policy,
             nodes=self.nodes,
             runs=self.runs,
+            interface_packages=self.interface_packages,
         )
 
 
@@ -117,6 +132,7 @@ class Assignment(Part):
     sha256: str = ""
     nodes: dict[str, Node] = Field(default_factory=dict)
     runs: tuple[RunPlan, ...] = ()
+    interface_packages: tuple[str, ...] = ()
 
     @property
     def function(self) -> str:
@@ -131,6 +147,36 @@ class Assignment(Part):
     def plan(self, name: str) -> RunPlan:
         """Return a run's plan; the first one if the name is ""."""
         return next((plan for plan in self.runs if plan.name == name), self.runs[0])
+
+    @property
+    def needs_interfaces(self) -> bool:
+        """Whether ROS must have turtlesim's interfaces, or build those of the students."""
+        return bool(self.interface_packages) or any(
+            name.partition("/")[0] in TURTLESIM for name in self._types()
+        )
+
+    def on(self, distro: Distro) -> Assignment:
+        """Return the assignment with the names that turtlesim's interfaces have in a distro."""
+        if not self.needs_interfaces:
+            return self
+
+        def named(name: str) -> str:
+            package, slash, rest = name.partition("/")
+            return (distro.turtlesim if package in TURTLESIM else package) + slash + rest
+
+        return self.model_copy(
+            update={
+                "runs": tuple(plan.with_types(named) for plan in self.runs),
+                "checks": tuple(use.with_types(named) for use in self.checks),
+            }
+        )
+
+    def _types(self) -> Iterator[str]:
+        """Yield the types of its runs and checks."""
+        for plan in self.runs:
+            yield from plan.topics.values()
+            yield from (one.type for one in plan.do if one.type)
+        yield from (str(use.with_["type"]) for use in self.checks if "type" in use.with_)
 
     @property
     def max_score(self) -> float:

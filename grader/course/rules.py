@@ -16,7 +16,17 @@ from grader.base.positioned_yaml import Document, Loc
 from grader.base.yaml_model import Fault, error_of, model_faults, validated
 from grader.course.assignment import Assignment, CheckUse, Lesson, Output
 from grader.course.policy import Late, Policy, policy_faults
-from grader.course.scenario import Call, ClockPlan, Node, Publish, RunPlan, Start, Stimulus
+from grader.course.scenario import (
+    Call,
+    ClockPlan,
+    Node,
+    Place,
+    Publish,
+    RunPlan,
+    SendGoal,
+    Start,
+    Stimulus,
+)
 
 # REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
 NAMES = {  # key: its pattern, and the pattern in words
@@ -38,7 +48,8 @@ NAMES = {  # key: its pattern, and the pattern in words
 }
 
 
-SCHEMA_2 = ("nodes", "runs")  # keys of Assignment that schema 1 does not have
+SCHEMA_2 = ("nodes", "runs", "interface_packages")  # keys of Assignment that schema 1 does not have
+ONLY_GRAPH = ("topic.subscribes", "topic.qos")  # kinds that judge no messages
 TYPE = r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*"
 
 
@@ -127,12 +138,14 @@ def _with_topics(assignment: Assignment, document: Document) -> Assignment:
     found: list[Fault] = []
     for i, use, known in places:
         topic, kind = use.with_.get("topic"), use.with_.get("type")
+        if use.kind in ONLY_GRAPH:
+            continue
         if topic and kind and known.setdefault(topic, kind) != kind:
             text = f"{topic} has the type {known[topic]} elsewhere in this run, not {kind}"
             found.append((("checks", i, "with", "type"), text))
     for i, use, known in places:
         topic = use.with_.get("topic")
-        if topic and topic not in known:
+        if topic and topic not in known and use.kind not in ONLY_GRAPH:
             text = f"the type of {topic} is not known: add `topics: {{{topic}: …}}` to the run"
             found.append((("checks", i, "with", "topic"), text))
     if found:
@@ -163,11 +176,19 @@ def _lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
     keys["runs", "*", "do", "*"] = tuple(Stimulus.model_fields)
     keys["runs", "*", "do", "*", "publish"] = tuple(Publish.model_fields)
     keys["runs", "*", "do", "*", "call"] = tuple(Call.model_fields)
+    keys["runs", "*", "do", "*", "goal"] = tuple(SendGoal.model_fields)
+    for key in ("spawn", "move"):
+        keys["runs", "*", "do", "*", key] = tuple(Place.model_fields)
     return keys
 
 
 def _runs(lesson: Lesson) -> Iterator[Fault]:
-    """Yield what is wrong with nodes and runs."""
+    """Yield what is wrong with nodes, packages and runs."""
+    pattern, words = NAMES["package"]
+    for i, name in enumerate(lesson.interface_packages):
+        if not re.fullmatch(pattern, name, re.ASCII) or name == lesson.package:
+            text = f"the name of another package must be {words}, not '{name}'"
+            yield ("interface_packages", i), text
     names = [plan.name for plan in lesson.runs]
     if not names:
         yield ("runs",), "runs is empty: an assignment of schema 2 needs at least one run"
@@ -200,7 +221,14 @@ def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
             if node not in lesson.nodes:
                 hint = meant_or_known(node, tuple(lesson.nodes))
                 yield (*here, "set", node), f"unknown node '{node}'{hint}"
-        for key, what in (("publish", one.publish), ("call", one.call)):
+        goals = tuple(other.name for other in plan.do if other.goal is not None)
+        if one.cancel is not None and one.cancel not in goals:
+            hint = meant_or_known(one.cancel, goals)
+            yield (*here, "cancel"), f"unknown goal '{one.cancel}'{hint}"
+        if (one.spawn or one.move) and not plan.world:
+            yield (*here, "name"), f"'{one.name}' needs a world, the run '{plan.name}' has none"
+        deeds = (("publish", one.publish), ("call", one.call), ("goal", one.goal))
+        for key, what in deeds:
             if what is not None and not re.fullmatch(TYPE, what.type):
                 text = f"type must be such as std_msgs/msg/String, not '{what.type}'"
                 yield (*here, key, "type"), text

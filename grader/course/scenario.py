@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
@@ -18,6 +19,10 @@ def _plain(value: Any) -> Any:
 
 Value = Annotated[Any, AfterValidator(_plain)]
 """A parameter's value: bool, int, float or str."""
+
+
+DEEDS = ("publish", "call", "set", "goal", "cancel", "spawn", "move")
+"""What a stimulus can do: its keys."""
 
 
 class _Part(Part):
@@ -80,10 +85,28 @@ class Call(_Part):
     values: dict[str, Any] = Field(default_factory=dict)
 
 
-class Stimulus(_Part):
-    """What is done at an instant of ROS time (s): one of publish, call and set.
+class SendGoal(_Part):
+    """A goal to send to an action."""
 
-    `set` has the new values of parameters for each node.
+    action: str
+    type: str
+    values: dict[str, Any] = Field(default_factory=dict)
+
+
+class Place(_Part):
+    """Where a turtle is put: in m, and the heading in rad."""
+
+    turtle: str = "turtle1"
+    x: float
+    y: float
+    theta: float = 0.0
+
+
+class Stimulus(_Part):
+    """What is done at an instant of ROS time (s): one of the keys after `at`.
+
+    `set` has the new values of parameters for each node, `cancel` the name of a goal's stimulus.
+    `spawn` and `move` put a turtle into the world.
     """
 
     name: str
@@ -91,11 +114,35 @@ class Stimulus(_Part):
     publish: Publish | None = None
     call: Call | None = None
     set: dict[str, dict[str, Value]] | None = None
+    goal: SendGoal | None = None
+    cancel: str | None = None
+    spawn: Place | None = None
+    move: Place | None = None
+
+    @property
+    def type(self) -> str:
+        """The type of the message or the service, "" if there is none."""
+        what = self.publish or self.call or self.goal
+        return what.type if what is not None else ""
+
+    def with_types(self, named: Callable[[str], str]) -> Stimulus:
+        """Return the same with other names of types."""
+        update = {
+            key: what.model_copy(update={"type": named(what.type)})
+            for key, what in (
+                ("publish", self.publish),
+                ("call", self.call),
+                ("goal", self.goal),
+            )
+            if what is not None
+        }
+        return self.model_copy(update=update)
 
     @model_validator(mode="after")
     def _one(self) -> Stimulus:
-        if sum(one is not None for one in (self.publish, self.call, self.set)) != 1:
-            raise broken(f"'{self.name}' must have exactly one of publish, call and set")
+        if sum(getattr(self, key) is not None for key in DEEDS) != 1:
+            words = f"{', '.join(DEEDS[:-1])} and {DEEDS[-1]}"
+            raise broken(f"'{self.name}' must have exactly one of {words}")
         return self
 
 
@@ -113,6 +160,12 @@ class RunPlan(_Part):
     do: tuple[Stimulus, ...] = ()
     topics: dict[str, str] = Field(default_factory=dict)
     periods: dict[str, float] = Field(default_factory=dict)
+
+    def with_types(self, named: Callable[[str], str]) -> RunPlan:
+        """Return the same with other names of types."""
+        topics = {topic: named(name) for topic, name in self.topics.items()}
+        done = tuple(one.with_types(named) for one in self.do)
+        return self.model_copy(update={"topics": topics, "do": done})
 
     def stimulus(self, name: str) -> Stimulus | None:
         """Return a stimulus by its name."""

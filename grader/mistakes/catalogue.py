@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from grader.mistakes import (
+    actions,
     arguments,
     build,
     callback,
@@ -18,6 +19,7 @@ from grader.mistakes import (
     hidden,
     imports,
     instead_of_ros,
+    interfaces,
     language,
     logger,
     names,
@@ -52,7 +54,9 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             build,
             entry_points,
             other_language,
+            interfaces,
             topics,
+            actions,
             scope,
             classes,
             objects,

@@ -264,6 +264,24 @@ KINDS = (
         msg("Make sure that the callback publishes at that time too."),
     ),
     _topic(
+        "other_definition",
+        "topic",
+        msg("The message was built from other fields than its file has"),
+        TYPED,
+        msg(
+            "Build the package of {short} again from its .msg file, without changing what is built."
+        ),
+    ),
+    _topic(
+        "not_silent",
+        "topic",
+        msg("A message at a time when none may come"),
+        msg(
+            "A message goes out each time publish() is called, also if it says the same as before."
+        ),
+        msg("Check in the callback whether to publish on {topic}, and return if not."),
+    ),
+    _topic(
         "no_reaction",
         "topic",
         msg("The node does not react to a message"),
@@ -409,6 +427,44 @@ KINDS = (
             "early enough before the wall."
         ),
         msg("Turn earlier, or drive more slowly near the wall."),
+    ),
+    _world(
+        "one_place",
+        "world",
+        msg("The turtle stays in one place"),
+        msg("A turtle that only turns, or drives in a small circle, sees little of the field."),
+        msg("Let {turtle} drive straight on where there is room, and turn only near the wall."),
+    ),
+    _world(
+        "not_asked",
+        "service",
+        msg("The service is not called"),
+        msg("A client does nothing by itself: each call needs a request that is sent."),
+        msg(
+            "Send the request with self.client_.call_async(request), with parentheses, when it is "
+            "due."
+        ),
+    ),
+    _world(
+        "wrong_request",
+        "service",
+        msg("The request has a different value"),
+        msg("Fields of a request that are not set are 0, or empty."),
+        msg("Set {field} of the request before call_async()."),
+    ),
+    _log(
+        "wrong_count",
+        "text",
+        msg("The log counts differently"),
+        msg("Each line shows the number that the counter has at that moment."),
+        msg("Look at where the counter begins, and where and by how much it is changed."),
+    ),
+    _log(
+        "wrong_period",
+        "text",
+        msg("The log lines come at a different rate"),
+        msg("The first argument of create_timer is the period in seconds: 2 Hz is 0.5 s."),
+        msg("Write create_timer({wanted}, …)."),
     ),
     _log(
         "missing",

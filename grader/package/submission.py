@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from grader.package.intake.archive_kind import without_ending
@@ -14,14 +15,14 @@ from grader.package.intake.built import edited_copy, newer_copy
 from grader.package.intake.choose import Choice, choose, find_candidates
 from grader.package.intake.contents import TooLargeError, read_package
 from grader.package.intake.given import cannot_be_read, digest_of_file, open_place, resolved
-from grader.package.intake.model import Candidate, SourceFile, Submission
+from grader.package.intake.model import Candidate, Package, SourceFile, Submission
 from grader.package.intake.naming import sanitise, submission_name
 from grader.package.intake.problems import Problem, too_large
 from grader.package.intake.recorded import with_modes
 from grader.package.intake.tree import Tree, ancestors
 from grader.report.model import Modes, Origin
 
-__all__ = ["Candidate", "SourceFile", "Submission", "take_in"]
+__all__ = ["Candidate", "Package", "SourceFile", "Submission", "take_in"]
 
 MOST_NODE_FILES = 20
 
@@ -31,12 +32,13 @@ def take_in(
     *,
     package: str,
     node_file: str,
+    others: Iterable[str] = (),
     name: str | None = None,
     modes_kept: bool = True,
 ) -> Submission:
     """Take in a folder or an archive: the package, a workspace, or a parent of the package.
 
-    `modes_kept` is False if the exec bits of a folder's files were lost on the way (e.g. in an
+    `others` are the names of other packages to take in. `modes_kept` is False if the exec bits of a folder's files were lost on the way (e.g. in an
     upload file by file). Raises UsageError for a path that is neither, does not exist or cannot
     be read. Any other problem is the student's and is recorded in the Submission.
     """
@@ -61,6 +63,13 @@ def take_in(
         except TooLargeError as error:
             choice = Choice(None, problem=too_large(error.reason, choice.chosen.path))
     root = choice.chosen.path if choice.chosen else None
+    packages: tuple[Package, ...] = ()
+    if root is not None:
+        try:
+            packages = tuple(_others(tree, candidates, others))
+        except TooLargeError as error:
+            choice = Choice(None, problem=too_large(error.reason, root))
+            root, files = None, ()
     copy = newer_copy(tree, root, package=package, node_file=node_file) if root else ""
     files, modes = with_modes(tree, root, files)
     problem = choice.problem
@@ -69,7 +78,9 @@ def take_in(
         name=sanitise(name),
         origin=_origin(tree, root or "."),
         modes=modes,
-        sha256=_digest(files if root is not None else _outline(tree), modes, choice.copies),
+        sha256=_digest(
+            files if root is not None else _outline(tree), modes, choice.copies, packages
+        ),
         root=root,
         files=files,
         candidates=tuple(candidates),
@@ -82,7 +93,16 @@ def take_in(
         links_out=tuple(tree.links_out),
         copies=choice.copies,
         newer_copy=copy,
+        packages=packages,
     )
+
+
+def _others(tree: Tree, candidates: Iterable[Candidate], names: Iterable[str]) -> Iterator[Package]:
+    """Yield the other packages with these names, the outermost of each; raises TooLargeError."""
+    for name in names:
+        found = next((one for one in candidates if one.name == name), None)
+        if found is not None:
+            yield Package(name, found.path, read_package(tree, found.path))
 
 
 def _without_ending(path: Path) -> Path:
@@ -122,13 +142,19 @@ def _outline(tree: Tree) -> Iterable[SourceFile]:
         yield SourceFile(path, entry.kind, entry.mode, str(entry.size).encode(), entry.target)
 
 
-def _digest(files: Iterable[SourceFile], modes: Modes, copies: Iterable[str] = ()) -> str:
+def _digest(
+    files: Iterable[SourceFile],
+    modes: Modes,
+    copies: Iterable[str] = (),
+    packages: Iterable[Package] = (),
+) -> str:
     """Return the hash of a submission: paths, kinds, exec bits (if known) and contents.
 
     Copies of the package beside it are part of it, because they cost points.
     """
     digest = hashlib.sha256()
-    for file in files:
+    named = [replace(f, path=f"{one.name}/{f.path}") for one in packages for f in one.files]
+    for file in (*files, *named):
         bits = "x" if file.kind == "file" and file.mode & 0o100 else "-"
         bits = bits if modes == "recorded" else "?"
         for part in (file.path, file.kind, bits, file.target, file.reason):

@@ -8,7 +8,7 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from grader.package.intake.model import Candidate, SourceFile, Submission
+from grader.package.intake.model import Candidate, Package, SourceFile, Submission
 
 TUPLES = ("notes", "hints", "node_files", "links_out", "copies")
 
@@ -22,15 +22,23 @@ def submission_from_json(text: str) -> Submission:
     """Return the submission that `submission_json` wrote; raise ValueError for anything else."""
     found = json.loads(text)
     names = {field.name for field in fields(Submission)}
-    if not isinstance(found, dict) or set(found) != names:
+    if not isinstance(found, dict) or {*found, "packages"} != names:  # older ones have none
         raise ValueError("not a submission")
     values: dict[str, Any] = {**found, "path": Path(found["path"])}
     values.update({name: tuple(found[name]) for name in TUPLES})
     values["candidates"] = tuple(Candidate(**entry) for entry in found["candidates"])
-    values["files"] = tuple(
-        SourceFile(**{**entry, "data": base64.b64decode(entry["data"])}) for entry in found["files"]
+    values["files"] = _files(found["files"])
+    values["packages"] = tuple(
+        Package(entry["name"], entry["root"], _files(entry["files"]))
+        for entry in found.get("packages", ())
     )
     return Submission(**values)
+
+
+def _files(entries: list[dict[str, Any]]) -> tuple[SourceFile, ...]:
+    return tuple(
+        SourceFile(**{**entry, "data": base64.b64decode(entry["data"])}) for entry in entries
+    )
 
 
 def _simple(value: object) -> str:

@@ -13,7 +13,7 @@ from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan, Start, Stimulus
 from grader.run.in_probe.turtlesim import STEP
-from grader.run.observations import Done, End, Message, Observations, Parameter, Pose
+from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
 from grader.run.probe_link import Answer, ProbeError, ProbeLink
 from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Run, press_ctrl_c, start
@@ -29,6 +29,7 @@ FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
 LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
+MOST_FEEDBACK = 1_000  # of a goal
 MOST_POSES = 2_000  # of a run's path
 
 
@@ -103,6 +104,7 @@ def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
         watch=list(plan.topics.items()),
         publish=[[one.publish.topic, one.publish.type] for one in plan.do if one.publish],
         call=[[one.call.service, one.call.type] for one in plan.do if one.call],
+        goal=[[one.goal.action, one.goal.type] for one in plan.do if one.goal],
         periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
         world=world,
     )
@@ -246,6 +248,22 @@ class _Scene:
             said = self.probe.said("call", seconds=STEP_SECONDS, **more)
             done.heard = int(said["heard"])
             self._record(said)
+        elif one.goal is not None:
+            self.seen.goals.append(Goal(one.name, one.at))
+            more = {"name": one.name, **one.goal.model_dump()}
+            said = self.probe.said("goal", seconds=STEP_SECONDS, **more)
+            done.heard = int(said["heard"])
+            self._record(said)
+        elif one.cancel is not None:
+            said = self.probe.said("cancel", seconds=STEP_SECONDS, name=one.cancel)
+            done.heard = int(said["heard"])
+            self._record(said)
+        elif one.spawn is not None or one.move is not None:
+            key, place = ("spawn", one.spawn) if one.spawn else ("move", one.move)
+            assert place is not None
+            said = self.probe.said("place", seconds=STEP_SECONDS, how=key, **place.model_dump())
+            done.heard = int(said["heard"])
+            self._record(said)
         for node, values in (one.set or {}).items():
             name = self._names.get(node, f"/{node}")
             said = self.probe.said("set", seconds=STEP_SECONDS, name=name, values=values)
@@ -267,6 +285,8 @@ class _Scene:
             found = seen.stimulus(str(name))
             if found is not None:
                 found.reply, found.replied = reply, at
+        for name, what, values in said.get("goals", ()):
+            self._record_goal(str(name), str(what), values)
         path = said.get("path", ())
         turtles = len({pose[0] for pose in path}) or 1
         for n, (turtle, x, y, theta) in enumerate(path):
@@ -275,7 +295,21 @@ class _Scene:
                 now = (self.at // STEP - behind) * STEP / SECOND
                 place = Pose(str(turtle), round(now, 3), round(x, 6), round(y, 6), round(theta, 6))
                 seen.path.append(place)
-        seen.events += [dict(event) for event in said.get("events", ())]
+        seen.events += [{**event, "at": at} for event in said.get("events", ())]
+
+    def _record_goal(self, name: str, what: str, values: Any) -> None:
+        """Keep what became of a goal, at the present instant."""
+        at, goal = round(self.at / SECOND, 6), self.seen.goal(name)
+        if goal is None:
+            return
+        if what == "accepted":
+            goal.accepted = at
+        elif what == "refused":
+            goal.refused = at
+        elif what == "feedback" and len(goal.feedback) < MOST_FEEDBACK:
+            goal.feedback.append((at, values))
+        elif what in ("succeeded", "canceled", "aborted"):
+            goal.status, goal.result, goal.ended = what, values, at
 
     def _take(self, answer: Answer) -> None:
         events = self.observer.take(answer) + self.observer.catch_up(answer.logs)

@@ -23,7 +23,10 @@ class Message:
 
 @dataclass(frozen=True)
 class End:
-    """An end of a node on the graph; reliability and durability are of topics only."""
+    """An end of a node on the graph; reliability and durability are of topics only.
+
+    `differs` is whether its type has another definition than the one that the probe knows.
+    """
 
     node: str
     role: Role
@@ -31,6 +34,7 @@ class End:
     type: str
     reliability: str = ""
     durability: str = ""
+    differs: bool = False
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,24 @@ class Done:
     replied: float | None = None
 
 
+@dataclass
+class Goal:
+    """What became of a goal; the instants are None for what did not happen.
+
+    `status` is how it ended: succeeded, canceled or aborted. `refused` is when the node refused
+    to take it, or to cancel it if it was accepted.
+    """
+
+    name: str
+    at: float
+    accepted: float | None = None
+    refused: float | None = None
+    feedback: list[tuple[float, Any]] = field(default_factory=list)
+    status: str = ""
+    result: Any = None
+    ended: float | None = None
+
+
 @dataclass(frozen=True)
 class Pose:
     """Where a turtle is at an instant (m, rad)."""
@@ -86,6 +108,7 @@ class Observations:
     ends: list[End] = field(default_factory=list)
     parameters: dict[str, list[Parameter]] = field(default_factory=dict)
     done: list[Done] = field(default_factory=list)
+    goals: list[Goal] = field(default_factory=list)
     path: list[Pose] = field(default_factory=list)
     events: list[dict[str, Any]] = field(default_factory=list)
     stuck: float | None = None
@@ -98,6 +121,10 @@ class Observations:
     def stimulus(self, name: str) -> Done | None:
         """Return what was done under a name; None if the run ended before."""
         return next((done for done in self.done if done.name == name), None)
+
+    def goal(self, name: str) -> Goal | None:
+        """Return what became of a goal; None if it was not sent."""
+        return next((goal for goal in self.goals if goal.name == name), None)
 
     def ends_of(self, role: Role, name: str) -> list[End]:
         """Return the ends with a role and a name."""

@@ -334,7 +334,11 @@ class Probe:
         self.added.update(self.module(name, text).commands(self))
 
     def module(self, name: str, text: str) -> Any:
-        """Return a module made of its text; dataclasses look it up by its name."""
+        """Return a module made of its text; dataclasses look it up by its name.
+
+        The name gets a prefix: a module `turtlesim` would hide the package of the interfaces.
+        """
+        name = f"grader_{name}"
         module = types.ModuleType(name)
         sys.modules[name] = module
         exec(compile(text, name, "exec"), module.__dict__)  # noqa: S102 - the grader's own text
@@ -348,14 +352,18 @@ class Probe:
         answer["clocks"] = self.node.count_publishers("/clock")
         return answer
 
+    def show(self, at: int) -> None:
+        """Publish an instant (ns)."""
+        message = Clock()
+        message.clock.sec, message.clock.nanosec = divmod(at, 1_000_000_000)
+        self.clock.publish(message)
+
     def set_clock(self, command: dict[str, Any], deadline: float) -> bool | None:
         """Publish an instant and make the barrier."""
-        message = Clock()
-        message.clock.sec, message.clock.nanosec = divmod(command["at"], 1_000_000_000)
         patient = bool(command.get("patient"))
         if patient:
             self.graph()  # nodes that were made after the first one was seen
-        self.clock.publish(message)
+        self.show(command["at"])
         until_log = bool(command.get("until_log"))
         return self.barrier(2, deadline, until_log=until_log, patient=patient)
 

@@ -18,6 +18,12 @@ SOURCE = Path(__file__).with_name("probe.py")
 START_SECONDS = 30.0
 LONGEST_ANSWER = 8_000_000  # bytes
 END_SECONDS = 1.0
+UNPACK = """\
+place=$(mktemp -d)
+head -c {size} | tar -xf - -C "$place"
+export AMENT_PREFIX_PATH="$place" LD_LIBRARY_PATH="$place/lib"
+export PYTHONPATH=$(echo "$place"/lib/python3*/site-packages)
+"""
 PATIENCE = 20.0  # seconds in addition to a command's own, within which the answer must come
 
 
@@ -85,14 +91,22 @@ class ProbeError(SurroundingsError):
 
 
 class ProbeLink:
-    """A probe in a sandbox. It starts at once and answers as soon as rclpy is up."""
+    """A probe in a sandbox. It starts at once and answers as soon as rclpy is up.
 
-    def __init__(self, sandbox: Sandbox) -> None:
+    `interfaces` is a tar archive of more interfaces that it can use.
+    """
+
+    def __init__(self, sandbox: Sandbox, interfaces: bytes = b"") -> None:
         setup = f'. "{sandbox.ros_path}/setup.bash"; exec python3 -c "$PROBE"'
+        if interfaces:
+            setup = f"{UNPACK.format(size=len(interfaces))}{setup}"
         script = (
             f"PROBE=$(cat <<'PROBE_ENDS'\n{SOURCE.read_text(encoding='utf-8')}\nPROBE_ENDS\n)\n"
         )
         self.pipe = sandbox.probe(["bash", "-c", script + setup])
+        if interfaces:
+            with contextlib.suppress(OSError):  # (a probe that has ended is noticed later)
+                self.pipe.write(interfaces)
         self._buffer = b""
         self._ready = False
         self.until = math.inf

@@ -19,6 +19,7 @@ from grader.run.conduct import conduct
 from grader.run.observer import Event
 from grader.run.probe_link import ProbeError, ProbeLink
 from grader.run.run import Run, counts_plainly, observe
+from grader.run.student_interfaces import interfaces_of
 from grader.run.unforeseen import Unforeseen, unforeseen
 from grader.run.workspace import Build, build, restore, save
 from grader.sandbox.base import Sandbox
@@ -55,6 +56,7 @@ class Session:
         self.assignment = assignment
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
+        self._interfaces = b""  # those of the submission, for the probe
         self._remarks: list[Remark] = []
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
@@ -79,7 +81,9 @@ class Session:
         Raises BrokenRosError if colcon itself does not run.
         """
         begin = time.monotonic()
-        self._probe = self._probe or ProbeLink(self.sandbox)
+        if submission.packages:  # before the student's code runs
+            self._interfaces = interfaces_of(self.sandbox, submission)
+        self._probe = self._probe or self._new_probe()
         self._remarks = remarks_on(submission.files)
         could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
         self._unforeseen = unforeseen(submission.sha256, could_end=could_end)
@@ -167,7 +171,7 @@ class Session:
         tries = 0
         while tries < RUNS and self._has_time():
             tries += 1
-            self._probe = self._probe or ProbeLink(self.sandbox)
+            self._probe = self._probe or self._new_probe()
             until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
             try:
                 run = observed(self._probe, on_event, until=until)
@@ -277,6 +281,9 @@ class Session:
             if held_by.get(limit) == "rlimit" and error.search(output[-LAST_OUTPUT:]):
                 return limit
         return ""
+
+    def _new_probe(self) -> ProbeLink:
+        return ProbeLink(self.sandbox, self._interfaces)
 
     def _drop_probe(self) -> None:
         probe, self._probe = self._probe, None

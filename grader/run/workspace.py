@@ -14,11 +14,12 @@ import re
 import shlex
 import tarfile
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import joined, say
-from grader.package.submission import Submission
+from grader.package.submission import SourceFile, Submission
 from grader.sandbox.base import UNRUNNABLE, Outcome, Sandbox
 
 BUILD = "colcon build --symlink-install"
@@ -106,25 +107,31 @@ class Build:
 
 
 def as_tar(submission: Submission, folder: str) -> bytes:
-    """Return the package as a tar archive, at `src/<folder>`."""
+    """Return the packages as a tar archive, the main one at `src/<folder>`."""
     stream = io.BytesIO()
     now = int(time.time())
+    others = [(one.name, one.files) for one in submission.packages]
     with tarfile.open(fileobj=stream, mode="w", format=tarfile.PAX_FORMAT) as tar:
-        for parent in ["src", f"src/{folder}"]:
-            tar.addfile(_entry(parent, tarfile.DIRTYPE, 0o755, now))
-        for file in submission.files:
-            name = f"src/{folder}/{file.path}"
-            if file.kind == "folder":
-                tar.addfile(_entry(name, tarfile.DIRTYPE, 0o755, now))
-            elif file.kind == "link":
-                entry = _entry(name, tarfile.SYMTYPE, 0o777, now)
-                entry.linkname = file.target
-                tar.addfile(entry)
-            else:
-                entry = _entry(name, tarfile.REGTYPE, file.mode & 0o755 | 0o600, now)
-                entry.size = len(file.data)
-                tar.addfile(entry, io.BytesIO(file.data))
+        tar.addfile(_entry("src", tarfile.DIRTYPE, 0o755, now))
+        for package, files in [(folder, submission.files), *others]:
+            _add(tar, f"src/{package}", files, now)
     return stream.getvalue()
+
+
+def _add(tar: tarfile.TarFile, folder: str, files: Iterable[SourceFile], now: int) -> None:
+    tar.addfile(_entry(folder, tarfile.DIRTYPE, 0o755, now))
+    for file in files:
+        name = f"{folder}/{file.path}"
+        if file.kind == "folder":
+            tar.addfile(_entry(name, tarfile.DIRTYPE, 0o755, now))
+        elif file.kind == "link":
+            entry = _entry(name, tarfile.SYMTYPE, 0o777, now)
+            entry.linkname = file.target
+            tar.addfile(entry)
+        else:
+            entry = _entry(name, tarfile.REGTYPE, file.mode & 0o755 | 0o600, now)
+            entry.size = len(file.data)
+            tar.addfile(entry, io.BytesIO(file.data))
 
 
 def _entry(name: str, kind: bytes, mode: int, now: int) -> tarfile.TarInfo:

@@ -65,7 +65,12 @@ def submit(tree: Tree, order: Order) -> Submission:
 def submit_path(path: Path, order: Order) -> Submission:
     """Take in the package at a path."""
     assignment = order.assignment
-    return take_in(path, package=assignment.package, node_file=assignment.node_file)
+    return take_in(
+        path,
+        package=assignment.package,
+        node_file=assignment.node_file,
+        others=assignment.interface_packages,
+    )
 
 
 def mark_files(submission: Submission, order: Order) -> Marked:

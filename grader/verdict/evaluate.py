@@ -69,14 +69,14 @@ def evaluate_checks(
     only: Collection[str] | None = None,
     announce: Announce | None = None,
 ) -> Iterator[CheckResult]:
-    """Evaluate the assignment's checks (those in `only`) and yield the results.
+    """Evaluate the assignment's checks (those whose id or kind is in `only`); yield the results.
 
     Each result is added to `evidence` first. `announce` is called with each check before it is
     evaluated. The first check that needs the build or the run makes it. Raises GraderError;
     any other exception that is not an outcome becomes a result with the status `error`.
     """
     for assigned in assigned_checks(evidence.assignment):
-        if only is not None and assigned.use.id not in only:
+        if only is not None and not {assigned.use.id, assigned.check.id} & set(only):
             continue
         if announce is not None:
             announce(assigned)

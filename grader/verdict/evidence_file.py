@@ -82,8 +82,8 @@ class EvidenceFile(Part):
         return cls(
             assignment=assignment,
             files={
-                utf8_name(file.path): hashlib.sha256(file.data).hexdigest()
-                for file in submission.files
+                utf8_name(path): hashlib.sha256(file.data).hexdigest()
+                for path, file in submission.all_files()
                 if file.kind == "file"
             },
             submission=submission_json(submission),

@@ -17,6 +17,7 @@ from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission, take_in
 from grader.report import events, model
+from grader.ros.distro import distros
 from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.base import Sandbox
@@ -45,6 +46,7 @@ def grade(order: Order, listener: events.Listener, *, keep: Keep | None = None) 
         order.path,
         package=order.assignment.package,
         node_file=order.assignment.node_file,
+        others=order.assignment.interface_packages,
         name=order.name,
         modes_kept=order.modes_kept,
     )
@@ -62,7 +64,7 @@ def mark(
     """Mark a submission whose intake took `intake` seconds; see `grade`."""
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
-    assignment = order.assignment
+    assignment = order.assignment.on(order.distro)
     translate = Translator(order.lang)
     opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
     listener(events.StageStarted("setup", translate(opening)))
@@ -70,6 +72,7 @@ def mark(
         order.sandbox,
         order.distro,
         order.limits,
+        interfaces=assignment.needs_interfaces,
         own_code=order.own_code,
         notify=lambda text: listener(events.Note(text)),
     )
@@ -118,6 +121,9 @@ def replay(
     from grader.verdict.recording import evidence_of  # noqa: PLC0415 - slow
 
     translate = Translator(lang)
+    known = distros().get(recording.environment.distro)
+    if known is not None:
+        assignment = assignment.on(known)
     evidence = evidence_of(recording, submission, assignment)
     return compose(
         evidence,

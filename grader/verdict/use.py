@@ -106,10 +106,10 @@ class Use(Generic[P_co]):
         first, last = self.window
         return [item for item in items if first - EDGE <= at(item) <= last + EDGE]
 
-    def blocked_by(self, *kinds: str, topic: str = "") -> None:
-        """Raise Blocked if a check of one of these kinds has failed, of this topic if one is given."""
+    def blocked_by(self, *kinds: str, **given: str) -> None:
+        """Raise Blocked if a check of one of these kinds has failed, with the parameters `given`."""
         for other in self.evidence.assignment.checks:
-            same = not topic or other.with_.get("topic") == topic
+            same = all(other.with_.get(name) == value for name, value in given.items())
             if same and other.kind in kinds and self.evidence.has_failed(other.id):
                 raise Blocked(by=other.id)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -38,6 +39,20 @@ class Candidate:
 
 
 @dataclass(frozen=True)
+class Package:
+    """Another package of a submission: its name, its folder relative to the path, its files."""
+
+    name: str
+    root: str
+    files: tuple[SourceFile, ...]
+
+    def text(self, path: str) -> str | None:
+        """Return a file's text; None if there is no such file."""
+        data = next((f.data for f in self.files if (f.path, f.kind) == (path, "file")), None)
+        return None if data is None else data.decode("utf-8", errors="replace")
+
+
+@dataclass(frozen=True)
 class Submission:
     """One submission.
 
@@ -48,7 +63,8 @@ class Submission:
     with the node's name, relative to `path`; `links_out` the package's links, relative to it,
     that lead out of it and were left out; `copies` the folders of other packages with its name,
     relative to `path`, which colcon would find too; `newer_copy` a copy of the node's file in build
-    or install, relative to `path`, that is newer or holds the content of an empty file.
+    or install, relative to `path`, that is newer or holds the content of an empty file; `packages`
+    the other packages that the assignment asks for, as far as they are there.
     """
 
     path: Path
@@ -68,6 +84,17 @@ class Submission:
     links_out: tuple[str, ...] = ()
     copies: tuple[str, ...] = ()
     newer_copy: str = ""
+    packages: tuple[Package, ...] = ()
+
+    def all_files(self) -> Iterator[tuple[str, SourceFile]]:
+        """Yield the files with their paths; those of other packages begin with `../name`."""
+        yield from ((file.path, file) for file in self.files)
+        for one in self.packages:
+            yield from ((f"../{one.name}/{file.path}", file) for file in one.files)
+
+    def package(self, name: str) -> Package | None:
+        """Return another package of the submission; None if it is not there."""
+        return next((one for one in self.packages if one.name == name), None)
 
     @cached_property
     def _by_path(self) -> dict[str, SourceFile]:

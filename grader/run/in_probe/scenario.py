@@ -2,11 +2,12 @@
 
 The grader sends this module to the probe, which runs it under the prefix's Python: it imports
 nothing of the grader. `commands(probe)` returns its commands:
-- `prepare` makes the subscriptions (`watch`), publishers (`publish`) and clients (`call`) that the
-  scenario needs, and the `world`; `unknown` has the types that do not exist;
-- `tick` moves the world to `at`, publishes this instant on /clock and makes a barrier, then
-  delivers the world's messages and makes another one;
-- `publish`, `call`, `set` act on the nodes, with a barrier after it;
+- `prepare` makes the subscriptions (`watch`), publishers (`publish`), clients (`call`) and action
+  clients (`goal`) that the scenario needs, and the `world`; `unknown` has the types that do not exist;
+- `tick` moves the world to `at`, whose messages go out, publishes this instant on /clock and makes
+  a barrier: round trips, which are behind all of that in each node's queue;
+- `publish`, `call`, `goal`, `cancel`, `set` and `place` act on the nodes and the world, with a
+  barrier after it;
 - `look_closely` returns the whole graph; `parameters` those of the node `name`.
 
 Messages are taken after a barrier, not by the executor: what a node published before it answered
@@ -19,13 +20,17 @@ import importlib
 import math
 import time
 from typing import Any
+from uuid import uuid4
 
 import rclpy
+from action_msgs.msg import GoalStatus
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
+from rclpy.action import ActionClient
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from unique_identifier_msgs.msg import UUID
 
 SECOND = 1_000_000_000
 DEPTH = 2_000  # messages of a topic that wait to be taken
@@ -37,8 +42,15 @@ MOST_PARAMETERS = 60
 ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
 MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
 MISSING_TRIES, MISSING_SECONDS = 12, 0.3  # barriers and wall time after which a message is missing
+MOST_TRIPS = 7  # at once, behind as many messages of a world
 REACTION_TRIES = 3  # further barriers after a stimulus
 PAUSE_SECONDS = 0.002
+STATUS = {
+    GoalStatus.STATUS_SUCCEEDED: "succeeded",
+    GoalStatus.STATUS_CANCELED: "canceled",
+    GoalStatus.STATUS_ABORTED: "aborted",
+}
+MOST_FEEDBACK = 200  # of goals, in one answer
 OF_ROS = ("use_sim_time", "start_type_description_service")  # parameters that every node has
 
 
@@ -137,17 +149,24 @@ class Scenario:
         self.watched: dict[str, list[Any]] = {}
         self.publishers: dict[str, Any] = {}
         self.clients: dict[str, Any] = {}
+        self.actions: dict[str, Any] = {}
+        # (taken by hand: the client drops feedback that it has not taken when the result comes)
+        self.feedback: list[Any] = []
+        self.sent: dict[bytes, str] = {}  # the name of each goal by its id
+        self.goals: dict[str, Any] = {}  # the handles of those that were accepted
+        self.of_goals: list[list[Any]] = []  # what became of them since the last answer
         self.calls: list[tuple[str, Any]] = []
         self.periods: dict[str, int] = {}  # ns between the messages that are awaited on topics
         self.latest: dict[str, int] = {}  # when a message was read last, and how long after another
         self.gaps: dict[str, int] = {}
+        self.at = 0  # ns, the instant that the clock shows
         self.world: Any = None
         self.messages: list[list[Any]] = []
         self.counts: dict[str, int] = {}
 
     def prepare(self, command: dict[str, Any], _: float) -> dict[str, Any]:
         """Make the ends that the scenario needs."""
-        named = [*command["watch"], *command["publish"], *command["call"]]
+        named = [*command["watch"], *command["publish"], *command["call"], *command["goal"]]
         kinds = {name: interface(name) for _, name in named}
         unknown = [name for name, kind in kinds.items() if kind is None]
         if unknown:
@@ -159,6 +178,11 @@ class Scenario:
                 self.publishers[topic] = self.probe.node.create_publisher(kinds[name], topic, 10)
         for service, name in command["call"]:
             self.clients[service] = self.probe.node.create_client(kinds[name], service)
+        for action, name in command["goal"]:
+            if action not in self.actions:
+                self.actions[action] = ActionClient(self.probe.node, kinds[name], action)
+                topic, kind = f"{action}/_action/feedback", kinds[name].Impl.FeedbackMessage
+                self.feedback += [self.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)]
         self.periods = command["periods"]
         if command["world"]:
             self.open_world(command["world"])
@@ -210,6 +234,15 @@ class Scenario:
             if count:
                 self.counts[topic] = self.counts.get(topic, 0) + count
             found[topic] = count
+        for subscription in self.feedback:
+            for _ in range(MOST_FEEDBACK):
+                with subscription.handle:
+                    taken = subscription.handle.take_message(subscription.msg_type, False)
+                if taken is None:
+                    break
+                name = self.sent.get(bytes(taken[0].goal_id.uuid))
+                if name is not None:
+                    self.of_goals.append([name, "feedback", Values().of(taken[0].feedback)])
         return found
 
     def trips(self, count: int, deadline: float) -> bool | None:
@@ -227,12 +260,16 @@ class Scenario:
 
     def tick(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Move the world and the clock to an instant."""
-        at = command["at"]
+        self.at = at = command["at"]
         steps = 0
         if self.world is not None:
             self.world.collect(at)
             steps = self.world.advance(at)
-        barrier = self.probe.set_clock(command, deadline)
+        if steps:  # a node takes one message of a topic and one request at a time
+            self.probe.show(at)
+            barrier = self.trips(min(steps, MOST_TRIPS) + 1, deadline)
+        else:
+            barrier = self.probe.set_clock(command, deadline)
         found = self.take()
         tries, began = 0, time.monotonic()
         while barrier and any(not found[topic] for topic in found if self.is_due(topic, at)):
@@ -240,10 +277,6 @@ class Scenario:
                 break
             tries += 1
             barrier = self.trips_later(found, deadline)
-        if steps:
-            self.world.acknowledged(Duration(seconds=ACK_SECONDS))
-            barrier = self.trips(min(steps, 7) + 1, deadline) and barrier
-            self.take_into(found)
         for topic in [topic for topic, count in found.items() if count]:
             if topic in self.latest:
                 self.gaps[topic] = at - self.latest[topic]
@@ -283,6 +316,8 @@ class Scenario:
         if done:
             self.calls = [one for one in self.calls if not one[1].done()]
             said["replies"] = [[name, Values().of(future.result())] for name, future in done]
+        if self.of_goals:
+            said["goals"], self.of_goals = self.of_goals[:MOST_FEEDBACK], []
         if self.world is not None:
             if self.world.steps:
                 said["path"], self.world.steps = self.world.steps, []
@@ -296,6 +331,8 @@ class Scenario:
         found = self.take()
         for _ in range(REACTION_TRIES):
             barrier = barrier and self.trips_later(found, deadline)
+        if self.world is not None:
+            self.world.collect(self.at)
         return barrier
 
     def publish(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
@@ -324,6 +361,60 @@ class Scenario:
             request = interface(command["type"]).Request()
             fill(request, command["values"])
             self.calls.append((command["name"], client.call_async(request)))
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": heard}
+
+    def goal(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Send a goal; what becomes of it comes with this answer or later ones."""
+        client, name = self.actions[command["action"]], command["name"]
+        until = min(deadline, time.monotonic() + MATCH_SECONDS)
+        while not client.server_is_ready() and time.monotonic() < until:
+            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        heard = int(client.server_is_ready())
+        if heard:
+            goal = interface(command["type"]).Goal()
+            fill(goal, command["values"])
+
+            def tell(what: str, values: Any = None) -> None:
+                self.of_goals.append([name, what, values])
+
+            def ended(future: Any) -> None:
+                answer = future.result()
+                status = STATUS.get(answer.status)
+                if status:
+                    tell(status, Values().of(answer.result))
+
+            def answered(future: Any) -> None:
+                handle = future.result()
+                tell("accepted" if handle.accepted else "refused")
+                if handle.accepted:
+                    self.goals[name] = handle
+                    handle.get_result_async().add_done_callback(ended)
+
+            goal_id = UUID(uuid=list(uuid4().bytes))
+            self.sent[bytes(goal_id.uuid)] = name
+            client.send_goal_async(goal, goal_uuid=goal_id).add_done_callback(answered)
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": heard}
+
+    def cancel(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Ask for the end of a goal."""
+        name = command["name"]
+        handle = self.goals.get(name)
+
+        def answered(future: Any) -> None:
+            if not future.result().goals_canceling:
+                self.of_goals.append([name, "refused", None])
+
+        if handle is not None:
+            handle.cancel_goal_async().add_done_callback(answered)
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": int(handle is not None)}
+
+    def place(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Put a turtle into the world: a new one, or one that is there."""
+        where = [command[key] for key in ("turtle", "x", "y", "theta")]
+        heard = int(getattr(self.world, command["how"])(*where))
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": heard}
 
@@ -380,28 +471,42 @@ class Scenario:
             )
         return {"parameters": found}
 
+    def own_definitions(self, infos: dict[str, Any]) -> dict[str, Any]:
+        """Return the hash that each type of our own ends has."""
+        name = self.probe.node.get_name()
+        ends = [("subscription", topic) for topic in self.watched]
+        ends += [("publisher", topic) for topic in self.publishers]
+        return {
+            info.topic_type: info.topic_type_hash
+            for role, topic in ends
+            for info in infos[role](topic)
+            if info.node_name == name
+        }
+
     def look_closely(self, _: dict[str, Any], __: float) -> dict[str, Any]:
         """Return every end of the nodes that are not ours."""
         self.hear_best_effort()
         node = self.probe.node
-        ends: list[dict[str, str]] = []
+        ends: list[dict[str, Any]] = []
         ours = {*self.probe.ours, "/" + node.get_name()}
         names = [
             (name, space)
             for name, space in node.get_node_names_and_namespaces()
             if (space.rstrip("/") + "/" + name) not in ours
         ]
-        qos: dict[tuple[str, str, str], tuple[str, str]] = {}
+        qos: dict[tuple[str, str, str], tuple[str, str, bool]] = {}
+        own = self.own_definitions(
+            infos := {
+                "publisher": node.get_publishers_info_by_topic,
+                "subscription": node.get_subscriptions_info_by_topic,
+            }
+        )
         readers = (
             ("publisher", node.get_publisher_names_and_types_by_node),
             ("subscription", node.get_subscriber_names_and_types_by_node),
             ("service", node.get_service_names_and_types_by_node),
             ("client", node.get_client_names_and_types_by_node),
         )
-        infos = {
-            "publisher": node.get_publishers_info_by_topic,
-            "subscription": node.get_subscriptions_info_by_topic,
-        }
         for name, space in names:
             full = space.rstrip("/") + "/" + name
             for role, read in readers:
@@ -416,8 +521,10 @@ class Scenario:
                             qos[role, topic, owner] = (
                                 info.qos_profile.reliability.name.lower(),
                                 info.qos_profile.durability.name.lower(),
+                                own.get(info.topic_type, info.topic_type_hash)
+                                != info.topic_type_hash,
                             )
-                    reliability, durability = qos.get((role, topic, full), ("", ""))
+                    reliability, durability, differs = qos.get((role, topic, full), ("", "", False))
                     for kind in types:
                         ends.append(
                             {
@@ -427,6 +534,7 @@ class Scenario:
                                 "type": kind[:256],
                                 "reliability": reliability,
                                 "durability": durability,
+                                "differs": differs,
                             }
                         )
         return {"ends": ends[:MOST_ENDPOINTS]}
@@ -435,5 +543,6 @@ class Scenario:
 def commands(probe: Any) -> dict[str, Any]:
     """Return the commands that this module adds to a probe."""
     scenario = Scenario(probe)
-    names = ("prepare", "tick", "publish", "call", "set", "parameters", "look_closely")
+    acts = ("publish", "call", "goal", "cancel", "place", "set")
+    names = ("prepare", "tick", *acts, "parameters", "look_closely")
     return {name: getattr(scenario, name) for name in names}

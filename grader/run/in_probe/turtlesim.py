@@ -11,14 +11,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
+PACKAGES = ("turtlesim", "turtlesim_msgs")  # with the interfaces, up to jazzy and later
 STEP = 16_000_000  # ns between two updates
 DT = 0.016  # s by which an update moves a turtle
 SIZE = 499 / 45  # m, of the square field
 COMMAND_SECONDS = 1.0  # after which a velocity command is over
 TURN_SPEED = 1.0  # rad/s of rotate_absolute
 TURN_DONE = 0.02  # rad
+BACKGROUND = {"r": 69, "g": 86, "b": 255}
 QUEUE = 7  # commands that a turtle keeps
 SECOND = 1_000_000_000
 
@@ -108,18 +111,20 @@ class Field:
                     warn(warning)
             after_step()
 
-    def spawn(self, x: float, y: float, theta: float, name: str = "") -> str:
-        """Add a turtle and return its name, "" if another one has that name."""
-        if not name:
-            while True:
-                self._made += 1
-                name = f"turtle{self._made}"
-                if name not in self.turtles:
-                    break
+    def new_name(self) -> str:
+        """Return the next name that no turtle has."""
+        while True:
+            self._made += 1
+            name = f"turtle{self._made}"
+            if name not in self.turtles:
+                return name
+
+    def spawn(self, name: str, x: float, y: float, theta: float) -> bool:
+        """Add a turtle; return whether there was none of that name."""
         if name in self.turtles:
-            return ""
+            return False
         self.turtles[name] = Turtle(name, x, y, theta)
-        return name
+        return True
 
     def reset(self) -> None:
         """Begin anew: one turtle in the middle."""
@@ -154,8 +159,8 @@ class World:
         self._goals: dict[str, tuple[Any, Any]] = {}
         self.steps: list[tuple[str, float, float, float]] = []
         self.events: list[dict[str, Any]] = []
-        for name, value in (("background_r", 69), ("background_g", 86), ("background_b", 255)):
-            node.declare_parameter(name, value, _byte(name))
+        for letter, value in BACKGROUND.items():
+            node.declare_parameter(f"background_{letter}", value, _byte(letter))
         node.declare_parameter("holonomic", False)
         node.create_service(Empty, "clear", lambda _, answer: answer)
         node.create_service(Empty, "reset", self._reset)
@@ -185,9 +190,20 @@ class World:
         self.field.advance(to, self._publish, self.node.get_logger().warning)
         return (self.field.now - before) // STEP
 
-    def acknowledged(self, timeout: Any) -> bool:
-        """Wait until all subscribers have the poses; return whether they have."""
-        return all(one.wait_for_all_acked(timeout) for one in self._poses.values())
+    def spawn(self, name: str, x: float, y: float, theta: float) -> bool:
+        """Add a turtle; return whether there was none of that name."""
+        if not self.field.spawn(name, x, y, theta):
+            return False
+        self._add(name)
+        return True
+
+    def move(self, name: str, x: float, y: float, theta: float) -> bool:
+        """Put a turtle elsewhere; return whether it is there."""
+        turtle = self.field.turtles.get(name)
+        if turtle is None:
+            return False
+        turtle.x, turtle.y, turtle.theta = x, y, within_pi(theta)
+        return True
 
     def _publish(self) -> None:
         for name, turtle in self.field.turtles.items():
@@ -202,6 +218,7 @@ class World:
                 angular_velocity=turtle.turning,
             )
             self._poses[name].publish(pose)
+            self._colors[name].publish(self._messages.Color(**BACKGROUND))
             self._turn(name, turtle)
 
     def _turn(self, name: str, turtle: Turtle) -> None:
@@ -235,7 +252,8 @@ class World:
             self.field.turtles[name].pen = Pen(
                 request.r, request.g, request.b, request.width, not request.off
             )
-            self._event("pen", name, r=request.r, g=request.g, b=request.b, off=request.off)
+            colour = {"r": request.r, "g": request.g, "b": request.b}
+            self._event("pen", name, **colour, width=request.width, off=request.off)
             return answer
 
         def absolute(request: Any, answer: Any) -> Any:
@@ -293,11 +311,10 @@ class World:
             future.set_result("aborted")
 
     def _spawn(self, request: Any, answer: Any) -> Any:
-        name = self.field.spawn(request.x, request.y, request.theta, request.name)
-        if not name:
-            self.node.get_logger().error(f"A turtle named [{request.name}] already exists")
+        name = request.name or self.field.new_name()
+        if not self.spawn(name, request.x, request.y, request.theta):
+            self.node.get_logger().error(f"A turtle named [{name}] already exists")
             return answer
-        self._add(name)
         place = f"x=[{request.x:f}], y=[{request.y:f}], theta=[{request.theta:f}]"
         self.node.get_logger().info(f"Spawning turtle [{name}] at {place}")
         self._event("spawn", name)
@@ -331,24 +348,23 @@ class World:
         return answer
 
     def _event(self, kind: str, turtle: str, **more: Any) -> None:
-        self.events.append({"kind": kind, "turtle": turtle, "at": self.field.now / SECOND, **more})
+        self.events.append({"kind": kind, "turtle": turtle, **more})
 
 
-def _interfaces() -> tuple[Any, Any, Any]:
-    """Return the messages, services and actions of the package turtlesim; None without it."""
-    try:
-        import turtlesim.action  # noqa: PLC0415 - of the prefix
-        import turtlesim.msg  # noqa: PLC0415
-        import turtlesim.srv  # noqa: PLC0415
-    except ImportError:
-        return None, None, None
-    return turtlesim.msg, turtlesim.srv, turtlesim.action
+def _interfaces() -> tuple[Any, ...]:
+    """Return turtlesim's messages, services and actions; None if ROS does not have them."""
+    for package in PACKAGES:
+        try:
+            return tuple(import_module(f"{package}.{kind}") for kind in ("msg", "srv", "action"))
+        except ImportError:
+            continue
+    return None, None, None
 
 
-def _byte(name: str) -> Any:
+def _byte(letter: str) -> Any:
     from rcl_interfaces.msg import IntegerRange, ParameterDescriptor  # noqa: PLC0415 - of the prefix
 
-    colour = {"r": "red", "g": "green", "b": "blue"}[name[-1]]
+    colour = {"r": "red", "g": "green", "b": "blue"}[letter]
     return ParameterDescriptor(
         description=f"Amount of {colour} in the background",
         integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],

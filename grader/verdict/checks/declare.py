@@ -110,13 +110,21 @@ def kind(
     check_id: str,
     parameters: type[Parameters],
     *,
+    stage: Stage | None = None,
+    depends: Sequence[str] = STARTED,
     after: Sequence[str] = (),
 ) -> Callable[[Callable[[Use[Any]], Passed | None]], Check]:
-    """Declare a kind of check with parameters; it judges a run whose nodes start and spin."""
-    return _declare(check_id, RUN, None, STARTED, after, "before_ctrl_c", parameters)
+    """Declare a kind of check with parameters.
+
+    It judges a run whose nodes start and spin, unless `stage` and `depends` say otherwise.
+    """
+    quotes: Quote | None = "before_ctrl_c" if stage is None else None
+    return _declare(check_id, stage or RUN, None, depends, after, quotes, parameters)
 
 
 def _as_word(value: object) -> str | int | float:
+    if isinstance(value, tuple):
+        return ", ".join(str(one) for one in value)
     return value if isinstance(value, str | int | float) else str(value)
 
 

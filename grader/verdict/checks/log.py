@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
-from grader.base.i18n.message import say_plural
+from grader.base.i18n.message import say, say_plural
+from grader.base.nearest import with_difference
+from grader.base.yaml_model import broken
 from grader.course.values import Form
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of
@@ -34,6 +38,26 @@ class Never(Parameters):
 
     text: Form
     level: Level = ""
+
+
+class Counts(Parameters):
+    """A line that counts: `text` has {n} once; the numbers go up by `step`.
+
+    With a `period` (s), one line comes at each of its instants in the window.
+    """
+
+    text: str
+    start: int = 0
+    step: int = 1
+    at_least: int = Field(default=2, ge=2)
+    period: float | None = Field(default=None, gt=0)
+
+    @field_validator("text")
+    @classmethod
+    def _has_number(cls, text: str) -> str:
+        if text.count("{n}") != 1:
+            raise broken("text must contain {n} exactly once")
+        return text
 
 
 @kind("log.matches", Lines, after=["topic.values"])
@@ -72,6 +96,41 @@ def never(use: Use[Never]) -> Passed:
         )
     use.require_window()
     return Passed(actual=_count(0))
+
+
+@kind("log.counts", Counts, after=["log.matches"])
+def counts(use: Use[Counts]) -> Passed:
+    """The node counts in its log: {text}"""
+    given = use.given
+    use.require_window()
+    before, after = map(re.escape, given.text.split("{n}"))
+    form = Form(matches=f"^{before}-?[0-9]+{after}$")
+    found = _lines(use, form, "")
+    wanted = [given.text.replace("{n}", str(given.start + k * given.step)) for k in range(3)]
+    expected = ", ".join([*wanted, "…"])
+    where = use.call("info", "warning", "warn", "error")
+    if len(found) < given.at_least:
+        raise Failed("log.missing", expected=expected, actual=_count(len(found)), where=where)
+    for k, event in enumerate(found):
+        due = given.text.replace("{n}", str(given.start + k * given.step))
+        if event.text != due:
+            raise Failed(
+                "log.wrong_count",
+                expected=due,
+                actual=with_difference(event.text, event.text, due),
+                where=line_of(use.evidence, event.record),
+            )
+    gaps = [round(b.virtual - a.virtual, 6) for a, b in pairwise(found)]
+    late = [gap for gap in gaps if given.period and abs(gap - given.period) > 1e-6]
+    if late:
+        raise Failed(
+            "log.wrong_period",
+            expected=say("one line every {period} s", period=f"{given.period:g}"),
+            actual=say("{gap} s between two lines", gap=f"{late[0]:g}"),
+            where=use.call("create_timer"),
+            words={"wanted": f"{given.period:g}"},
+        )
+    return Passed(actual=_count(len(found)))
 
 
 def _lines(use: Use[Parameters], text: Form, level: Level) -> list[Event]:

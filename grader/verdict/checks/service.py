@@ -57,7 +57,8 @@ def calls(use: Use[Service]) -> Passed:
 def _must_have(role: Role, use: Use[Service]) -> Passed:
     given = use.given
     make = "create_service" if role == "service" else "create_client"
-    own = [end for end in use.ends(role) if end.name.rpartition("/")[2] not in OWN]
+    ends = (end for end in use.ends(role) if "/_action/" not in end.name)
+    own = [end for end in ends if end.name.rpartition("/")[2] not in OWN]
     here = [end for end in own if end.name == given.service]
     expected = f"{given.service} ({given.type})"
     words = {"service": given.service, "short": given.type.rpartition("/")[2], "make": make}

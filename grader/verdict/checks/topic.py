@@ -52,6 +52,12 @@ class Each(Parameters):
     each: dict[str, Form] = Field(min_length=1)
 
 
+class Silent(Parameters):
+    """No message in the window."""
+
+    topic: str
+
+
 class Reacts(Parameters):
     """A message within a time of a stimulus, with fields of a form."""
 
@@ -124,9 +130,17 @@ def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expecte
     own = use.ends(role)
     here = [end for end in own if end.name == topic]
     right = [end for end in here if end.type == type_]
+    where = use.call(CALLS[role], mentions=topic)
+    if right and right[0].differs:
+        raise Failed(
+            "topic.other_definition",
+            expected=expected,
+            actual=say("{type} with other fields than in its file", type=type_),
+            where=where,
+            words={"topic": topic, "short": type_.rpartition("/")[2]},
+        )
     if right:
         return right[0]
-    where = use.call(CALLS[role], mentions=topic)
     if here:
         raise Failed(
             "topic.wrong_type",
@@ -286,6 +300,25 @@ def values(use: Use[Each]) -> Passed:
     for message in found:
         _must_fit(message, given.each, use)
     return Passed(actual=say_plural("{count} message fits", "{count} messages fit", len(found)))
+
+
+@kind("topic.silent", Silent, after=["topic.publishes"])
+def silent(use: Use[Silent]) -> Passed:
+    """No message comes on {topic} at that time"""
+    topic = use.given.topic
+    found = use.messages(topic)
+    if found:
+        raise Failed(
+            "topic.not_silent",
+            expected=say("no message from {first} s to {last} s", **_times(use)),
+            actual=say("a message at {at} s", at=f"{found[0].at:g}"),
+            where=use.call("publish", mentions=topic),
+            words={"topic": topic},
+        )
+    use.require_window()
+    if not use.seen.of_topic(topic):
+        use.blocked_by("topic.publishes", topic=topic)
+    return Passed()
 
 
 def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
 from grader.base.i18n.message import say
 from grader.base.part import Part
+from grader.course.values import Form, shown_value, value_at
 from grader.run.in_probe.turtlesim import SIZE
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.outcome import Failed, Passed
@@ -37,11 +38,26 @@ class Path(Parameters):
 
 
 class Inside(Parameters):
-    """The turtle stays `margin` m away from the edge of the field, and moves `at_least` m."""
+    """The turtle stays `margin` m away from the edge of the field.
+
+    It moves `at_least` m, and over an area whose longer side is at least `covers` m.
+    """
 
     turtle: str = "turtle1"
     margin: float = Field(default=0.0, ge=0)
     at_least: float = Field(default=1.0, ge=0)
+    covers: float = Field(default=0.0, ge=0)
+
+
+class Happens(Parameters):
+    """What the world was asked for: `pen` (r, g, b, width, off), `spawn` or `kill` of a turtle.
+
+    The last such request in the window counts.
+    """
+
+    event: Literal["pen", "spawn", "kill"]
+    turtle: str = "turtle1"
+    each: dict[str, Form] = Field(default_factory=dict)
 
 
 @kind("world.path", Path, after=["topic.values", "topic.period"])
@@ -112,7 +128,59 @@ def stays(use: Use[Inside]) -> Passed:
             where=use.call("publish"),
             words={**words, "radius": ""},
         )
+    across, along = [pose.x for pose in poses], [pose.y for pose in poses]
+    side = max(max(across) - min(across), max(along) - min(along))
+    if side < given.covers:
+        use.blocked_by("topic.publishes", "topic.values")
+        raise Failed(
+            "world.one_place",
+            expected=say(
+                "{turtle} drives over at least {side} m of the field",
+                turtle=given.turtle,
+                side=f"{given.covers:g}",
+            ),
+            actual=say("it stays within {side} m", side=f"{side:.2f}"),
+            where=use.call("publish"),
+            words=words,
+        )
     return Passed(actual=say("it drove {length} m", length=f"{driven:.1f}"))
+
+
+@kind("world.event", Happens, after=["service.calls"])
+def event(use: Use[Happens]) -> Passed:
+    """The node makes the world do what it must ({event})"""
+    given = use.given
+    found = [
+        one
+        for one in use.in_window(use.seen.events, lambda one: float(one["at"]))
+        if one["kind"] == given.event and one["turtle"] == given.turtle
+    ]
+    expected = ", ".join(f"{path}: {form}" for path, form in given.each.items()) or given.event
+    words = {"turtle": given.turtle, "service": given.event}
+    where = use.call("call_async", "call", "create_client")
+    if not found:
+        use.require_window()
+        use.blocked_by("service.calls")
+        raise Failed(
+            "world.not_asked",
+            expected=expected,
+            actual=say("nothing asked {turtle} for it", turtle=given.turtle),
+            where=where,
+            words=words,
+        )
+    values = found[-1]
+    for path, form in given.each.items():
+        value = value_at(values, path)
+        if not form.fits(value):
+            raise Failed(
+                "world.wrong_request",
+                expected=f"{path}: {form}",
+                actual=f"{path}: {shown_value(value)}",
+                where=where,
+                params={"field": path},
+                words=words,
+            )
+    return Passed(actual=say("it came at {at} s", at=f"{values['at']:g}"))
 
 
 def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:

@@ -1,0 +1,160 @@
+"""The catalogue: actions, the ROS graph, and what the world is asked for, as a run shows them."""
+
+from __future__ import annotations
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.kind import Family
+
+ENDS = msg(
+    "The callback of an action decides how the goal ends: it calls succeed(), abort() or canceled() "
+    "on the goal handle, and returns the result. Without a call, the goal is aborted."
+)
+_action = Family("action", links.ACTIONS)
+_graph = Family("graph", links.NODES)
+_files = Family("files", links.PACKAGE)
+KINDS = (
+    _files(
+        "missing",
+        "file",
+        msg("A file is missing"),
+        msg("The assignment asks for a file with this name in the package."),
+        msg("Create {path} in the package, or rename the file that you have."),
+    ),
+    _files(
+        "no_match",
+        "file",
+        msg("A file has other text than asked for"),
+        msg("The assignment says what must be in this file."),
+        msg("Compare {path} with what the assignment asks for."),
+    ),
+    _graph(
+        "node_missing",
+        "class",
+        msg("A node is not on the ROS graph"),
+        msg("A node is on the graph as soon as it is made, under the name that it gets."),
+        msg("Make the node {name}, with exactly this name."),
+    ),
+    _graph(
+        "node_unexpected",
+        "class",
+        msg("There is one node too many"),
+        msg("Each object of the class Node is a node of its own on the ROS graph."),
+        msg("Make {name} only if the assignment asks for it."),
+    ),
+    _graph(
+        "not_connected",
+        "topic",
+        msg("Two nodes are not connected"),
+        msg(
+            "A publisher and a subscription are connected if the topic's name and type are equal on "
+            "both sides."
+        ),
+        msg("Look at {node}: create its publisher or subscription on {topic}."),
+        fixes={"type": msg("Use the same type on both sides of {topic}.")},
+    ),
+    _action(
+        "missing",
+        "service",
+        msg("The node does not offer the action"),
+        msg("An action exists as soon as its ActionServer is made; clients find it by its name."),
+        msg(
+            "Write self.server_ = ActionServer(self, {short}, '{service}', self.execute) in __init__."
+        ),
+    ),
+    _action(
+        "wrong_name",
+        "service",
+        msg("The action has a different name"),
+        msg("A client and an action meet if their names are equal, to the letter."),
+        msg("Use '{service}' in place of '{name}'."),
+    ),
+    _action(
+        "wrong_type",
+        "service",
+        msg("The action has a different type"),
+        msg("A client and an action of different types never meet."),
+        msg("Pass {short} as the second argument of ActionServer."),
+    ),
+    _action(
+        "no_answer",
+        "service",
+        msg("The action does not answer the goal"),
+        msg("ROS asks the goal callback whether to take a goal. It must return at once."),
+        msg(
+            "Return GoalResponse.ACCEPT or GoalResponse.REJECT in the goal callback of {service}, "
+            "without waiting in it."
+        ),
+    ),
+    _action(
+        "refused",
+        "service",
+        msg("The action refuses the goal"),
+        msg("The goal callback decides whether a goal is taken; without one, each goal is."),
+        msg("Return GoalResponse.ACCEPT in the goal callback of {service} for such a goal."),
+    ),
+    _action(
+        "accepted",
+        "service",
+        msg("The action takes a goal that it must refuse"),
+        msg("The goal callback decides whether a goal is taken; without one, each goal is."),
+        msg(
+            "Pass goal_callback=… to the ActionServer of {service}, and return GoalResponse.REJECT "
+            "in it for such a goal."
+        ),
+    ),
+    _action(
+        "no_feedback",
+        "service",
+        msg("The action gives no feedback"),
+        msg(
+            "A client learns how far the goal is from feedback, which the callback has to publish."
+        ),
+        msg("Call goal_handle.publish_feedback(…) in the callback of {service}, while it works."),
+    ),
+    _action(
+        "wrong_feedback",
+        "service",
+        msg("The feedback has a different value"),
+        msg("Fields that are not set are 0, or empty."),
+        msg("Set {field} of the feedback each time before publish_feedback()."),
+    ),
+    _action(
+        "no_result",
+        "service",
+        msg("The goal does not end in time"),
+        ENDS,
+        msg("Let the callback of {service} return the result when the work is done."),
+    ),
+    _action(
+        "wrong_status",
+        "service",
+        msg("The goal ends in another state"),
+        ENDS,
+        msg(
+            "Let the goal end as {wanted}: call the method of goal_handle for it before you return."
+        ),
+    ),
+    _action(
+        "wrong_result",
+        "service",
+        msg("The action's result has a different value"),
+        msg(
+            "The callback fills the result and returns it. Fields that are not set are 0, or empty."
+        ),
+        msg("Set {field} of the result in the callback of {service}, and return it."),
+    ),
+    _action(
+        "not_cancelled",
+        "service",
+        msg("The goal cannot be cancelled"),
+        msg(
+            "A goal is cancelled if the cancel callback accepts it, and if the callback that works on "
+            "it looks at is_cancel_requested and calls canceled()."
+        ),
+        msg(
+            "Pass a cancel_callback to the ActionServer of {service} that returns "
+            "CancelResponse.ACCEPT, and check goal_handle.is_cancel_requested while the goal runs."
+        ),
+    ),
+)

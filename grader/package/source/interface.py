@@ -1,0 +1,50 @@
+"""The fields and constants that the text of a .msg file declares."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+LINE = re.compile(
+    r"^(?P<type>[A-Za-z][\w/]*(?:<=\d+)?(?:\[(?:<=)?\d*\])?)\s+(?P<name>[A-Za-z]\w*)"
+    r"(?:\s*=\s*(?P<constant>.+)|\s+(?P<default>.+))?$"
+)
+FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
+
+
+@dataclass(frozen=True)
+class Declared:
+    """One line of a .msg file that declares something: a field, or a constant with its value."""
+
+    line: int
+    type: str
+    name: str
+    constant: str = ""
+
+
+@dataclass(frozen=True)
+class MessageText:
+    """What a .msg file declares, and the numbers of the lines that declare nothing known."""
+
+    declared: tuple[Declared, ...]
+    unknown: tuple[int, ...]
+
+    def field(self, name: str) -> Declared | None:
+        """Return the field with a name; None if there is none."""
+        return next((one for one in self.declared if (one.name, one.constant) == (name, "")), None)
+
+
+def message_text(text: str) -> MessageText:
+    """Return what the text of a .msg file declares."""
+    declared: list[Declared] = []
+    unknown: list[int] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        code = line.partition("#")[0].strip()
+        found = LINE.match(code)
+        if found:
+            declared.append(
+                Declared(number, found["type"], found["name"], (found["constant"] or "").strip())
+            )
+        elif code:
+            unknown.append(number)
+    return MessageText(tuple(declared), tuple(unknown))

@@ -1,0 +1,271 @@
+"""Kinds of check for actions: who offers them, and what becomes of a goal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field
+
+from grader.base.i18n.message import say, say_plural
+from grader.base.nearest import nearest, with_difference
+from grader.course.values import Form, shown_value, value_at
+from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.outcome import Blocked, Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.run.observations import Goal
+    from grader.verdict.use import Use
+
+SEND_GOAL = "/_action/send_goal"
+OF_TYPE = "_SendGoal"
+EDGE = 1e-6  # s
+Status = Literal["succeeded", "canceled", "aborted"]
+
+
+class Action(Parameters):
+    """An action and its type."""
+
+    action: str
+    type: str
+
+
+class Accepts(Parameters):
+    """Whether the goal `after` is accepted."""
+
+    action: str
+    accepted: bool = True
+
+
+class Feedback(Parameters):
+    """At least so many messages of feedback to the goal `after`, with fields of a form."""
+
+    action: str
+    at_least: int = Field(default=1, ge=1)
+    each: dict[str, Form] = Field(default_factory=dict)
+
+
+class Result(Parameters):
+    """How the goal `after` ends, within a time (s), and the form of fields in its result."""
+
+    action: str
+    status: Status = "succeeded"
+    within: float = Field(ge=0)
+    each: dict[str, Form] = Field(default_factory=dict)
+
+
+class Cancels(Parameters):
+    """The goal of the cancellation `after` ends as canceled, within a time (s)."""
+
+    action: str
+    within: float = Field(ge=0)
+
+
+@kind("action.offers", Action, after=["run.node_name"])
+def offers(use: Use[Action]) -> Passed:
+    """The node offers the action {action}, of the type {type}"""
+    given = use.given
+    own = {
+        end.name.removesuffix(SEND_GOAL): end.type.removesuffix(OF_TYPE)
+        for end in use.ends("service")
+        if end.name.endswith(SEND_GOAL)
+    }
+    words = {"service": given.action, "short": given.type.rpartition("/")[2]}
+    expected = f"{given.action} ({given.type})"
+    where = use.call("ActionServer", mentions=given.action)
+    found = own.get(given.action)
+    if found == given.type:
+        return Passed(actual=say("{node} has it", node=use.node))
+    if found is not None:
+        raise Failed(
+            "action.wrong_type",
+            expected=expected,
+            actual=with_difference(found, found, given.type),
+            where=where,
+            params={"type": found},
+            words=words,
+        )
+    if own:
+        close = nearest(given.action, own) or next(iter(own))
+        raise Failed(
+            "action.wrong_name",
+            expected=expected,
+            actual=with_difference(", ".join(own), close, given.action),
+            where=use.call("ActionServer", mentions=close),
+            params={"name": close},
+            words=words,
+        )
+    raise Failed(
+        "action.missing",
+        expected=expected,
+        actual=say("{node} has no such end on the ROS graph", node=use.node),
+        where=where,
+        words=words,
+    )
+
+
+@kind("action.accepts", Accepts, after=["action.offers"])
+def accepts(use: Use[Accepts]) -> Passed:
+    """The action {action} accepts or refuses the goal as it must"""
+    given, goal = use.given, _goal(use)
+    accepted = goal.accepted is not None
+    if not accepted and goal.refused is None:
+        raise _unanswered(use, given.action)
+    words = {True: say("it accepts the goal"), False: say("it refuses the goal")}
+    if accepted is not given.accepted:
+        raise Failed(
+            "action.refused" if given.accepted else "action.accepted",
+            expected=words[given.accepted],
+            actual=words[accepted],
+            where=use.call("ActionServer", mentions=given.action),
+            words={"service": given.action},
+        )
+    return Passed(actual=words[accepted])
+
+
+@kind("action.feedback", Feedback, after=["action.accepts"])
+def feedback(use: Use[Feedback]) -> Passed:
+    """The action {action} gives feedback on the goal"""
+    given, goal = use.given, _accepted(use, use.given.action)
+    where = use.call("publish_feedback")
+    count = say_plural(
+        "{count} message of feedback", "{count} messages of feedback", len(goal.feedback)
+    )
+    if len(goal.feedback) < given.at_least:
+        use.require_window()
+        raise Failed(
+            "action.no_feedback",
+            expected=say_plural(
+                "at least {count} message of feedback",
+                "at least {count} messages of feedback",
+                given.at_least,
+            ),
+            actual=count,
+            where=where,
+            words={"service": given.action},
+        )
+    for at, values in goal.feedback:
+        for path, form in given.each.items():
+            value = value_at(values, path)
+            if not form.fits(value):
+                raise Failed(
+                    "action.wrong_feedback",
+                    expected=f"{path}: {form}",
+                    actual=say(
+                        "{path}: {value}, in the message at {at} s",
+                        path=path,
+                        value=shown_value(value),
+                        at=f"{at:g}",
+                    ),
+                    where=where,
+                    params={"field": path},
+                    words={"service": given.action},
+                )
+    return Passed(actual=count)
+
+
+@kind("action.result", Result, after=["action.accepts", "action.feedback"])
+def result(use: Use[Result]) -> Passed:
+    """The goal of the action {action} ends as it must"""
+    given, goal = use.given, _accepted(use, use.given.action)
+    where = use.call("succeed", "abort", "canceled", "ActionServer", mentions=given.action)
+    words = {"service": given.action, "wanted": given.status}
+    expected = say(
+        "the goal ends as {status} within {within} s",
+        status=given.status,
+        within=f"{given.within:g}",
+    )
+    if goal.ended is None or goal.ended > goal.at + given.within + EDGE:
+        if use.end < goal.at + given.within - EDGE:
+            raise use.unreached()
+        late = say("it ends at {at} s", at=f"{goal.ended:g}") if goal.ended is not None else ""
+        raise Failed(
+            "action.no_result",
+            expected=expected,
+            actual=late or say("the goal does not end"),
+            where=where,
+            words=words,
+        )
+    if goal.status != given.status:
+        raise Failed(
+            "action.wrong_status",
+            expected=expected,
+            actual=say("it ends as {status}", status=goal.status),
+            where=where,
+            params={"found": goal.status},
+            words=words,
+        )
+    for path, form in given.each.items():
+        value = value_at(goal.result, path)
+        if not form.fits(value):
+            raise Failed(
+                "action.wrong_result",
+                expected=f"{path}: {form}",
+                actual=f"{path}: {shown_value(value)}",
+                where=where,
+                params={"field": path},
+                words=words,
+            )
+    return Passed(actual=say("it ends as {status}", status=goal.status))
+
+
+@kind("action.cancels", Cancels, after=["action.accepts", "action.result"])
+def cancels(use: Use[Cancels]) -> Passed:
+    """A goal of the action {action} can be cancelled"""
+    given = use.given
+    begin = use.window[0]
+    stimulus = use.plan.stimulus(use.use.after)
+    goal = use.seen.goal((stimulus.cancel if stimulus is not None else None) or "")
+    if goal is None or goal.accepted is None:
+        use.blocked_by("action.accepts", "action.offers")
+        raise Blocked(by="run.stays")
+    if (
+        goal.ended is not None
+        and goal.status == "canceled"
+        and goal.ended <= begin + given.within + EDGE
+    ):
+        return Passed(actual=say("it ends as {status}", status=goal.status))
+    if use.end < begin + given.within - EDGE:
+        raise use.unreached()
+    ended = say("it ends as {status}", status=goal.status) if goal.status else ""
+    raise Failed(
+        "action.not_cancelled",
+        expected=say(
+            "the goal ends as {status} within {within} s",
+            status="canceled",
+            within=f"{given.within:g}",
+        ),
+        actual=say("the node refuses to cancel it")
+        if goal.refused is not None
+        else ended or say("the goal does not end"),
+        where=use.call("ActionServer", mentions=given.action),
+        words={"service": given.action},
+    )
+
+
+def _goal(use: Use[Parameters]) -> Goal:
+    """Return the goal that the check names. Raises Blocked if the action is not offered."""
+    goal, done = use.seen.goal(use.use.after), use.seen.stimulus(use.use.after)
+    if goal is None or done is None:
+        raise use.unreached()
+    if not done.heard:
+        use.blocked_by("action.offers")
+    return goal
+
+
+def _accepted(use: Use[Parameters], action: str) -> Goal:
+    """Return the goal, which was accepted. Raises Blocked if it was not."""
+    goal = _goal(use)
+    if goal.accepted is None:
+        use.blocked_by("action.accepts")
+        raise _unanswered(use, action)
+    return goal
+
+
+def _unanswered(use: Use[Parameters], action: str) -> Failed:
+    return Failed(
+        "action.no_answer",
+        expected=say("the node answers the goal"),
+        actual=say("no answer came"),
+        where=use.call("ActionServer", mentions=action),
+        words={"service": action},
+    )

@@ -1,0 +1,89 @@
+"""Kinds of check for the ROS graph: which nodes there are, and which of them are connected."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydantic import Field
+
+from grader.base.i18n.message import say
+from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.outcome import Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.run.observations import End
+    from grader.verdict.use import Use
+
+
+class Nodes(Parameters):
+    """The full names of nodes, such as /talker; `others` is whether there may be more."""
+
+    names: tuple[str, ...] = Field(min_length=1)
+    others: bool = True
+
+
+class Connection(Parameters):
+    """A topic by which one node sends to another: `sender` and `receiver` are full names."""
+
+    topic: str
+    sender: str
+    receiver: str
+
+
+@kind("graph.nodes", Nodes, after=["run.node_name"])
+def nodes(use: Use[Nodes]) -> Passed:
+    """The ROS graph has the nodes {names}"""
+    given = use.given
+    found = {node.name for node in use.run.nodes}
+    missing = [name for name in given.names if name not in found]
+    more = sorted(found - set(given.names))
+    listed = ", ".join(sorted(found)) or "-"
+    if missing:
+        raise Failed(
+            "graph.node_missing",
+            expected=", ".join(given.names),
+            actual=listed,
+            where=use.call("__init__", "create_node", "Node"),
+            params={"name": missing[0]},
+        )
+    if more and not given.others:
+        raise Failed(
+            "graph.node_unexpected",
+            expected=say("only {names}", names=", ".join(given.names)),
+            actual=listed,
+            where=use.call("__init__", "create_node", "Node"),
+            params={"name": more[0]},
+        )
+    return Passed(actual=listed)
+
+
+@kind("graph.connects", Connection, after=["topic.publishes", "topic.subscribes"])
+def connects(use: Use[Connection]) -> Passed:
+    """{sender} sends to {receiver} on {topic}"""
+    given = use.given
+    publishers = {end.type for end in _of(use, given.sender, "publisher")}
+    subscriptions = {end.type for end in _of(use, given.receiver, "subscription")}
+    expected = say("{sender} sends to {receiver} on {topic}", **given.model_dump())
+    if publishers & subscriptions:
+        return Passed()
+    lacking = given.receiver if publishers else given.sender
+    actual = say("{node} has no such end on the ROS graph", node=lacking)
+    variant = ""
+    if publishers and subscriptions:
+        kinds = {"mine": min(publishers), "theirs": min(subscriptions)}
+        variant = "type"
+        actual = say("one sends {mine}, the other expects {theirs}", **kinds)
+    raise Failed(
+        "graph.not_connected",
+        expected=expected,
+        actual=actual,
+        where=use.call("create_publisher", "create_subscription", mentions=given.topic),
+        params={"node": lacking},
+        words={"topic": given.topic},
+        variant=variant,
+    )
+
+
+def _of(use: Use[Connection], node: str, role: str) -> list[End]:
+    ends = use.seen.ends
+    return [end for end in ends if (end.node, end.role, end.name) == (node, role, use.given.topic)]

@@ -1,0 +1,228 @@
+"""Kinds of check for packages of interfaces: their manifest, their CMakeLists.txt, their fields."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from pydantic import Field
+
+from grader.base.i18n.message import say
+from grader.base.nearest import nearest, with_difference
+from grader.package.source.interface import FIELD_NAME, message_text
+from grader.package.source.manifest import ManifestError, read_manifest
+from grader.report.model import Where
+from grader.verdict.checks.declare import INTAKE, Parameters, kind
+from grader.verdict.outcome import Blocked, Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.package.source.manifest import Manifest
+    from grader.package.submission import Package
+    from grader.verdict.use import Use
+
+GROUP = "rosidl_interface_packages"
+GENERATE = re.compile(r"rosidl_generate_interfaces\s*\((?P<words>[^)]*)\)")
+COMMENT = re.compile(r"#[^\n]*")
+CMAKE = "CMakeLists.txt"
+MANIFEST = "package.xml"
+
+
+class Interfaces(Parameters):
+    """A package of interfaces: built by ament_cmake, in the group of such packages.
+
+    Its CMakeLists.txt generates the `files`, such as msg/Distance.msg.
+    """
+
+    package: str
+    files: tuple[str, ...] = Field(min_length=1)
+
+
+class Fields(Parameters):
+    """The fields of a message and their types; there may be others."""
+
+    type: str
+    fields: dict[str, str] = Field(min_length=1)
+
+
+@kind("interface.package", Interfaces, stage=INTAKE, depends=["package.found"])
+def package(use: Use[Interfaces]) -> Passed:
+    """{package} is a package of interfaces with the files {files}"""
+    given = use.given
+    found = _package(use, given.package)
+    words = {"package": given.package}
+    manifest = _manifest(found)
+    place = Where(file=f"{found.name}/{MANIFEST}")
+    kinds = [one.text for one in manifest.all("build_type", "export")]
+    if kinds != ["ament_cmake"]:
+        raise Failed(
+            "interface.not_cmake",
+            expected="<build_type>ament_cmake</build_type>",
+            actual=", ".join(kinds) or "-",
+            where=place,
+            words=words,
+        )
+    if GROUP not in [one.text for one in manifest.effective("member_of_group")]:
+        raise Failed(
+            "interface.no_group",
+            expected=f"<member_of_group>{GROUP}</member_of_group>",
+            actual=say("there is no such line"),
+            where=place,
+            words=words,
+        )
+    if "rosidl_default_generators" not in [one.text for one in manifest.depends]:
+        raise Failed(
+            "interface.no_generators",
+            expected="<buildtool_depend>rosidl_default_generators</buildtool_depend>",
+            actual=say("there is no such line"),
+            where=place,
+            words=words,
+        )
+    for path in given.files:
+        if found.text(path) is None:
+            others = [file.path for file in found.files if file.path.endswith(path[-4:])]
+            close = nearest(path, others) or next(iter(others), "")
+            raise Failed(
+                "interface.file_missing",
+                expected=f"{found.name}/{path}",
+                actual=with_difference(close, close, path)
+                if close
+                else say("there is no such file"),
+                where=Where(file=f"{found.name}/{close}") if close else None,
+                params={"path": path},
+                words=words,
+            )
+    _generated(found, given.files)
+    return Passed()
+
+
+def _generated(found: Package, files: tuple[str, ...]) -> None:
+    """Raise Failed if CMakeLists.txt does not generate one of the files."""
+    text = found.text(CMAKE)
+    place = Where(file=f"{found.name}/{CMAKE}")
+    if text is None:
+        raise Failed(
+            "interface.file_missing",
+            expected=f"{found.name}/{CMAKE}",
+            actual=say("there is no such file"),
+            params={"path": CMAKE},
+            words={"package": found.name},
+        )
+    code = COMMENT.sub("", text)
+    listed = " ".join(match["words"] for match in GENERATE.finditer(code))
+    for path in files:
+        if path not in listed and path not in code:
+            raise Failed(
+                "interface.not_generated",
+                expected=f'rosidl_generate_interfaces(${{PROJECT_NAME}} "{path}")',
+                actual=" ".join(listed.split()) or say("there is no such line"),
+                where=place,
+                params={"path": path},
+                words={"package": found.name},
+            )
+    if "find_package(rosidl_default_generators" not in code.replace(" ", ""):
+        raise Failed(
+            "interface.not_found_in_cmake",
+            expected="find_package(rosidl_default_generators REQUIRED)",
+            actual=say("there is no such line"),
+            where=place,
+        )
+
+
+@kind(
+    "interface.fields",
+    Fields,
+    stage=INTAKE,
+    depends=["package.found"],
+    after=["interface.package"],
+)
+def fields(use: Use[Fields]) -> Passed:
+    """The message {type} has the right fields"""
+    name, folder, message = use.given.type.split("/")
+    found, path = _package(use, name), f"{folder}/{message}.{folder}"
+    text = found.text(path)
+    if text is None:
+        use.blocked_by("interface.package")
+        raise Blocked(by="package.found")
+    declared = message_text(text)
+    file = f"{name}/{path}"
+    if declared.unknown:
+        line = declared.unknown[0]
+        raise Failed(
+            "interface.line_unknown",
+            expected=say("a type and a name on each line"),
+            actual=text.splitlines()[line - 1].strip()[:100],
+            where=Where(file=file, line=line),
+        )
+    wrong = next(
+        (
+            one
+            for one in declared.declared
+            if not one.constant and not FIELD_NAME.fullmatch(one.name)
+        ),
+        None,
+    )
+    if wrong is not None:
+        raise Failed(
+            "interface.field_name",
+            expected=say("lower case letters and digits, with single _ between them"),
+            actual=wrong.name,
+            where=Where(file=file, line=wrong.line),
+            params={"name": wrong.name},
+        )
+    for field, kind_ in use.given.fields.items():
+        own = declared.field(field)
+        if own is None:
+            names = [one.name for one in declared.declared]
+            close = nearest(field, names) or ""
+            near = next((one.line for one in declared.declared if one.name == close), None)
+            raise Failed(
+                "interface.field_missing",
+                expected=f"{kind_} {field}",
+                actual=with_difference(close, close, field) if close else ", ".join(names) or "-",
+                where=Where(file=file, line=near),
+                params={"field": field},
+                words={"type": kind_},
+            )
+        if own.type != kind_:
+            raise Failed(
+                "interface.field_type",
+                expected=f"{kind_} {field}",
+                actual=f"{own.type} {field}",
+                where=Where(file=file, line=own.line),
+                params={"field": field},
+                words={"type": kind_},
+            )
+    return Passed()
+
+
+def _package(use: Use[Parameters], name: str) -> Package:
+    """Return another package of the submission. Raises Failed if it is not there."""
+    found = use.evidence.submission.package(name)
+    if found is not None:
+        return found
+    use.blocked_by("interface.package")
+    names = [one.name for one in use.evidence.submission.candidates]
+    raise Failed(
+        "interface.missing",
+        expected=say("a package {name} beside {package}", name=name, package=_own(use)),
+        actual=", ".join(names) or "-",
+        params={"name": name},
+    )
+
+
+def _own(use: Use[Parameters]) -> str:
+    return use.evidence.assignment.package
+
+
+def _manifest(found: Package) -> Manifest:
+    """Return its manifest. Raises Failed if that cannot be read."""
+    text = found.text(MANIFEST)
+    try:
+        return read_manifest((text or "").encode())
+    except ManifestError as error:
+        raise Failed(
+            "interface.manifest",
+            expected=say("a package.xml that can be read"),
+            actual=error.text[:200] if text is not None else say("there is no such file"),
+            where=Where(file=f"{found.name}/{MANIFEST}", line=error.line),
+        ) from None

@@ -1,0 +1,241 @@
+"""Packages of interfaces: what is built of them, by whom, and what a package cannot change."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import tarfile
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from grader.base.cache import cache_root
+from grader.base.errors import SurroundingsError
+from grader.base.unheard import unheard
+from grader.course.load import load_assignment
+from grader.package.source.interface import message_text
+from grader.package.submission import take_in
+from grader.report.model import Report
+from grader.ros import interfaces
+from grader.ros.distro import find_distro
+from grader.ros.interface_package import interface_package
+from grader.ros.prefix import Ros
+from grader.run.student_interfaces import MOST_TEXTS, texts_of
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
+from tests.marking import LIMITS
+from tests.processes import ROOT
+
+SOLUTION = ROOT / "grader" / "keys" / "own_message" / "solution"
+ASSIGNMENT = ROOT / "lab" / "course" / "own_message" / "assignment.yaml"
+MESSAGE = "my_robot_interfaces/msg/Distance.msg"
+CMAKE = "my_robot_interfaces/CMakeLists.txt"
+MANIFEST = "my_robot_interfaces/package.xml"
+
+
+def changed(folder: Path, *edits: tuple[str, str, str]) -> Path:
+    """Return a copy of the solution with texts replaced: file, old, new."""
+    copy = folder / "ana"
+    shutil.copytree(SOLUTION, copy)
+    for path, old, new in edits:
+        file = copy / path
+        text = file.read_text(encoding="utf-8")
+        assert text.count(old) == 1, (path, old)
+        file.write_text(text.replace(old, new), encoding="utf-8")
+    return copy
+
+
+def marked(path: Path, *, distro: str = "jazzy") -> Report:
+    order = Order(
+        path=path,
+        assignment=load_assignment(ASSIGNMENT, known_checks=CHECKS),
+        distro=find_distro(distro),
+        sandbox="bubblewrap",
+        limits=replace(LIMITS, build_seconds=300),
+    )
+    return grade(order, unheard)
+
+
+def test_a_machine_without_a_compiler_is_told_what_to_install(
+    ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GRADER_CACHE", str(tmp_path))
+    folder = tmp_path / "prefixes" / ros_jazzy.path.name
+    folder.mkdir(parents=True)
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    with pytest.raises(SurroundingsError) as told:
+        interfaces.with_interfaces(replace(ros_jazzy, path=folder), notify=unheard)
+    assert "no g++, make" in str(told.value)
+    assert "apt-get install g++ make" in str(told.value.remedy)
+    assert [p.name for p in folder.parent.iterdir()] == [folder.name]
+
+
+def test_a_system_installation_is_not_changed(ros_jazzy: Ros, tmp_path: Path) -> None:
+    system = replace(ros_jazzy, kind="system", path=tmp_path)
+    with pytest.raises(SurroundingsError) as told:
+        interfaces.with_interfaces(system, notify=unheard)
+    assert "ros-jazzy-turtlesim" in str(told.value.remedy)
+    kilted = replace(system, distro=find_distro("kilted"))
+    with pytest.raises(SurroundingsError) as told:
+        interfaces.with_interfaces(kilted, notify=unheard)
+    assert "ros-kilted-turtlesim-msgs" in str(told.value.remedy)
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["CMakeLists.txt", "../a.msg", "msg/lower.msg", "msg/A.srv", 'msg/A".msg', "msg/A b.msg"],
+)
+def test_only_texts_of_interfaces_get_into_our_package(path: str) -> None:
+    with pytest.raises(ValueError, match="not the files"):
+        interface_package("a_package", {path: "int32 a"})
+    with pytest.raises(ValueError, match="not the files"):
+        interface_package("a;package", {"msg/A.msg": "int32 a"})
+
+
+def test_texts_are_bounded_and_the_rest_of_the_package_is_left_out(tmp_path: Path) -> None:
+    copy = changed(tmp_path)
+    folder = copy / "my_robot_interfaces"
+    (folder / "msg" / "Huge.msg").write_text("int32 a\n" * 10_000)
+    for n in range(2 * MOST_TEXTS):
+        (folder / "msg" / f"M{n}.msg").write_text("geometry_msgs/Twist a\n")
+    found = take_in(
+        copy,
+        package="my_robot_controller",
+        node_file="measure_distance.py",
+        others=["my_robot_interfaces"],
+    )
+    texts = texts_of(found.packages[0])
+    assert len(texts.texts) == MOST_TEXTS
+    assert "msg/Huge.msg" not in texts.texts
+    assert texts.uses == ("geometry_msgs",)
+
+
+def test_the_other_package_is_part_of_the_submissions_hash(tmp_path: Path) -> None:
+    def digest(path: Path, *others: str) -> str:
+        found = take_in(
+            path, package="my_robot_controller", node_file="measure_distance.py", others=others
+        )
+        return found.sha256
+
+    before = digest(SOLUTION, "my_robot_interfaces")
+    copy = changed(tmp_path, (MESSAGE, "float64 speed", "float32 speed"))
+    assert digest(copy, "my_robot_interfaces") != before
+    assert digest(copy) == digest(SOLUTION) != before
+
+
+def test_the_lines_of_a_message() -> None:
+    found = message_text(
+        "# a comment\nfloat64 x  # m\nstring<=10 name 'a'\nint32[<=3] few\n"
+        "uint8 ON = 1\ngeometry_msgs/Twist[2] two\nfloat64\n"
+    )
+    assert [(one.type, one.name, one.constant) for one in found.declared] == [
+        ("float64", "x", ""),
+        ("string<=10", "name", ""),
+        ("int32[<=3]", "few", ""),
+        ("uint8", "ON", "1"),
+        ("geometry_msgs/Twist[2]", "two", ""),
+    ]
+    assert found.unknown == (7,)
+
+
+@pytest.mark.parametrize(
+    ("edit", "check", "mistake"),
+    [
+        (
+            (MANIFEST, "<build_type>ament_cmake", "<build_type>ament_python"),
+            "message.package",
+            "interface.not_cmake",
+        ),
+        (
+            (MANIFEST, "  <member_of_group>rosidl_interface_packages</member_of_group>\n", ""),
+            "message.package",
+            "interface.no_group",
+        ),
+        (
+            (MANIFEST, "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n", ""),
+            "message.package",
+            "interface.no_generators",
+        ),
+        ((MANIFEST, "</package>", ""), "message.package", "interface.manifest"),
+        ((CMAKE, '  "msg/Distance.msg"\n', ""), "message.package", "interface.not_generated"),
+        (
+            (CMAKE, '  "msg/Distance.msg"', '#  "msg/Distance.msg"'),
+            "message.package",
+            "interface.not_generated",
+        ),
+        (
+            (CMAKE, "find_package(rosidl_default_generators REQUIRED)\n", ""),
+            "message.package",
+            "interface.not_found_in_cmake",
+        ),
+        ((MESSAGE, "float64 speed", "float64 Speed"), "message.fields", "interface.field_name"),
+        ((MESSAGE, "float64 speed", "float64 sped"), "message.fields", "interface.field_missing"),
+        (
+            (MESSAGE, "float64 distance", "float32 distance"),
+            "message.fields",
+            "interface.field_type",
+        ),
+        ((MESSAGE, "string turtle", "string turtle;"), "message.fields", "interface.line_unknown"),
+    ],
+)
+def test_what_the_files_of_an_interface_package_show(
+    edit: tuple[str, str, str], check: str, mistake: str, tmp_path: Path
+) -> None:
+    from grader.verdict.checks.all import STATIC
+    from grader.verdict.static import evaluate_static
+
+    assignment = load_assignment(ASSIGNMENT, known_checks=CHECKS)
+    found = take_in(
+        changed(tmp_path, edit),
+        package=assignment.package,
+        node_file=assignment.node_file,
+        others=assignment.interface_packages,
+    )
+    results = evaluate_static(found, assignment, only=STATIC)
+    failed = {one.id: one.mistakes[0].id for one in results if one.status == "failed"}
+    assert failed == {check: mistake}
+
+
+@pytest.mark.prefix
+@pytest.mark.full
+def test_the_solution_has_full_marks_and_its_interfaces_are_in_the_cache() -> None:
+    report = marked(SOLUTION)
+    assert {c.id: c.actual for c in report.checks if c.status != "passed"} == {}
+    assert report.runs[0].topics[0].count > 15
+
+
+HOSTILE = """
+ament_package()
+file(WRITE ${CMAKE_INSTALL_PREFIX}/../../.cache/evil "evil")
+install(CODE "file(GLOB_RECURSE all ${CMAKE_INSTALL_PREFIX}/lib/*.so)
+foreach(one \\${all})
+  file(WRITE \\${one} evil)
+endforeach()")
+"""
+
+
+@pytest.mark.prefix
+@pytest.mark.full
+def test_what_a_students_cmake_makes_does_not_get_into_the_cache(tmp_path: Path) -> None:
+    place = cache_root() / "interfaces"
+    before = set(place.glob("*.tar"))
+    report = marked(
+        changed(
+            tmp_path,
+            (CMAKE, "\nament_package()\n", HOSTILE),
+            (MESSAGE, "float64 speed # m/s", f"float64 speed # {tmp_path.name}"),
+        )
+    )
+    failed = {c.id for c in report.checks if c.status == "failed"}
+    assert failed & {"run.starts", "build.colcon"}  # the node's own libraries are spoilt
+    (made,) = set(place.glob("*.tar")) - before
+    try:
+        with tarfile.open(fileobj=io.BytesIO(made.read_bytes())) as tar:
+            libraries = [m for m in tar.getmembers() if m.name.endswith(".so") and m.isfile()]
+            heads = {tar.extractfile(m).read(4) for m in libraries}  # type: ignore[union-attr]
+        assert heads == {b"\x7fELF"}
+        assert len(libraries) >= 5
+    finally:
+        made.unlink()
