@@ -16,6 +16,8 @@ from grader.ros.distro import distros
 
 TEXT = "lesson.md"
 HEADING = re.compile(r"^## (\d+)\. (.+)$", re.MULTILINE)
+OF_TURTLESIM = re.compile(r"\bturtlesim(?=\.(?:msg|srv|action)\b|/(?:msg|srv|action)/|</depend>)")
+"""The package of turtlesim's interfaces, where a lesson names it."""
 DONE = re.compile(r"\A\s*<!-- done: ([^>\n]{1,80}?) -->\s*")
 
 
@@ -79,4 +81,6 @@ def _of_distro(text: str, distro: str) -> str:
         text = text.replace(f"/opt/ros/{other.name}", f"/opt/ros/{distro}")
         if distro in known:
             text = text.replace(other.documentation, known[distro].documentation)
+    if distro in known:
+        text = OF_TURTLESIM.sub(known[distro].turtlesim, text)
     return text

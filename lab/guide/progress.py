@@ -132,6 +132,18 @@ def _file(state: StudentState) -> str:
     return "" if os.access(state.node, os.X_OK) else f"chmod +x {shown}"
 
 
+NEEDS = {
+    "topic.subscribes": "create_subscription",
+    "topic.publishes": "create_publisher",
+    "service.offers": "create_service",
+    "service.calls": "create_client",
+    "action.offers": "ActionServer",
+    "parameter.declared": "declare_parameter",
+    "topic.period": "create_timer",
+}
+"""What a node must call for a kind of check."""
+
+
 def _code(state: StudentState) -> str:
     name = state.assignment.node_file
     text = _read(state.node)
@@ -155,7 +167,11 @@ def _code(state: StudentState) -> str:
     calls = {called_name(call) for call, _ in node.calls}
     if not any(derives_from_node(each) for each in node.module.classes):
         return say("{file} has no class that inherits from Node yet.", file=name)
-    if "create_timer" not in calls:
+    kinds = {use.kind for use in state.assignment.checks}
+    for kind, call in NEEDS.items():
+        if kind in kinds and call not in calls:
+            return say("The node in {file} does not call {call} yet.", file=name, call=call)
+    if not state.assignment.runs and "create_timer" not in calls:
         return say("The node in {file} has no timer yet.", file=name)
     if node.main is None:
         function = state.assignment.function
