@@ -80,16 +80,19 @@ def network_of_a_probe(sandbox: Sandbox) -> tuple[Pipe, str]:
 def test_the_build_and_each_probe_have_a_network_of_their_own(sandbox: Sandbox) -> None:
     """Else a node that setup.py left behind would be taken for the one that is observed."""
     seen = [shell(sandbox, NETWORK)[1].strip()]
+    probes = []  # all are kept until the end: the kernel gives a number that is free to the next one
     for _ in range(2):
         probe, network = network_of_a_probe(sandbox)
+        probes.append(probe)
         console = sandbox.console(["bash", "-c", NETWORK], probe=probe)
         opened = Terminal(console, most=1000)
         lines, ended = opened.finish(20)
         opened.close()
-        probe.finish(1)
         assert ended
         assert [line.text for line in lines] == [network], "the node is not on its probe's network"
         seen.append(network)
+    for probe in probes:
+        probe.finish(1)
     assert all(network.startswith("net:[") for network in seen)
     assert len(set(seen)) == 3
 
