@@ -23,7 +23,7 @@ setup(
         "grader": ["keys/*/*.yaml"],  # hidden checks and mutants: data, no package
         "grader.base.i18n": ["*/LC_MESSAGES/*.mo"],
         "grader.publish.pages": ["templates/*"],
-        "grader.ros": ["locks/*"],
+        "grader.ros": ["locks/*", "*.cmake", "turtlesim/*/*"],
         "grader.ros.ros2_command": ["licenses/*"],
     },
     data_files=[

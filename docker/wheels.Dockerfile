@@ -32,7 +32,8 @@ COPY grader/base/__init__.py grader/base/errors.py grader/base/cache.py grader/b
 COPY grader/base/i18n/__init__.py grader/base/i18n/message.py grader/base/i18n/
 COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/prefix.py grader/ros/prefix_build.py \
      grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in \
-     grader/ros/interfaces.py grader/ros/interface_package.py grader/ros/interfaces.cmake.in grader/ros/
+     grader/ros/interfaces.py grader/ros/interface_package.py grader/ros/interfaces.cmake.in \
+     grader/ros/ament_lint_auto.cmake grader/ros/
 COPY grader/ros/turtlesim grader/ros/turtlesim
 COPY grader/ros/locks grader/ros/locks
 COPY grader/ros/ros2_command grader/ros/ros2_command

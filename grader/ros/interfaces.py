@@ -30,7 +30,8 @@ from grader.ros.scripts import use_own_python
 
 FORMAT = 1  # increment it when this module makes something else
 TEXTS = HERE / "turtlesim"
-SOURCES = ("interfaces.cmake.in", "interface_package.py")
+LINT = "ament_lint_auto"
+SOURCES = ("interfaces.cmake.in", "interface_package.py", f"{LINT}.cmake")
 MOST_OUTPUT = 2_000  # characters of the output of a failed build
 PYTHON_INCLUDE = re.compile(r"/opt/python/[^/\";]+/include/python[\d.]+")
 NUMPY_INCLUDE = re.compile(r"/opt/python/[^\";]*/numpy/_?core/include")
@@ -88,6 +89,9 @@ def make_interfaces(ros: Ros, staging: Path, notify: Notify) -> None:
     install(ros.distro.name, _lock(ros.distro), staging, notify)
     use_own_python(staging / "bin", sys.executable)
     _correct_paths(staging)
+    lint = staging / "share" / LINT / "cmake"
+    lint.mkdir(parents=True)
+    shutil.copy(HERE / f"{LINT}.cmake", lint / f"{LINT}Config.cmake")
     package = ros.distro.turtlesim
     with tempfile.TemporaryDirectory(dir=staging.parent, prefix=".interfaces-") as folder:
         for path, text in interface_package(package, texts_in(TEXTS)).items():
