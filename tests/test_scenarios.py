@@ -27,12 +27,13 @@ UNCERTAIN = ("inconclusive", "error")
 
 def marked(path: Path, file: Path, kept: list[Judged], *, distro: str = "jazzy") -> Report:
     """Return the report of a package."""
+    assignment = load_assignment(file, known_checks=CHECKS)
     order = Order(
         path=path,
-        assignment=load_assignment(file, known_checks=CHECKS),
+        assignment=assignment,
         distro=find_distro(distro),
         sandbox="bubblewrap",
-        limits=LIMITS,
+        limits=LIMITS.override(assignment.limits),
     )
     return grade(order, unheard, keep=kept.append)
 
@@ -59,10 +60,20 @@ def test_each_kind_of_check_tells_right_from_wrong(form: Form, tmp_path: Path) -
 
 def test_every_kind_with_parameters_is_tried_here() -> None:
     kinds = {kind for kind, check in CHECKS.items() if check.parameters is not None}
-    lessons = ("draw_circle", "stay_inside")
+    lessons = ("draw_circle", "stay_inside", "start_stop", "own_message")
     used = {use.kind for name in lessons for use in load_visible(name).checks}
     text = (ROOT / "tests" / "scenario_kinds.py").read_text(encoding="utf-8")
-    assert {kind for kind in kinds if f"check: {kind}," not in text} - used == {"world.event"}
+    assert {kind for kind in kinds if f"check: {kind}," not in text} - used == set()
+
+
+@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+@pytest.mark.parametrize("lesson", ["stay_inside", "start_stop", "own_message"])
+def test_the_solutions_have_full_marks(lesson: str, distro: str) -> None:
+    file = ROOT / "lab" / "course" / lesson / "assignment.yaml"
+    solution = ROOT / "grader" / "keys" / lesson / "solution"
+    report = marked(solution, file, [], distro=distro)
+    assert {c.id: c.actual for c in report.checks if c.status != "passed"} == {}
+    assert report.score == report.max_score == 100
 
 
 @pytest.mark.parametrize("distro", ["jazzy", "kilted"])

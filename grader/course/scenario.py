@@ -154,7 +154,7 @@ class RunPlan(_Part):
     """
 
     name: str
-    world: Literal["", "turtlesim"] = ""
+    world: Literal["", "turtlesim", "robot"] = ""
     start: tuple[Start, ...]
     clock: ClockPlan
     do: tuple[Stimulus, ...] = ()

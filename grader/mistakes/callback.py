@@ -80,17 +80,31 @@ def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
 
 def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
     callback = suspect.source.callback
-    for node in ast.walk(callback) if callback is not None else ():
+    found = never_ends_in(callback) if callback is not None else None
+    if found is None:
+        return None
+    name = "while" if isinstance(found, ast.While) else "input()"
+    return suspect.finding("callback_never_ends", found, name=name)
+
+
+def never_ends_in(method: Function) -> ast.Call | ast.While | None:
+    """Return what keeps a function from returning: an input, or a loop without an end."""
+    for node in ast.walk(method):
         if isinstance(node, ast.Call) and dotted(node.func) == "input":
-            return suspect.finding("callback_never_ends", node, name="input()")
+            return node
         if isinstance(node, ast.While) and _goes_on(node):
-            return suspect.finding("callback_never_ends", node, name="while")
+            return node
     return None
 
 
 def _goes_on(loop: ast.While) -> bool:
+    """Whether a loop has no end: its condition is true, or an attribute that it does not set."""
     left = any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))
-    return isinstance(loop.test, ast.Constant) and bool(loop.test.value) and not left
+    tested = dotted(loop.test)
+    parts = list(ast.walk(loop))
+    sets = any(isinstance(n, ast.Assign) and dotted(n.targets[0]) == tested for n in parts)
+    constant = isinstance(loop.test, ast.Constant) and bool(loop.test.value)
+    return (constant or (tested.startswith("self.") and not sets)) and not left
 
 
 _node = Family("node", links.FIRST_NODE)

@@ -13,6 +13,7 @@ from grader.mistakes import (
     classes,
     constructor,
     counter,
+    ends,
     entry_function,
     entry_points,
     flow,
@@ -21,6 +22,7 @@ from grader.mistakes import (
     instead_of_ros,
     interfaces,
     language,
+    log_lines,
     logger,
     names,
     node_file,
@@ -55,6 +57,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             entry_points,
             other_language,
             interfaces,
+            ends,
             topics,
             actions,
             scope,
@@ -79,6 +82,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             hidden,
             names,
             run,
+            log_lines,
             terminal,
         )
         for kind in module.KINDS

@@ -91,7 +91,6 @@ _topic = Family("topic", links.TOPICS)
 _parameter = Family("parameter", links.PARAMETERS)
 _service = Family("service", links.SERVICES)
 _world = Family("world", links.TOPICS)
-_log = Family("log", links.LOGGING)
 KINDS = (
     _node(
         "other_message",
@@ -427,6 +426,21 @@ KINDS = (
             "early enough before the wall."
         ),
         msg("Turn earlier, or drive more slowly near the wall."),
+        fixes={
+            "straight": msg(
+                "The turtle never turns: set angular.z of the message when a wall is near."
+            )
+        },
+    ),
+    _world(
+        "too_short",
+        "world",
+        msg("The turtle drives too little"),
+        msg(
+            "A velocity command holds for one second. Without a new one, and while it only turns, the "
+            "turtle does not get ahead."
+        ),
+        msg("Let {turtle} drive faster, and go on until the end."),
     ),
     _world(
         "one_place",
@@ -451,40 +465,5 @@ KINDS = (
         msg("The request has a different value"),
         msg("Fields of a request that are not set are 0, or empty."),
         msg("Set {field} of the request before call_async()."),
-    ),
-    _log(
-        "wrong_count",
-        "text",
-        msg("The log counts differently"),
-        msg("Each line shows the number that the counter has at that moment."),
-        msg("Look at where the counter begins, and where and by how much it is changed."),
-    ),
-    _log(
-        "wrong_period",
-        "text",
-        msg("The log lines come at a different rate"),
-        msg("The first argument of create_timer is the period in seconds: 2 Hz is 0.5 s."),
-        msg("Write create_timer({wanted}, …)."),
-    ),
-    _log(
-        "missing",
-        "text",
-        msg("A log line is missing"),
-        msg("A line is logged each time the logger is called, with the text that it gets."),
-        msg("Log the text with self.get_logger().info(…) when it is due."),
-    ),
-    _log(
-        "too_often",
-        "text",
-        msg("A log line comes too often"),
-        msg("A callback runs for each message and each tick, and logs each time unless it checks."),
-        msg("Log only when something changes: keep the last state in an attribute and compare."),
-    ),
-    _log(
-        "forbidden",
-        "text",
-        msg("A log line that must not come"),
-        msg("Warnings and errors in the log say that something went wrong."),
-        msg("Find what makes the node log this line."),
     ),
 )

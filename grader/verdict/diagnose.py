@@ -11,7 +11,7 @@ from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import compared, meant, nearest
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE, RANK
-from grader.mistakes.recognise import behind_error, behind_symptom
+from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import raised_in
@@ -62,7 +62,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
     """Return the diagnosis of a failed check, with the root cause first if it is found."""
     diagnosis = Diagnosis.of(failed)
     symptom = failed.mistake.id
-    if not symptom.startswith("run."):
+    if symptom not in SYMPTOMS and symptom not in RAISES and not symptom.startswith("run."):
         return diagnosis
     try:
         found = _root(symptom, diagnosis, evidence)

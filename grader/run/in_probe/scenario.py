@@ -44,6 +44,7 @@ MOST_PARAMETERS = 60
 ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
 MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
 MISSING_TRIES, MISSING_SECONDS = 12, 0.3  # barriers and wall time after which a message is missing
+SERVE_TURNS = 6  # of the executor
 SERVE_SECONDS = 0.005  # wall time after which the executor runs if no answer comes
 MOST_LOGS = 1_000  # records that are taken at once
 MOST_TRIPS = 7  # at once, behind as many messages of a world
@@ -164,6 +165,7 @@ class Scenario:
         self.periods: dict[str, int] = {}  # ns between the messages that are awaited on topics
         self.latest: dict[str, int] = {}  # when a message was read last, and how long after another
         self.gaps: dict[str, int] = {}
+        self.asked = False  # whether nodes have clients, which may ask the world
         self.at = 0  # ns, the instant that the clock shows
         self.world: Any = None
         self.messages: list[list[Any]] = []
@@ -333,6 +335,8 @@ class Scenario:
         if steps:  # a node takes one message of a topic and one request at a time
             self.probe.show(at)
             barrier = self.trips(min(steps, MOST_TRIPS) + 1, deadline)
+            if self.asked:
+                self.serve()
         else:
             barrier = self.probe.set_clock(command, deadline)
         found = self.take()
@@ -360,10 +364,16 @@ class Scenario:
 
     def trips_later(self, found: dict[str, int], deadline: float) -> bool | None:
         """Make another round trip after a moment, and count the messages that have come."""
-        self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        self.serve()
         barrier = self.trips(1, deadline)
         self.take_into(found)
         return barrier
+
+    def serve(self) -> None:
+        """Let the executor run what has come: answers to our calls, requests to the world."""
+        self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        for _ in range(SERVE_TURNS):  # (it runs one thing in a turn)
+            self.probe.executor.spin_once(timeout_sec=0)
 
     def take_into(self, found: dict[str, int]) -> None:
         """Take the messages that have arrived, and add their numbers."""
@@ -553,7 +563,7 @@ class Scenario:
         self.hear_best_effort()
         node = self.probe.node
         ends: list[dict[str, Any]] = []
-        ours = {*self.probe.ours, "/" + node.get_name()}
+        ours = {"/" + node.get_name()}  # (the node of a world is one of the graph)
         names = [
             (name, space)
             for name, space in node.get_node_names_and_namespaces()
@@ -590,6 +600,7 @@ class Scenario:
                                 != info.topic_type_hash,
                             )
                     reliability, durability, differs = qos.get((role, topic, full), ("", "", False))
+                    self.asked = self.asked or role == "client"
                     for kind in types:
                         ends.append(
                             {

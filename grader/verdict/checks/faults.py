@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 HANDLING = "During handling of the above exception, another exception occurred:"
 MOST_CAUSES = 5
 SUGGESTION = re.compile(r"\. Did you (?:mean|forget)\b.*")
+ABORTED = re.compile(r"Assertion `\w+\(field\)' failed")
 FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
 
 
@@ -53,6 +54,9 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
 def raised_in(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
     """Return the last error as Python printed it, and the line of the student's code, if any."""
     text = _with_cause(_without_ignored(run.transcript))
+    aborted = ABORTED.search(text)
+    if aborted:  # C code of an interface ends the process, without a traceback
+        return aborted[0], None
     error, _ = python_error(text, evidence.assignment.node_file)
     folder = evidence.assignment.folder
     mine = [m for m in FRAME.findall(text) if m[0].startswith(f"{folder}/")]

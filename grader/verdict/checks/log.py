@@ -9,17 +9,19 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, field_validator
 
 from grader.base.i18n.message import say, say_plural
-from grader.base.nearest import with_difference
+from grader.base.nearest import nearest, with_difference
 from grader.base.yaml_model import broken
 from grader.course.values import Form
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.observer import Event
     from grader.verdict.use import Use
 
+MOST_LINES = 200  # of a log, among which a similar one is looked for
+CLOSE = 0.6
 LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
 Level = Literal["", "debug", "info", "warn", "error", "fatal"]
 
@@ -60,13 +62,24 @@ class Counts(Parameters):
         return text
 
 
-@kind("log.matches", Lines, after=["topic.values"])
+@kind("log.matches", Lines, after=["topic.values", "world.stays"])
 def matches(use: Use[Lines]) -> Passed:
     """The node logs {text}"""
     given = use.given
     use.require_window()
     found = _lines(use, given.text, given.level)
     if len(found) < given.at_least:
+        use.blocked_by("topic.subscribes", "world.stays")
+        _must_drive(use)
+        close = _nearest(use, given.text) if not found else None
+        if close is not None:
+            raise Failed(
+                "log.wrong_text",
+                expected=_wanted(given),
+                actual=with_difference(close.text, close.text, _literal(given.text)),
+                where=line_of(use.evidence, close.record),
+                words={"wanted": _literal(given.text)},
+            )
         raise Failed(
             "log.missing",
             expected=_wanted(given),
@@ -143,6 +156,30 @@ def _lines(use: Use[Parameters], text: Form, level: Level) -> list[Event]:
         and (not level or event.record.level == LEVELS[level])
         and text.fits(event.text)
     ]
+
+
+def _must_drive(use: Use[Parameters]) -> None:
+    """Raise Blocked if the world's check was skipped: what is logged depends on the way."""
+    for other in use.evidence.assignment.checks:
+        result = use.evidence.results.get(other.id)
+        if other.kind == "world.stays" and result is not None and result.status == "skipped":
+            raise Blocked(by=result.blocked_by or other.id)
+
+
+def _literal(form: Form) -> str:
+    """Return the text that a form asks for, as far as it is plain; "" if it is not."""
+    if form.matches is not None:
+        text = form.matches.removeprefix("^").removesuffix("$")
+        return text if re.escape(text).replace("\\ ", " ") == text else ""
+    return str(form.equal or form.contains or "")
+
+
+def _nearest(use: Use[Parameters], form: Form) -> Event | None:
+    """Return a line of the log that is nearly the wanted one."""
+    wanted = _literal(form)
+    lines = {event.text: event for event in _lines(use, Form(contains=""), "")}
+    close = nearest(wanted, list(lines)[:MOST_LINES], cutoff=CLOSE) if wanted else ""
+    return lines.get(close or "")
 
 
 def _wanted(given: Lines) -> str:

@@ -10,7 +10,7 @@ from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
 from grader.course.values import Form, shown_value, value_at
 from grader.verdict.checks.declare import Parameters, kind
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.observations import Role
@@ -106,6 +106,8 @@ def answers(use: Use[Answers]) -> Passed:
     where = use.call("create_service", mentions=given.service)
     words = {"service": given.service}
     expected = ", ".join(f"{path}: {form}" for path, form in given.each.items())
+    if done.replied is None and (use.run.ended_by_itself or use.seen.stuck is not None):
+        raise Blocked(by="run.stays")
     if done.replied is None or done.replied > done.at + given.within + 1e-6:
         raise Failed(
             "service.no_answer",

@@ -109,10 +109,17 @@ def publishes(use: Use[Publishes]) -> Passed:
 
 
 def _must_hear(use: Use[Parameters], topic: str) -> None:
-    """Raise Blocked if a topic carries reactions, and the node does not hear what it reacts to."""
-    checks = use.evidence.assignment.checks
-    if any(one.kind == "topic.reacts" and one.with_.get("topic") == topic for one in checks):
+    """Raise Blocked if a topic carries reactions, and the node does not hear what it reacts to.
+
+    Without a period, a topic carries reactions to what the node subscribes to.
+    """
+    checks = [one for one in use.evidence.assignment.checks if one.with_.get("topic") == topic]
+    if not any(one.kind == "topic.period" for one in checks):
         use.blocked_by("topic.subscribes")
+    for one in checks:
+        stimulus = use.plan.stimulus(one.after) if one.after else None
+        if stimulus is not None and stimulus.call is not None:
+            use.blocked_by("service.offers", service=stimulus.call.service)
 
 
 @kind("topic.subscribes", Subscribes, after=["run.node_name"])
@@ -150,7 +157,9 @@ def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expecte
             params={"type": here[0].type},
             words={"topic": topic, "wanted": type_, "short": type_.rpartition("/")[2]},
         )
-    others = [end for end in own if end.type == type_] or own
+    asked = {one.with_.get("topic") for one in use.evidence.assignment.checks}
+    free = [end for end in own if end.name not in asked]  # (what another check asks for is right)
+    others = [end for end in free if end.type == type_] or free
     names = [end.name for end in others]
     if names:
         close = nearest(topic, names) or names[0]

@@ -11,7 +11,7 @@ from pydantic import Field
 from grader.base.i18n.message import say
 from grader.base.part import Part
 from grader.course.values import Form, shown_value, value_at
-from grader.run.in_probe.turtlesim import SIZE
+from grader.run.in_probe import robot, turtlesim
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.outcome import Failed, Passed
 
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from grader.run.observations import Pose
     from grader.verdict.use import Use
 
+SIZES = {"": turtlesim.SIZE, "turtlesim": turtlesim.SIZE, "robot": robot.SIZE}  # m, of the field
 AT_REST = 0.01  # m: a turtle that moved less stands still
+LONGEST_STEP = 0.5  # m between two poses: a longer one is no driving
 CIRCLE_POINTS = 60  # of a circle that is drawn
 
 
@@ -52,10 +54,12 @@ class Inside(Parameters):
 class Happens(Parameters):
     """What the world was asked for: `pen` (r, g, b, width, off), `spawn` or `kill` of a turtle.
 
+    In the world of the robot, `bump` is that it runs into something.
+
     The last such request in the window counts.
     """
 
-    event: Literal["pen", "spawn", "kill"]
+    event: Literal["pen", "spawn", "kill", "bump"]
     turtle: str = "turtle1"
     each: dict[str, Form] = Field(default_factory=dict)
 
@@ -103,9 +107,11 @@ def stays(use: Use[Inside]) -> Passed:
     poses = _poses(use, given.turtle)
     expected = say("{turtle} drives, and never touches the wall", turtle=given.turtle)
     words = {"turtle": given.turtle}
-    low, high = given.margin, SIZE - given.margin
+    low, high = given.margin, SIZES[use.plan.world] - given.margin
     hit = next((p for p in poses if not (low < p.x < high and low < p.y < high)), None)
     if hit is not None:
+        use.blocked_by("topic.values")
+        never = not any(abs(pose.theta - poses[0].theta) > AT_REST for pose in poses)
         raise Failed(
             "world.hits_wall",
             expected=expected,
@@ -117,19 +123,23 @@ def stays(use: Use[Inside]) -> Passed:
             ),
             where=use.call("create_subscription"),
             words=words,
+            variant="straight" if never else "",
         )
     driven = _length(poses)
     if driven < given.at_least:
         use.blocked_by("topic.publishes", "topic.values")
         raise Failed(
-            "world.stands_still",
-            expected=expected,
+            "world.stands_still" if driven < AT_REST else "world.too_short",
+            expected=say(
+                "{turtle} drives at least {length} m",
+                turtle=given.turtle,
+                length=f"{given.at_least:g}",
+            ),
             actual=say("it drove only {length} m", length=f"{driven:.2f}"),
             where=use.call("publish"),
             words={**words, "radius": ""},
         )
-    across, along = [pose.x for pose in poses], [pose.y for pose in poses]
-    side = max(max(across) - min(across), max(along) - min(along))
+    side = max(_side(part) for part in _parts(poses))
     if side < given.covers:
         use.blocked_by("topic.publishes", "topic.values")
         raise Failed(
@@ -160,6 +170,9 @@ def event(use: Use[Happens]) -> Passed:
     where = use.call("call_async", "call", "create_client")
     if not found:
         use.require_window()
+        stimulus = use.plan.stimulus(use.use.after) if use.use.after else None
+        if stimulus is not None and stimulus.call is not None:
+            use.blocked_by("service.offers", service=stimulus.call.service)
         use.blocked_by("service.calls")
         raise Failed(
             "world.not_asked",
@@ -190,7 +203,25 @@ def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:
 
 
 def _length(poses: Sequence[Pose]) -> float:
-    return sum(math.dist((a.x, a.y), (b.x, b.y)) for a, b in zip(poses, poses[1:]))
+    """Return how far (m) a turtle drives; where it is put elsewhere does not count."""
+    steps = [math.dist((a.x, a.y), (b.x, b.y)) for a, b in zip(poses, poses[1:])]
+    return sum(step for step in steps if step < LONGEST_STEP)
+
+
+def _parts(poses: Sequence[Pose]) -> list[list[Pose]]:
+    """Return the parts of a path between the places to which a turtle was put."""
+    parts = [[poses[0]]]
+    for before, after in zip(poses, poses[1:]):
+        if math.dist((before.x, before.y), (after.x, after.y)) >= LONGEST_STEP:
+            parts.append([])
+        parts[-1].append(after)
+    return parts
+
+
+def _side(poses: Sequence[Pose]) -> float:
+    """Return the longer side (m) of the area of a path."""
+    across, along = [pose.x for pose in poses], [pose.y for pose in poses]
+    return max(max(across) - min(across), max(along) - min(along))
 
 
 def _moving(poses: Sequence[Pose]) -> Sequence[Pose]:
