@@ -30,7 +30,7 @@ UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
 LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
 MOST_FEEDBACK = 1_000  # of a goal
-MOST_POSES = 2_000  # of a run's path
+MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes
 
 
 def command_of(assignment: Assignment, begin: Start) -> str:

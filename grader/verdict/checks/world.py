@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
@@ -13,6 +13,7 @@ from grader.base.part import Part
 from grader.course.values import Form, shown_value, value_at
 from grader.run.in_probe import robot, turtlesim
 from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.checks.topic import DENORMAL
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -111,6 +112,7 @@ def stays(use: Use[Inside]) -> Passed:
     hit = next((p for p in poses if not (low < p.x < high and low < p.y < high)), None)
     if hit is not None:
         use.blocked_by("topic.values")
+        _no_garbage(use)
         never = not any(abs(pose.theta - poses[0].theta) > AT_REST for pose in poses)
         raise Failed(
             "world.hits_wall",
@@ -194,6 +196,30 @@ def event(use: Use[Happens]) -> Passed:
                 words=words,
             )
     return Passed(actual=say("it came at {at} s", at=f"{values['at']:g}"))
+
+
+def _no_garbage(use: Use[Parameters]) -> None:
+    """Raise Failed if a whole number in a field for floating-point numbers steered the turtle."""
+    for message in use.seen.messages:
+        for path, value in _numbers(message.values):
+            if isinstance(value, float) and 0 < abs(value) < DENORMAL:
+                raise Failed(
+                    "topic.int_in_float",
+                    expected=say("a number with a point in {path}", path=path),
+                    actual=say("a whole number arrived as {value}", value=f"{value:g}"),
+                    where=use.call("publish", mentions=message.topic),
+                    params={"field": path},
+                    words={"topic": message.topic},
+                )
+
+
+def _numbers(values: object, path: str = "") -> Iterator[tuple[str, object]]:
+    """Yield the fields of a message with their paths."""
+    if isinstance(values, dict):
+        for name, value in values.items():
+            yield from _numbers(value, f"{path}.{name}" if path else name)
+    else:
+        yield path, values
 
 
 def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:
