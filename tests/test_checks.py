@@ -37,9 +37,12 @@ def test_the_mapping_is_judged_before_the_build_since_a_broken_build_can_come_fr
     assert ids.index("run.output") < min(map(ids.index, ("run.logger", "run.period")))
 
 
+OF_FILES = ("package.", "source.", "files.", "interface.")
+
+
 def test_the_files_decide_what_needs_no_build() -> None:
     assert set(STATIC) == {
-        *(check_id for check_id in CHECKS if check_id.startswith(("package.", "source."))),
+        *(check_id for check_id in CHECKS if check_id.startswith(OF_FILES)),
         "entry_point.mapping",
     }
 

@@ -68,7 +68,7 @@ def test_a_machine_without_a_compiler_is_told_what_to_install(
     with pytest.raises(SurroundingsError) as told:
         interfaces.with_interfaces(replace(ros_jazzy, path=folder), notify=unheard)
     assert "no g++, make" in str(told.value)
-    assert "apt-get install g++ make" in str(told.value.remedy)
+    assert "apt-get install python3-dev g++ make" in str(told.value.remedy)
     assert [p.name for p in folder.parent.iterdir()] == [folder.name]
 
 

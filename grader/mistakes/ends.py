@@ -462,7 +462,7 @@ KINDS = (
         "spin",
         msg("A callback spins the node"),
         BLOCKS,
-        msg("Remove {name} from the callback: main spins the node."),
+        msg("Remove {name} from the callback: {function} spins the node."),
         links.EXECUTORS,
         behind={"run.stuck": _stuck},
     ),

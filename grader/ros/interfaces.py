@@ -39,7 +39,7 @@ MAKING = msg("building turtlesim's interfaces for ROS {distro} (half a minute, o
 READY = msg("turtlesim's interfaces are ready in {path}")
 NO_COMPILER = msg("turtlesim's interfaces must be built once, but this machine has no {missing}")
 INSTALL_COMPILER = msg(
-    "Install a compiler: sudo apt-get install g++ make python3-dev. Lessons without turtlesim's "
+    "Install a compiler: sudo apt-get install python3-dev g++ make. Lessons without turtlesim's "
     "interfaces need none."
 )
 NOT_BUILT = msg("turtlesim's interfaces could not be built:\n{output}")

@@ -283,7 +283,8 @@ class Session:
         return ""
 
     def _new_probe(self) -> ProbeLink:
-        return ProbeLink(self.sandbox, self._interfaces)
+        more = {"interfaces": self._interfaces} if self._interfaces else {}
+        return ProbeLink(self.sandbox, **more)
 
     def _drop_probe(self) -> None:
         probe, self._probe = self._probe, None
