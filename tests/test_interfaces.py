@@ -198,14 +198,6 @@ def test_what_the_files_of_an_interface_package_show(
     assert failed == {check: mistake}
 
 
-@pytest.mark.prefix
-@pytest.mark.full
-def test_the_solution_has_full_marks_and_its_interfaces_are_in_the_cache() -> None:
-    report = marked(SOLUTION)
-    assert {c.id: c.actual for c in report.checks if c.status != "passed"} == {}
-    assert report.runs[0].topics[0].count > 15
-
-
 HOSTILE = """
 ament_package()
 file(WRITE ${CMAKE_INSTALL_PREFIX}/../../.cache/evil "evil")
@@ -217,7 +209,7 @@ endforeach()")
 
 
 @pytest.mark.prefix
-@pytest.mark.full
+@pytest.mark.long
 def test_what_a_students_cmake_makes_does_not_get_into_the_cache(tmp_path: Path) -> None:
     place = cache_root() / "interfaces"
     before = set(place.glob("*.tar"))

@@ -66,7 +66,7 @@ def test_every_kind_with_parameters_is_tried_here() -> None:
     assert {kind for kind in kinds if f"check: {kind}," not in text} - used == set()
 
 
-@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+@pytest.mark.parametrize("distro", ["jazzy", pytest.param("kilted", marks=pytest.mark.long)])
 @pytest.mark.parametrize("lesson", ["stay_inside", "start_stop", "own_message"])
 def test_the_solutions_have_full_marks(lesson: str, distro: str) -> None:
     file = ROOT / "lab" / "course" / lesson / "assignment.yaml"

@@ -80,7 +80,7 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
 
 @pytest.mark.full
 def test_killing_the_coordinator_loses_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
-    _compare(ros_jazzy, tmp_path, students=3, kills=3, seed=random.randrange(10**6))
+    _compare(ros_jazzy, tmp_path, students=2, kills=2, seed=random.randrange(10**6))
 
 
 @pytest.mark.long

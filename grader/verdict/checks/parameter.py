@@ -90,6 +90,8 @@ def accepts(use: Use[Accepts]) -> Passed:
     for other in use.evidence.assignment.checks:
         if use.evidence.has_mistake(other.id, *ELSEWHERE):
             raise Blocked(by=other.id)
+    if name not in done.accepted and (use.run.ended_by_itself or use.seen.stuck is not None):
+        raise Blocked(by="run.stays")
     reason = done.accepted.get(name, say("the node did not answer"))
     if reason:
         raise Failed(
