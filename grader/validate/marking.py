@@ -55,10 +55,11 @@ class Marked:
 
 
 def submit(tree: Tree, order: Order) -> Submission:
-    """Take in a package as if a student had submitted it."""
+    """Take in a package, and the interface packages beside it, as if a student had submitted it."""
+    assignment = order.assignment
     with tempfile.TemporaryDirectory(prefix="grader-validate-") as folder:
         path = Path(folder) / "handed_in"
-        write_tree(tree, path)
+        write_tree(tree, path / assignment.package if assignment.interface_packages else path)
         return submit_path(path, order)
 
 

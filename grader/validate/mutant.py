@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from grader.base.errors import AssignmentError
+from grader.course.assignment import Assignment
 from grader.package.edit.tree import Edit, EditError, Tree, apply_all
 from grader.verdict.checks.all import STATIC
 
@@ -31,10 +32,10 @@ class Mutant:
         """Whether it comes from mutants.yaml, with its expected mistake."""
         return bool(self.where)
 
-    @property
-    def may_be_static(self) -> bool:
+    def may_be_static(self, assignment: Assignment) -> bool:
         """Whether its files could be sufficient to decide it."""
-        return not self.equivalent and any(self.is_hit_by(check) for check in STATIC)
+        static = (use.id for use in assignment.checks if use.kind in STATIC)
+        return not self.equivalent and any(map(self.is_hit_by, static))
 
     def is_hit_by(self, check_id: str) -> bool:
         """Whether a failure of this check is expected."""

@@ -17,6 +17,8 @@ the assignment does not have are left out.
 
 An edit is one of: `replace` (with old, new), `write` (text or base64, mode), `delete`, `rename`
 (to), `copy` (to), `chmod` (mode), `crlf`, `link` (to), `nest`. Paths are relative to the package.
+If the assignment has interface packages, a path may begin with `../` and the name of one of them,
+such as `../my_robot_interfaces/msg/Distance.msg`.
 """
 
 from __future__ import annotations
@@ -28,13 +30,21 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Any, Literal, NoReturn
 
-from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
+from pydantic import (
+    AfterValidator,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
 
 from grader.base.errors import AssignmentError
 from grader.base.nearest import nearest
 from grader.base.part import Part
 from grader.base.positioned_yaml import Document, Loc, read_yaml
-from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, validated
+from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, model_faults
 from grader.mistakes.kind import Kind
 from grader.package.edit import tree
 from grader.validate.mutant import Mutant
@@ -73,13 +83,20 @@ class MutantsFile:
         return {entry.mutant: entry.why for entry in self.equivalent}
 
 
-def read_mutants(path: Path, *, checks: Iterable[str], kinds: Mapping[str, Kind]) -> MutantsFile:
+def read_mutants(
+    path: Path, *, checks: Iterable[str], kinds: Mapping[str, Kind], beside: bool = False
+) -> MutantsFile:
     """Read mutants.yaml; `kinds` are the catalogue's mistakes by id.
+
+    `beside`: the solution has other packages beside the one that the paths are relative to.
 
     Raises AssignmentError; each line of its message reads `file:line: what is wrong`.
     """
     document = read_yaml(path)
-    content = validated(document, _Content, KEYS)
+    try:
+        content = _Content.model_validate(document.content, strict=True, context=beside)
+    except ValidationError as error:
+        raise error_of(document, model_faults(error, KEYS)) from None
     checks = tuple(checks)
     examples = tuple(_examples(kinds, checks)) if content.catalogue else ()
     names = [mutant.name for mutant in examples]
@@ -121,9 +138,11 @@ def _where(document: Document, loc: Loc) -> str:
     return f"{document.path}:{document.line(loc)}"
 
 
-def _inside(text: str) -> str:
+def _inside(text: str, info: ValidationInfo) -> str:
+    """Check a path; if the context is true, it may be in a package beside the first one."""
     path = PurePosixPath(text)
-    if path.is_absolute() or ".." in path.parts or str(path) != text:
+    parts = path.parts[1:] if info.context and path.parts[:1] == ("..",) else path.parts
+    if not parts or path.is_absolute() or ".." in parts or str(path) != text:
         raise broken(f"not a path inside the package: {text}")
     return text
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.edit.tree import Tree, digest, read_tree
+from grader.package.edit.tree import Nest, Tree, digest, read_tree
 from grader.package.submission import Submission
 from grader.validate.automatic import generate
 from grader.validate.marking import Marked, mark_all, mark_files, submit, submit_path
@@ -51,7 +51,7 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
     """
     begin = time.monotonic()
     assignment = options.order.assignment
-    original = _solution(options)
+    original = solution_of(options.keys, assignment)
     mutants = collect(options, original)
     wanted = [m for m in mutants if m.mistake or m.named] if options.named else mutants
     chosen = [m for m in wanted if fnmatch.fnmatchcase(m.name, options.only)]
@@ -82,7 +82,10 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     )
     ids = [use.id for use in assignment.checks]
     path = options.keys / MUTANTS
-    written = read_mutants(path, checks=ids, kinds=CATALOGUE) if path.is_file() else MutantsFile()
+    written = MutantsFile()
+    if path.is_file():
+        beside = bool(assignment.interface_packages)
+        written = read_mutants(path, checks=ids, kinds=CATALOGUE, beside=beside)
     seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
     made = []
     for mutant in automatic:
@@ -117,9 +120,19 @@ def write_json(matrix: Matrix, path: Path) -> None:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 
-def _solution(options: ValidationOptions) -> Tree:
-    assignment = options.order.assignment
-    folder = options.keys / "solution" / assignment.package
+def solution_of(keys: Path, assignment: Assignment) -> Tree:
+    """Return the solution's package; the files of the interface packages begin with `../`.
+
+    Raises UsageError if a package is missing.
+    """
+    tree = _package(keys, assignment.package, assignment)
+    for name in assignment.interface_packages:
+        tree = {**tree, **Nest(f"../{name}").apply(_package(keys, name, assignment))}
+    return tree
+
+
+def _package(keys: Path, name: str, assignment: Assignment) -> Tree:
+    folder = keys / "solution" / name
     if not folder.is_dir():
         raise UsageError(
             f"there is no solution of {assignment.id}: no folder {folder}",
@@ -144,7 +157,7 @@ def _by_files(
     waiting = {}
     for mutant in mutants:
         submission = submit(mutant.of(original), order)
-        found = mark_files(submission, order) if mutant.may_be_static else None
+        found = mark_files(submission, order) if mutant.may_be_static(order.assignment) else None
         if found and any(mutant.is_hit_by(check) for check in found.failed):
             marked[mutant.name] = found
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import posixpath
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -137,13 +138,17 @@ class Link:
 
 @dataclass(frozen=True)
 class Nest:
-    """Move the whole package into a new folder; paths of later edits start above it."""
+    """Move the whole package into a new folder; paths of later edits start above it.
+
+    Packages beside it (their paths begin with `..`) are beside the new folder then.
+    """
 
     folder: str
 
     def apply(self, tree: Tree) -> Tree:
         """Return the tree, one folder deeper."""
-        nested = (replace(file, path=f"{self.folder}/{path}") for path, file in tree.items())
+        moved = {path: posixpath.normpath(f"{self.folder}/{path}") for path in tree}
+        nested = (replace(file, path=moved[path]) for path, file in tree.items())
         return {file.path: file for file in nested}
 
 
@@ -181,7 +186,10 @@ def text_of(tree: Tree, path: str) -> str:
 
 
 def write_tree(tree: Tree, folder: Path) -> None:
-    """Write a package to a new folder. Raises FileExistsError if the folder exists."""
+    """Write a package to a new folder; paths that begin with `..` are beside it.
+
+    Raises FileExistsError if the folder exists.
+    """
     folder.mkdir(parents=True)
     for name, file in tree.items():
         path = folder / name
