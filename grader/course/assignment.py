@@ -152,7 +152,7 @@ class Assignment(Part):
     def needs_interfaces(self) -> bool:
         """Whether ROS must have turtlesim's interfaces, or build those of the students."""
         return bool(self.interface_packages) or any(
-            name.partition("/")[0] in TURTLESIM for name in self._types()
+            name.partition("/")[0] in TURTLESIM for name in self.types()
         )
 
     def on(self, distro: Distro) -> Assignment:
@@ -171,7 +171,7 @@ class Assignment(Part):
             }
         )
 
-    def _types(self) -> Iterator[str]:
+    def types(self) -> Iterator[str]:
         """Yield the types of its runs and checks."""
         for plan in self.runs:
             yield from plan.topics.values()

@@ -34,7 +34,10 @@ STR_TYPE = r"type object 'str' has no attribute '_TYPE_SUPPORT'"
 NOT_INSTANTIATED = r"Service classes can not be instantiated"
 TWO_TYPES = r"RCLError: Failed to create (?:subscription|publisher): "
 NO_DEPTH = r"Expected QoSProfile or int, but received <class '(?:method|function)'>"
-OF_TYPE = r"'(?:property|member_descriptor|getset_descriptor)'"
+OF_TYPE = (
+    r"'(?:property|member_descriptor|getset_descriptor)'|"
+    r"AttributeError: '\w{1,120}' object attribute '\w{1,120}' is read-only"
+)
 NO_PART = r"AttributeError: '(?:float|int|str|bool)' object has no attribute '(?P<name>\w{1,120})'"
 PARTS = ("Request", "Response", "Goal", "Result", "Feedback")
 VALUES = {
@@ -148,6 +151,11 @@ def _class_published(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     for call in raised.source.calls_of("publish"):
         if call.args and isinstance(call.args[0], ast.Name) and call.args[0].id[:1].isupper():
             return raised.finding("published_class", at=call, name=call.args[0].id)
+    types = _imported(raised)
+    for node in raised.source.own_nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(value, ast.Name) and value.id in types:
+            return raised.finding("message_class", at=value, name=value.id)
     return None
 
 

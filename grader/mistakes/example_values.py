@@ -56,6 +56,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "action.wrong_status": {"wanted": "succeeded"},
     "interface.file_missing": {"path": "msg/Distance.msg", "package": "my_interfaces"},
     "interface.not_generated": {"path": "msg/Distance.msg", "package": "my_interfaces"},
+    "interface.inside": {"package": "my_interfaces"},
     "interface.not_cmake": {"package": "my_interfaces"},
     "interface.missing": {"name": "my_interfaces"},
     "interface.field_name": {"name": "totalDistance"},

@@ -75,11 +75,21 @@ def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistak
     return raised.finding("import_name", name=name, close=close, module=module)
 
 
+def _of_the_lesson(raised: Raised, name: str) -> str:
+    """Return the import of an interface that the assignment uses; "" if it uses none so named."""
+    for kind in raised.assignment.types():
+        package, part, interface = (*kind.split("/"), "", "")[:3]
+        if interface == name:
+            return f"from {package}.{part} import {name}"
+    return ""
+
+
 def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
-    if name not in IMPORTS or name in raised.module.imports:
+    statement = IMPORTS.get(name) or _of_the_lesson(raised, name)
+    if not statement or name in raised.module.imports:
         return None
-    found = raised.finding("import_missing", name=name, statement=IMPORTS[name])
+    found = raised.finding("import_missing", name=name, statement=statement)
     imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
     for node in imports if name == "Node" else ():
         if node.module == "rclpy" and [alias.name for alias in node.names] == ["node"]:

@@ -23,6 +23,13 @@ KINDS = (
         msg("Create {name} in src, beside the other package, and submit both."),
     ),
     _interface(
+        "inside",
+        "hand-in",
+        msg("The package of interfaces is inside the other package"),
+        msg("colcon does not search for packages inside a package: it never builds this one."),
+        msg("Move {package} to src, beside the other package."),
+    ),
+    _interface(
         "manifest",
         "manifest",
         msg("The package of interfaces has no readable package.xml"),

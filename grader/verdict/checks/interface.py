@@ -49,6 +49,16 @@ def package(use: Use[Interfaces]) -> Passed:
     """{package} is a package of interfaces with the files {files}"""
     given = use.given
     found = _package(use, given.package)
+    own = use.evidence.submission.root or "."
+    if own != "." and found.root.startswith(f"{own}/"):
+        raise Failed(
+            "interface.inside",
+            expected=say(
+                "a package {name} beside {package}", name=given.package, package=_own(use)
+            ),
+            actual=found.root,
+            words={"package": given.package},
+        )
     words = {"package": given.package}
     manifest = _manifest(found)
     place = Where(file=f"{found.name}/{MANIFEST}")

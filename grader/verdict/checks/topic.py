@@ -349,8 +349,14 @@ def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> 
                 where=use.call("publish", mentions=message.topic),
                 params={"field": path},
                 words={"topic": message.topic, "field": path, "wanted": str(form)},
-                variant="changed" if use.use.after and not garbage else "",
+                variant="changed" if _is_set(use) and not garbage else "",
             )
+
+
+def _is_set(use: Use[Parameters]) -> bool:
+    """Whether the window begins when parameters are set."""
+    stimulus = use.plan.stimulus(use.use.after) if use.use.after else None
+    return stimulus is not None and stimulus.set is not None
 
 
 def _must_be_new(topic: str, path: str, use: Use[Parameters]) -> None:
