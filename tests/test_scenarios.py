@@ -22,6 +22,7 @@ from tests.scenario_kinds import FORMS, Form, write_course, write_package
 
 pytestmark = [pytest.mark.prefix, pytest.mark.full]
 SOLUTION = ROOT / "grader" / "keys" / "draw_circle" / "solution"
+IN_CI = ("right", "names", "values", "no_action", "action_takes_all")  # the others: the long run
 UNCERTAIN = ("inconclusive", "error")
 
 
@@ -38,7 +39,13 @@ def marked(path: Path, file: Path, kept: list[Judged], *, distro: str = "jazzy")
     return grade(order, unheard, keep=kept.append)
 
 
-@pytest.mark.parametrize("form", [pytest.param(form, id=form.name) for form in FORMS])
+@pytest.mark.parametrize(
+    "form",
+    [
+        pytest.param(form, id=form.name, marks=[] if form.name in IN_CI else pytest.mark.long)
+        for form in FORMS
+    ],
+)
 def test_each_kind_of_check_tells_right_from_wrong(form: Form, tmp_path: Path) -> None:
     file, kept = write_course(tmp_path), list[Judged]()
     report = marked(write_package(form, tmp_path), file, kept)
