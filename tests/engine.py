@@ -17,6 +17,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import sysconfig
 import time
 from pathlib import Path
 
@@ -38,6 +39,7 @@ PACKAGES = {
     "debootstrap": "debootstrap",
     "docker-compose": "docker-compose",
     "npm": "npm",
+    "g++": "g++",  # turtlesim's interfaces are built for the tests in bubblewrap
 }
 START_SECONDS = 60.0
 WITHOUT = "GRADER_TESTS_WITHOUT_DOCKER"
@@ -63,6 +65,8 @@ def _state() -> Path:
 def install() -> None:
     """Install what is missing, by apt-get, as root."""
     missing = [package for program, package in PACKAGES.items() if not shutil.which(program)]
+    if not Path(sysconfig.get_path("include"), "Python.h").is_file():
+        missing.append("python3-dev")
     if not missing:
         return
     say(f"installing {' '.join(missing)}")
