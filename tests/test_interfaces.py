@@ -13,6 +13,7 @@ import pytest
 from grader.base.cache import cache_root
 from grader.base.errors import SurroundingsError
 from grader.base.unheard import unheard
+from grader.cli.main import main
 from grader.course.load import load_assignment
 from grader.package.source.interface import message_text
 from grader.package.submission import take_in
@@ -23,8 +24,10 @@ from grader.ros.interface_package import interface_package
 from grader.ros.prefix import Ros
 from grader.run.student_interfaces import MOST_TEXTS, texts_of
 from grader.verdict.checks.all import CHECKS
+from grader.verdict.evidence_file import changed_files
 from grader.verdict.mark import grade
 from grader.verdict.order import Order
+from grader.verdict.take_in import take_in_for
 from tests.marking import LIMITS
 from tests.processes import ROOT
 
@@ -123,6 +126,25 @@ def test_the_other_package_is_part_of_the_submissions_hash(tmp_path: Path) -> No
     copy = changed(tmp_path, (MESSAGE, "float64 speed", "float32 speed"))
     assert digest(copy, "my_robot_interfaces") != before
     assert digest(copy) == digest(SOLUTION) != before
+
+
+def test_a_changed_message_is_named_by_its_file(tmp_path: Path) -> None:
+    assignment = load_assignment(ASSIGNMENT, known_checks=CHECKS)
+    copy = changed(tmp_path, (MESSAGE, "float64 speed", "float32 speed"))
+    versions = [take_in_for(assignment, path) for path in (SOLUTION, copy)]
+    assert changed_files(*versions) == [f"../{MESSAGE}"]
+
+
+def test_fix_sees_the_interface_package_too(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["fix", "--no-run", "--assignment", "own_message", str(SOLUTION)])
+    said = capsys.readouterr()
+    assert "message." not in said.out + said.err
+
+
+@pytest.mark.prefix
+@pytest.mark.long
+def test_fix_builds_the_interface_package_too() -> None:
+    assert main(["fix", "--assignment", "own_message", str(SOLUTION)]) == 0
 
 
 def test_the_lines_of_a_message() -> None:

@@ -3,7 +3,7 @@
 It is the distro's wheels prefix (its files are hard links) with the packages of
 `locks/<distro>-interfaces.txt`: ament_cmake, rosidl and CMake. turtlesim has no wheel: its
 interfaces are built here, once, from the texts in `turtlesim/`. That needs a C++ compiler, so this
-prefix is made when it is needed first, not with the other one.
+prefix is made when it is needed first, not with the other one. It also has turtlesim's programs.
 """
 
 from __future__ import annotations
@@ -24,11 +24,12 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
 from grader.ros.distro import HERE, Distro
 from grader.ros.interface_package import BUILD, interface_package, texts_in
-from grader.ros.prefix import Ros, is_in_cache
+from grader.ros.prefix import PROGRAMS, Ros, is_complete, is_in_cache
 from grader.ros.prefix_build import install
 from grader.ros.scripts import use_own_python
+from grader.ros.turtlesim_executables import install_programs, program_sources
 
-FORMAT = 1  # increment it when this module makes something else
+FORMAT = 2  # increment it when this module makes something else
 TEXTS = HERE / "turtlesim"
 LINT = "ament_lint_auto"
 SOURCES = ("interfaces.cmake.in", "interface_package.py", f"{LINT}.cmake")
@@ -77,7 +78,8 @@ def with_interfaces(ros: Ros, *, notify: Notify) -> Ros:
 def interfaces_path(ros: Ros) -> Path:
     """Return the path of the prefix with interfaces that belongs to a wheels prefix."""
     key = hashlib.sha256(b"%d " % FORMAT + _lock(ros.distro).read_bytes())
-    for path in (*(HERE / name for name in SOURCES), *sorted(TEXTS.rglob("*"))):
+    sources = [*(HERE / name for name in SOURCES), *sorted(TEXTS.rglob("*")), *program_sources()]
+    for path in sources:
         if path.is_file():
             key.update(path.name.encode() + path.read_bytes())
     return ros.path.with_name(f"{ros.path.name}-interfaces-{key.hexdigest()[:16]}")
@@ -98,7 +100,8 @@ def make_interfaces(ros: Ros, staging: Path, notify: Notify) -> None:
             file = Path(folder, path)
             file.parent.mkdir(exist_ok=True)
             file.write_text(text, encoding="utf-8")
-        _build(staging, Path(folder))
+        _run(["bash", "-c", BUILD, "bash", str(staging), folder, str(staging)])
+    install_programs(staging, ros.interpreter)
     parents = staging / "share" / "ament_index" / "resource_index" / "parent_prefix_path"
     (parents / package).write_text(ros.inside, encoding="utf-8")  # (the build wrote its own)
     code = f"import {package}.msg as m; m.Pose.__class__.__import_type_support__()"
@@ -111,14 +114,19 @@ def _lock(distro: Distro) -> Path:
 
 
 def _is_complete(folder: Path) -> bool:
-    """Whether its programs exist (the Python that they link to may have been removed)."""
-    return all(os.access(folder / "bin" / name, os.X_OK) for name in ("python3", "cmake", "ros2"))
+    return is_complete(folder, (*PROGRAMS, "cmake"))
 
 
-def _require_compiler() -> None:
+def missing_for_building() -> list[str]:
+    """Return what this machine lacks for building interfaces; empty if it can."""
     missing = [name for name in ("g++", "make") if shutil.which(name) is None]
     if not Path(_python_include(), "Python.h").is_file():
         missing.append("Python.h")
+    return missing
+
+
+def _require_compiler() -> None:
+    missing = missing_for_building()
     if missing:
         raise SurroundingsError(
             Message(NO_COMPILER, {"missing": ", ".join(missing)}),
@@ -142,10 +150,6 @@ def _correct_paths(staging: Path) -> None:
         if new != text:
             file.unlink()  # a hard link: the file of the other prefix stays as it is
             file.write_text(new, encoding="utf-8")
-
-
-def _build(prefix: Path, folder: Path) -> None:
-    _run(["bash", "-c", BUILD, "bash", str(prefix), str(folder), str(prefix)])
 
 
 def _run(command: list[str]) -> None:

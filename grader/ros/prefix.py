@@ -17,7 +17,7 @@ import platform
 import re
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -143,8 +143,8 @@ def wheels_prefix(distro: Distro, *, prove: Prove, notify: Notify = print) -> Pa
     Raises BrokenRosError if a program does not run even after the prefix was made twice.
     """
     folder = prefix_path(distro)
-    if folder.is_dir() and not _is_complete(folder):
-        discard(folder, unless=_is_complete, notify=notify)
+    if folder.is_dir() and not is_complete(folder):
+        discard(folder, unless=is_complete, notify=notify)
     if not folder.is_dir():
         notify(Message(MAKING, {"distro": distro.name}))
         make_once(folder, lambda staging: _make(distro, staging, prove, notify), notify=notify)
@@ -182,9 +182,9 @@ def _prefixes() -> Path:
     return cache_root() / "prefixes"
 
 
-def _is_complete(folder: Path) -> bool:
+def is_complete(folder: Path, programs: Iterable[str] = PROGRAMS) -> bool:
     """Whether the programs exist (the Python that they link to may have been removed)."""
-    return all(os.access(folder / "bin" / name, os.X_OK) for name in PROGRAMS)
+    return all(os.access(folder / "bin" / name, os.X_OK) for name in programs)
 
 
 def _make(distro: Distro, staging: Path, prove: Prove, notify: Notify) -> None:

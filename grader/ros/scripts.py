@@ -22,6 +22,9 @@ HEADER = b"""\
 """
 """For sh, line 2 executes Python; for Python, lines 2 and 3 are a string."""
 
+OWN = HEADER.partition(b'" ')[0]
+"""How a program begins that runs with that Python, whatever options Python is given."""
+
 SHELL_FORM = re.compile(rb"#!/bin/sh\n'''exec' .*?\n' '''\n", re.DOTALL)
 LINE_FORM = re.compile(rb'#(?=!)[^\n]*[!/ "]python[\d.]*"?(?:[ \t][^\n]*)?\n')
 
@@ -33,7 +36,10 @@ def use_own_python(folder: Path, installer: str) -> None:
     """
     for script in folder.iterdir():
         if script.is_file() and not script.is_symlink():
-            code = without_header(script.read_bytes(), installer)
+            text = script.read_bytes()
+            if text.startswith(OWN):
+                continue  # done before; the file may be a hard link to that of another prefix
+            code = without_header(text, installer)
             if code is not None:
                 script.write_bytes(HEADER + code)
 

@@ -115,8 +115,14 @@ class Surroundings:
     def ros2(
         self, *arguments: str, cwd: Path | None = None, environment: Mapping[str, str] | None = None
     ) -> Finished:
+        ros2 = str(self.prefix / "bin" / "ros2")
+        return self.command(ros2, *arguments, cwd=cwd, environment=environment)
+
+    def command(
+        self, *command: str, cwd: Path | None = None, environment: Mapping[str, str] | None = None
+    ) -> Finished:
         done = subprocess.run(
-            [self.prefix / "bin" / "ros2", *arguments],
+            command,
             cwd=cwd or self.root,
             env={**self.environment, **(environment or {})},
             capture_output=True,

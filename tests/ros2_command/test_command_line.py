@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+import sys
 
 import pytest
 
-from .surroundings import PACKAGE, Surroundings
+from .surroundings import PACKAGE, Surroundings, write_script
 
 ROOT_HELP = """\
 usage: ros2 [-h] [--use-python-default-buffering]
@@ -23,10 +24,18 @@ options:
                         is interactive or not
 
 Commands:
-  node   Various node related sub-commands
-  pkg    Various package related sub-commands
-  run    Run a package specific executable
-  topic  Various topic related sub-commands
+  action     Various action related sub-commands
+  daemon     Various daemon related sub-commands
+  doctor     Check the ROS setup of this terminal and the workspace
+  grade      Check your own package before you hand it in: the same as the command `check`
+  interface  Show information about ROS interfaces
+  lab        Take you through the lesson: the same as the command `lab`
+  node       Various node related sub-commands
+  param      Various param related sub-commands
+  pkg        Various package related sub-commands
+  run        Run a package specific executable
+  service    Various service related sub-commands
+  topic      Various topic related sub-commands
 
   Call `ros2 <command> -h` for more detailed usage.
 """
@@ -106,6 +115,7 @@ options:
   -h, --help            show this help message and exit
 
 Commands:
+  info  Output information about a node
   list  Output a list of available nodes
 
   Call `ros2 node <command> -h` for more detailed usage.
@@ -122,7 +132,15 @@ options:
                         Consider hidden topics as well
 
 Commands:
-  list  Output a list of available topics
+  bw     Display bandwidth used by topic
+  delay  Display delay of topic from timestamp in header
+  echo   Output messages from a topic
+  find   Output a list of available topics of a given type
+  hz     Print the average publishing rate to screen
+  info   Print information about a topic
+  list   Output a list of available topics
+  pub    Publish a message to a topic
+  type   Print a topic's type
 
   Call `ros2 topic <command> -h` for more detailed usage.
 """
@@ -182,14 +200,34 @@ def test_help_of_the_pkg_verbs(jazzy: Surroundings, verb: str, usage: str) -> No
     assert done.stdout.startswith(usage)
 
 
-@pytest.mark.parametrize("command", ["daemon", "extension_points", "extensions"])
-@pytest.mark.parametrize("rest", [[], ["status"], ["-h"]])
+@pytest.mark.parametrize("command", ["bag", "launch", "lifecycle", "extensions", "service echo"])
+@pytest.mark.parametrize("rest", [[], ["play", "--rate", "2"]])
 def test_commands_that_need_a_full_ros_say_so(
     jazzy: Surroundings, command: str, rest: list[str]
 ) -> None:
-    done = jazzy.ros2(command, *rest)
+    done = jazzy.ros2(*command.split(), *rest)
     assert (done.status, done.stdout) == (1, "")
-    assert re.fullmatch(rf"ros2 {command}: not in this prefix .*\n", done.stderr)
+    assert re.fullmatch(
+        rf"ros2 {command}: .*; the wheels do not have it, .* `make images`.*\n", done.stderr
+    )
+
+
+@pytest.mark.parametrize(
+    ("package", "remedy"),
+    [
+        ("demo_nodes_cpp", "ros-jazzy-desktop"),
+        ("rviz2", "ros-jazzy-desktop"),
+        ("turtlesim", "`make images`"),
+    ],
+)
+def test_packages_of_the_tutorials_that_are_not_here_say_where_they_are(
+    jazzy: Surroundings, package: str, remedy: str
+) -> None:
+    done = jazzy.ros2("run", package, "talker")
+    assert (done.status, done.stdout) == (1, "")
+    assert done.stderr.startswith(f"Package '{package}' ")
+    assert len(done.stderr.splitlines()) == 1
+    assert remedy in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -226,7 +264,42 @@ def test_usage_errors(jazzy: Surroundings, arguments: list[str], error: str) -> 
 
 
 def test_the_package_imports_nothing_else() -> None:
-    """It is copied into prefixes, so it must not import the grader or third-party packages."""
+    """It is copied into prefixes, so it must not import the grader, and little else.
+
+    PyYAML and NumPy come with rclpy; they are imported only where they are used.
+    """
     for path in PACKAGE.rglob("*.py"):
-        imported = re.findall(r"^ *(?:from|import) ([\w.]+)", path.read_text(), re.MULTILINE)
-        assert not {name.partition(".")[0] for name in imported} & {"grader", "lab", "yaml"}, path
+        text = path.read_text()
+        imported = re.findall(r"^ *(?:from|import) ([\w.]+)", text, re.MULTILINE)
+        assert not {name.partition(".")[0] for name in imported} & {"grader", "lab"}, path
+        at_once = re.findall(r"^(?:from|import) (\w+)", text, re.MULTILINE)
+        assert not set(at_once) & {"numpy", "rclpy", "yaml"}, path
+
+
+def test_run_imports_nothing_of_the_other_verbs(jazzy: Surroundings) -> None:
+    """A node does not wait for code that it does not need."""
+    site = str(jazzy.prefix / "lib" / "site")
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1]); from wheels_ros2 import cli; "
+        "cli.main(['run', 'my_robot_controller', 'zero']); "
+        "print(*(n for n in sys.modules if n.startswith('wheels_ros2.')))"
+    )
+    done = jazzy.command(sys.executable, "-S", "-c", code, site)
+    assert set(done.stdout.splitlines()[-1].split()) == {
+        f"wheels_ros2.{name}"
+        for name in ("absent", "ament_index", "cli", "distro", "parsing", "run")
+    }
+
+
+@pytest.mark.parametrize(("command", "program"), [("lab", "lab"), ("grade", "check")])
+def test_the_labs_programs_are_commands_of_ros2_too(
+    command: str, program: str, jazzy: Surroundings
+) -> None:
+    outside = jazzy.ros2(command, "status")
+    assert outside.status == 1
+    assert "make lab" in outside.stderr
+    text = '#!/bin/sh\necho "$0 $*"\nexit 5\n'
+    write_script(jazzy.prefix / "bin" / program, text)
+    inside = jazzy.ros2(command, "status", "--lang", "ko", environment={"LAB_WORKSPACE": "/ws"})
+    assert (inside.status, inside.stderr) == (5, "")
+    assert inside.stdout.endswith(f"{program} status --lang ko\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import select
 import signal
 import subprocess
 import sys
@@ -62,6 +63,18 @@ def test_signals_to_ros2_alone_are_forwarded(started: subprocess.Popen[str]) -> 
         "[ros2run]: Received signal:  Terminated",
         "heard SIGTERM",
     ]
+
+
+def test_a_signal_that_comes_while_another_is_told_is_forwarded_too(
+    started: subprocess.Popen[str],
+) -> None:
+    assert started.stdout is not None
+    for _ in range(500):  # each as soon as the one before is told
+        os.kill(started.pid, signal.SIGINT)
+        assert select.select([started.stdout], [], [], 30)[0]
+        os.read(started.stdout.fileno(), 4096)
+    os.kill(started.pid, signal.SIGTERM)
+    assert started.wait(30) == 5
 
 
 def test_a_node_ended_by_sigint_gives_status_254(kilted: Surroundings) -> None:

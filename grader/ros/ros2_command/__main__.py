@@ -1,6 +1,6 @@
 """Make ``python -m wheels_ros2`` equivalent to ``ros2``."""
 
-from .cli import main
+from .cli import program
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    program()

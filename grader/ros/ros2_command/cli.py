@@ -6,10 +6,12 @@ Only the modules that a command line names are imported, as in ros2cli (its
 
 from __future__ import annotations
 
+import os
 import sys
 from importlib import import_module
 
-from .parsing import Parser, add_commands, first_word, summary
+from . import absent
+from .parsing import CommandError, Parser, add_commands, first_word, summary
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -19,9 +21,41 @@ if TYPE_CHECKING:
 
     from .parsing import Result
 
-COMMANDS = ("node", "pkg", "run", "topic")
-# The real command lists these as choices; they need its daemon and its plug-ins.
-ABSENT = ("daemon", "extension_points", "extensions")
+COMMANDS = (
+    "action",
+    "daemon",
+    "doctor",
+    "grade",
+    "interface",
+    "lab",
+    "node",
+    "param",
+    "pkg",
+    "run",
+    "service",
+    "topic",
+)
+COMPLETE = "_complete"  # hidden: the words for a shell's completion
+
+
+def program() -> None:
+    """Run `ros2` as the process that this is, and end it.
+
+    With rclpy Python needs 0.15 s to take itself down after the node is gone, which nobody sees:
+    then the process ends at once.
+    """
+    result = main()
+    if "rclpy" not in sys.modules:
+        raise SystemExit(result)
+    if isinstance(result, str):
+        print(result, file=sys.stderr)
+    status = 1 if isinstance(result, str) else int(result or 0)
+    try:
+        sys.stdout.flush()
+        sys.stderr.flush()
+    except OSError:  # the reader of a pipe has ended
+        status = 1
+    os._exit(status & 0xFF)
 
 
 def main(argv: Sequence[str] | None = None) -> Result:
@@ -30,21 +64,34 @@ def main(argv: Sequence[str] | None = None) -> Result:
     An int is the exit status, a text is an error message for stderr with status 1.
 
     Raises SystemExit with status 0 after `-h` and 2 after a usage error (argparse), and whatever
-    the verbs raise: as in ros2cli, nothing is caught, so that the user sees the same output.
+    the verbs raise, except CommandError (ros2cli does the same with RuntimeError).
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     command = first_word(arguments)
-    if command in ABSENT and arguments[0] == command:
-        return f"ros2 {command}: not in this prefix made of Python wheels; it needs a full ROS 2"
+    if command in absent.COMMANDS and arguments[0] == command:
+        return absent.command(command)
+    if command == COMPLETE:
+        return _run_hidden(arguments[1:])
     args = _parser(command, arguments).parse_args(arguments)
     if not args.use_python_default_buffering and hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(line_buffering=True)
     try:
         return _run(args)
+    except CommandError as error:
+        return str(error)
+    except BrokenPipeError:  # the reader of a pipe has ended, as in `ros2 topic echo /a | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
     except KeyboardInterrupt:
         import signal  # noqa: PLC0415 (most verbs do not need it)
 
         return signal.SIGINT
+
+
+def _run_hidden(words: list[str]) -> Result:
+    complete: ModuleType = _module("complete")
+    result: Result = complete.main(words)
+    return result
 
 
 def _run(args: Namespace) -> Result:
@@ -68,7 +115,7 @@ def _parser(command: str | None, arguments: list[str]) -> Parser:
     parser.set_defaults(verb=None, parser=parser)
     listed = {} if command else {name: summary(_module(name)) for name in COMMANDS}
     subparsers = add_commands(parser, "ros2", listed)
-    for name in sorted(COMMANDS + ABSENT):
+    for name in sorted((*COMMANDS, *absent.COMMANDS)):
         selected = _module(name) if name == command and name in COMMANDS else None
         subparser = subparsers.add_parser(name, description=summary(selected) if selected else None)
         if selected:

@@ -1,9 +1,6 @@
 """Query the ROS graph with a node of our own, as ros2cli's DirectNode does.
 
-The real command asks its daemon, which already knows the graph. The wheels have no daemon: every
-call discovers the graph itself. Half a second, as ros2cli waits without its daemon, found the only
-other node in two thirds of the calls (measured on 2 busy cores). So, unless `--spin-time` is given,
-the half second starts when another node is known, which is awaited for up to `PATIENCE`.
+The wheels have no daemon; `discovery` waits until the node knows the others.
 """
 
 from __future__ import annotations
@@ -13,6 +10,8 @@ import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from .discovery import discover
+
 if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Iterator
@@ -20,9 +19,6 @@ if TYPE_CHECKING:
     from .parsing import Parser
 
 HIDDEN_PREFIX = "_"
-SPIN_TIME = 0.5  # seconds, ros2cli's default
-# A lost message of discovery is repeated after 3 s (Fast DDS's heartbeat and announcement period)
-PATIENCE = 3.5  # seconds
 
 
 def add_arguments(parser: Parser) -> None:
@@ -48,28 +44,62 @@ def is_hidden(name: str) -> bool:
     return any(part.startswith(HIDDEN_PREFIX) for part in name.split("/"))
 
 
+def node_names(node: Any) -> list[str]:
+    """Return the full names of all nodes that a node knows, with its own, sorted."""
+    return sorted(
+        f"{namespace.rstrip('/')}/{name}"
+        for name, namespace in node.get_node_names_and_namespaces()
+    )
+
+
+def services(node: Any, *, hidden: bool) -> list[tuple[str, list[str]]]:
+    """Return the services that a node knows with their types, sorted; hidden ones if asked."""
+    found = sorted(node.get_service_names_and_types())
+    return [(name, types) for name, types in found if hidden or not is_hidden(name)]
+
+
 @contextmanager
-def graph(args: Namespace) -> Iterator[Any]:
+def graph(args: Namespace, *, name: str | None = None) -> Iterator[Any]:
     """Yield an rclpy node that has had time to discover the others (`args.spin_time` in seconds).
 
     Raises KeyboardInterrupt if Ctrl+C ends the wait, ModuleNotFoundError without rclpy.
     """
+    with own_node(use_sim_time=args.use_sim_time, name=name) as node:
+        if args.spin_time is None:
+            discover(node)
+        else:
+            _spin(node, args.spin_time)
+        yield node
+
+
+@contextmanager
+def own_node(
+    *, use_sim_time: bool = False, name: str | None = None, own_interrupts: bool = False
+) -> Iterator[Any]:
+    """Yield an rclpy node, by default hidden; it does not know the graph yet.
+
+    With `own_interrupts` Ctrl+C leaves the node alive, for what is to be done after it.
+
+    Raises KeyboardInterrupt if Ctrl+C or SIGTERM shuts it down, ModuleNotFoundError without rclpy.
+    """
     import rclpy  # noqa: PLC0415 (slow to import)
     from rclpy.executors import ExternalShutdownException  # noqa: PLC0415
     from rclpy.parameter import Parameter  # noqa: PLC0415
+    from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
-    rclpy.init(args=[])
+    handlers = SignalHandlerOptions.NO if own_interrupts else SignalHandlerOptions.ALL
+    rclpy.init(args=[], signal_handler_options=handlers)
     try:
         node = rclpy.create_node(
-            f"{HIDDEN_PREFIX}ros2cli_{os.getpid()}",
+            name or f"{HIDDEN_PREFIX}ros2cli_{os.getpid()}",
             start_parameter_services=False,
-            parameter_overrides=[Parameter("use_sim_time", value=args.use_sim_time)],
+            parameter_overrides=[
+                Parameter("use_sim_time", value=use_sim_time),
+                # its interfaces import NumPy, 0.1 s
+                Parameter("start_type_description_service", value=False),
+            ],
         )
         try:
-            if args.spin_time is not None:
-                _spin(node, args.spin_time)
-            elif _discover(node, PATIENCE):
-                _spin(node, SPIN_TIME)
             yield node
         except ExternalShutdownException:
             raise KeyboardInterrupt from None
@@ -85,15 +115,3 @@ def _spin(node: Any, seconds: float) -> None:
     end = time.monotonic() + seconds
     while (left := end - time.monotonic()) > 0:
         rclpy.spin_once(node, timeout_sec=left)
-
-
-def _discover(node: Any, seconds: float) -> bool:
-    """Spin for that long, or until another node is known; return whether one is."""
-    import rclpy  # noqa: PLC0415
-
-    end = time.monotonic() + seconds
-    while (left := end - time.monotonic()) > 0:
-        rclpy.spin_once(node, timeout_sec=min(left, 0.05))
-        if len(node.get_node_names()) > 1:
-            return True
-    return False

@@ -6,13 +6,22 @@ some texts differently.
 
 from __future__ import annotations
 
-from argparse import Action, ArgumentError, ArgumentParser, RawDescriptionHelpFormatter
+import sys
+from argparse import (
+    Action,
+    ArgumentError,
+    ArgumentParser,
+    ArgumentTypeError,
+    RawDescriptionHelpFormatter,
+)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` must be quick
     from argparse import Namespace, _SubParsersAction
-    from collections.abc import Iterable
-    from typing import Any, Protocol
+    from collections.abc import Callable, Iterable
+    from typing import Any, Protocol, TypeVar
+
+    Number = TypeVar("Number", int, float)
 
     Result = int | str | None  # what sys.exit takes; a text goes to stderr with status 1
 
@@ -26,6 +35,10 @@ if TYPE_CHECKING:  # typing is slow to import, and `ros2 run` must be quick
 
         def main(self, args: Namespace) -> Result:
             """Run it."""
+
+
+class CommandError(RuntimeError):
+    """A command cannot do what was asked; its text goes to stderr, with exit status 1."""
 
 
 class _HelpFormatter(RawDescriptionHelpFormatter):
@@ -44,11 +57,41 @@ class Parser(ArgumentParser):
         options.setdefault("formatter_class", _HelpFormatter)
         super().__init__(**options)
 
+    def declared(self) -> list[Action]:
+        """Return the arguments that were added, in their order."""
+        return list(self._actions)
+
     def _check_value(self, action: Action, value: Any) -> None:
         # later releases omit the quotes
         if action.choices is not None and value not in action.choices:
             choices = ", ".join(map(repr, action.choices))
             raise ArgumentError(action, f"invalid choice: {value!r} (choose from {choices})")
+
+
+def natural(text: str) -> int:
+    """Return an option's value that is an integer of 0 or more; raises ArgumentTypeError."""
+    return _number(text, int, least=0)
+
+
+def positive(text: str) -> int:
+    """Return an option's value that is an integer of 1 or more; raises ArgumentTypeError."""
+    return _number(text, int, least=1)
+
+
+def positive_float(text: str) -> float:
+    """Return an option's value that is a number above 0; raises ArgumentTypeError."""
+    return _number(text, float, least=sys.float_info.min)
+
+
+def _number(text: str, convert: Callable[[str], Number], *, least: float) -> Number:
+    try:
+        value = convert(text)
+    except ValueError:
+        value = None
+    if value is None or not least <= value < float("inf"):
+        kind = "a number above 0" if convert is float else f"an integer of at least {least}"
+        raise ArgumentTypeError(f"value must be {kind}, not {text!r}")
+    return value
 
 
 def summary(verb: Verb) -> str:

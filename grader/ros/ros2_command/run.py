@@ -41,7 +41,9 @@ def main(args: Namespace) -> Result:
     """
     paths = package_executables(args.package_name)
     if paths is None:
-        return f"Package '{args.package_name}' not found"
+        from . import absent  # noqa: PLC0415 (it would delay the child)
+
+        return absent.package(args.package_name) or f"Package '{args.package_name}' not found"
     paths = [path for path in paths if os.path.basename(path) == args.executable_name]  # noqa: PTH119
     if not paths:
         return "No executable found"
@@ -90,7 +92,8 @@ def _outlive(child: subprocess.Popen[bytes]) -> None:
 
 def _forward_signals(child: subprocess.Popen[bytes]) -> None:
     def forward(number: int, _frame: FrameType | None) -> None:
-        print("[ros2run]: Received signal: ", signal.strsignal(number))
+        # not print(): a second signal may come while it writes, and it cannot be called again then
+        os.write(1, f"[ros2run]: Received signal:  {signal.strsignal(number)}\n".encode())
         if child.poll() is None:
             child.send_signal(number)
 

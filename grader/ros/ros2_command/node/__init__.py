@@ -1,3 +1,3 @@
 """Various node related sub-commands."""
 
-VERBS = ("list",)
+VERBS = ("info", "list")

@@ -27,12 +27,9 @@ def main(args: Namespace) -> None:
     Raises what `graph.graph` raises.
     """
     with graph.graph(args) as node:
-        found: list[tuple[str, str]] = node.get_node_names_and_namespaces()
-    names = sorted(
-        f"{namespace.rstrip('/')}/{name}"
-        for name, namespace in found
-        if args.all or (name and not name.startswith(graph.HIDDEN_PREFIX))
-    )
+        found = graph.node_names(node)
+    hidden = f"/{graph.HIDDEN_PREFIX}"
+    names = [name for name in found if args.all or hidden not in name[name.rindex("/") :]]
     if args.count_nodes:
         print(len(names))
         return

@@ -6,7 +6,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from ..parsing import Parser
 
-VERBS = ("list",)
+VERBS = ("bw", "delay", "echo", "find", "hz", "info", "list", "pub", "type")
 
 
 def add_arguments(parser: Parser) -> None:

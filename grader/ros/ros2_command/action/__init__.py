@@ -1,0 +1,3 @@
+"""Various action related sub-commands."""
+
+VERBS = ("info", "list", "send_goal", "type")

@@ -1,0 +1,3 @@
+"""Various daemon related sub-commands."""
+
+VERBS = ("start", "status", "stop")

@@ -1,0 +1,133 @@
+"""Wait until everything of the ROS graph that can be known is known, and no longer.
+
+The real command asks its daemon, which already knows the graph. The wheels have no daemon, so every
+call discovers the graph itself. A fixed wait is either too short on a busy machine (half a second
+found the only other node in two thirds of the calls) or too long on a quiet one. So the number of
+participants is taken from the system: each DDS participant binds two UDP ports of its domain, and
+`/proc/net/udp` lists the bound ports of this network namespace (RTPS 2.5, 9.6.2.3: 7400 + 250 ·
+domain + 10 + 2 · participant, and the next one). The wait ends when a node of each of them is
+known and nothing has changed for `SETTLED`.
+
+As long as somebody is missing, `knock` makes them announce themselves again.
+
+Participants of other machines have no port here. They can exist unless discovery is limited to this
+machine (ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, the lab's default); for them there is ros2cli's
+half second.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from .knock import knock
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+PATIENCE = 3.5  # seconds; Fast DDS repeats a lost message of discovery after 3 s
+SETTLED = 0.06  # seconds without a change; the parts of one announcement come within 20 ms
+REMOTE = 0.5  # seconds for nodes on other machines, ros2cli's default
+POLL = 0.01  # seconds
+KNOCK_AGAIN = 0.1  # seconds; the endpoints of who answers come within 80 ms
+PORTS = Path("/proc/net/udp")
+FIRST_PORT, PORTS_OF_DOMAIN, FIRST_OFFSET = 7400, 250, 10
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for an endpoint whose node is not known yet
+PARTICIPANT = 12  # leading bytes of a GID; the rest is the endpoint
+
+
+class View(NamedTuple):
+    """What a node knows of the graph: GIDs of endpoints, and the participants with known nodes."""
+
+    endpoints: frozenset[bytes]
+    participants: frozenset[bytes]
+
+
+def discover(node: Any) -> None:
+    """Wait until the node knows the graph, at most `PATIENCE` seconds; see the module's text."""
+    if _range() == "OFF":
+        return
+    start = time.monotonic()
+    least = start + (0 if _is_local() else REMOTE)
+    domain = node.context.get_domain_id()
+    knocked = start - KNOCK_AGAIN
+    last, since = view(node), start
+    while (now := time.monotonic()) < start + PATIENCE:
+        ports = participants_here(domain)
+        if _is_everyone(last, ports):
+            if now >= least and now - since >= SETTLED:
+                return
+        elif ports is not None and now - knocked >= KNOCK_AGAIN:
+            knock_at_others(ports)
+            knocked = now
+        time.sleep(POLL)
+        new = view(node)
+        if new != last:
+            last, since = new, time.monotonic()
+
+
+def view(node: Any) -> View:
+    """Return what a node knows of the graph at this moment, services included."""
+    infos = list(_endpoints(node))
+    return View(
+        frozenset(bytes(info.endpoint_gid) for info in infos),
+        frozenset(
+            bytes(info.endpoint_gid)[:PARTICIPANT]
+            for info in infos
+            if info.node_name != UNKNOWN_NODE
+        ),
+    )
+
+
+def _endpoints(node: Any) -> Iterator[Any]:
+    for name, _ in node.get_topic_names_and_types(no_demangle=True):
+        yield from node.get_publishers_info_by_topic(name, no_mangle=True)
+        yield from node.get_subscriptions_info_by_topic(name, no_mangle=True)
+
+
+def _is_everyone(seen: View, ports: dict[int, str] | None) -> bool:
+    if ports is None:  # not Linux, or /proc is hidden: whoever is there has been waited for
+        return len(seen.participants) > 1
+    return len(seen.participants) >= len(ports)
+
+
+def participants_here(domain: int, table: Path = PORTS) -> dict[int, str] | None:
+    """Return the ports at which participants of a domain are in this network namespace.
+
+    Own ones are included. Each has the inode of its socket. None if the system does not tell.
+    """
+    try:
+        lines = table.read_text(encoding="ascii").splitlines()[1:]
+    except OSError:
+        return None
+    rows = [line.split() for line in lines]
+    bound = {int(row[1].partition(":")[2], 16): row[9] for row in rows if len(row) > 9}
+    first = FIRST_PORT + PORTS_OF_DOMAIN * domain
+    places = range(first + FIRST_OFFSET, first + PORTS_OF_DOMAIN - 1, 2)
+    return {port: bound[port] for port in places if port in bound and port + 1 in bound}
+
+
+def knock_at_others(ports: dict[int, str]) -> None:
+    """Make the participants at these ports announce themselves to the one of this process."""
+    sockets = set()
+    for descriptor in Path("/proc/self/fd").iterdir():
+        try:
+            sockets.add(str(descriptor.readlink()))
+        except OSError:  # closed meanwhile
+            continue
+    own = [port for port, inode in ports.items() if f"socket:[{inode}]" in sockets]
+    if own:
+        knock(own[0], [port for port in ports if port not in own])
+
+
+def _range() -> str:
+    if os.environ.get("ROS_LOCALHOST_ONLY") == "1":
+        return "LOCALHOST"
+    return os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET").upper()
+
+
+def _is_local() -> bool:
+    """Whether all nodes that can be discovered are on this machine."""
+    return _range() == "LOCALHOST" and not os.environ.get("ROS_STATIC_PEERS")

@@ -1,0 +1,3 @@
+"""Show information about ROS interfaces."""
+
+VERBS = ("list", "package", "packages", "proto", "show")

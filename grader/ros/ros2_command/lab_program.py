@@ -1,0 +1,29 @@
+"""Starts a program of the teaching lab from `ros2`."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from argparse import REMAINDER
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .parsing import Parser, Result
+
+
+def add_arguments(parser: Parser) -> None:
+    """Declare the words that the program gets."""
+    parser.add_argument("words", nargs=REMAINDER, help="Arguments of the lab's own command")
+
+
+def run(program: str, words: Sequence[str]) -> Result:
+    """Replace this process by a program of the lab; return a message if there is none on PATH.
+
+    Only the lab has these programs, so a terminal outside of it is told how to open one.
+    """
+    found = shutil.which(program) if os.environ.get("LAB_WORKSPACE") else None
+    if found is not None:
+        os.execv(found, [program, *words])  # noqa: S606 - the lab's own program
+    return f"'{program}' is a command of the teaching lab: open a lab with `make lab` first"

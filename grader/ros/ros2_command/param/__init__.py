@@ -1,0 +1,3 @@
+"""Various param related sub-commands."""
+
+VERBS = ("delete", "describe", "dump", "get", "list", "load", "set")
