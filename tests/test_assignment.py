@@ -74,11 +74,11 @@ def test_defaults_are_filled_in(tmp_path: Path) -> None:
 
 def test_a_misspelt_key_is_reported_once_with_its_line_and_a_suggestion(tmp_path: Path) -> None:
     output = refused(tmp_path, changed("period:", "perid:"))
-    assert output == "assignment.yaml:11: unknown key 'perid' (did you mean 'period'?)"
+    assert output == "assignment.yaml:11:3: unknown key 'perid' (did you mean 'period'?)"
     output = refused(tmp_path, changed("package: my", "pakcage: my"))
-    assert output == "assignment.yaml:4: unknown key 'pakcage' (did you mean 'package'?)"
+    assert output == "assignment.yaml:4:1: unknown key 'pakcage' (did you mean 'package'?)"
     output = refused(tmp_path, changed("found, points", "found, point"))
-    assert output == "assignment.yaml:15: unknown key 'point' (did you mean 'points'?)"
+    assert output == "assignment.yaml:15:25: unknown key 'point' (did you mean 'points'?)"
 
 
 def test_all_errors_are_reported_at_once_in_line_order(tmp_path: Path) -> None:
@@ -137,14 +137,14 @@ def test_a_wrong_value_is_reported_with_its_line(
 ) -> None:
     output = refused(tmp_path, changed(old, new))
     assert any(
-        row.startswith(f"assignment.yaml:{line}: ") and words in row for row in output.splitlines()
+        row.startswith(f"assignment.yaml:{line}:") and words in row for row in output.splitlines()
     ), output
 
 
 def test_a_missing_key_is_reported_at_its_parent(tmp_path: Path) -> None:
-    assert refused(tmp_path, changed("title: ", "# ")) == "assignment.yaml:1: missing key 'title'"
+    assert refused(tmp_path, changed("title: ", "# ")) == "assignment.yaml:1:1: missing key 'title'"
     output = refused(tmp_path, changed("{id: run.output, points: 10}", "{id: run.output}"))
-    assert output == "assignment.yaml:16: missing key 'points'"
+    assert output == "assignment.yaml:16:5: missing key 'points'"
 
 
 def test_checks_must_be_a_non_empty_list(tmp_path: Path) -> None:
@@ -161,11 +161,11 @@ def test_checks_must_be_a_non_empty_list(tmp_path: Path) -> None:
         (b"# nothing\n", ":1: the file is empty"),
         (b"just text\n", ":1: the file must be a block"),
         (b"- a\n", ":1: the file must be a block"),
-        (b"a: 1\nb: \xff\n", ":2: not UTF-8"),
-        (b"a: 1\n\nb: \x00\n", ":3: a character that YAML forbids: U+0000"),
+        (b"a: 1\nb: \xff\n", ":2:4: not UTF-8"),
+        (b"a: 1\n\nb: \x00\n", ":3:4: a character that YAML forbids: U+0000"),
         (b"a: [" * 30_000, "1: "),
-        (b"a: " + b"[" * 80 + b"]" * 80, ":1: more than 50 levels"),
-        (b"a:\n\t- b\n", ":2: not YAML"),
+        (b"a: " + b"[" * 80 + b"]" * 80, ":1:54: more than 50 levels"),
+        (b"a:\n\t- b\n", ":2:1: not YAML"),
         (b"#" * 1_000_001, ":1: larger than 1000 kB"),
     ],
 )
@@ -211,16 +211,16 @@ def test_hidden_checks_are_merged_and_marked_hidden(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("hidden", "output"),
     [
-        ("checks: []\n", "assignment.yaml:17: hidden_checks is 1, but hidden.yaml has 0"),
+        ("checks: []\n", "assignment.yaml:17:1: hidden_checks is 1, but hidden.yaml has 0"),
         (
             "checks:\n- {id: run.output, points: 1}\n",
-            "hidden.yaml:2: the check 'run.output' is listed twice",
+            "hidden.yaml:2:4: the check 'run.output' is listed twice",
         ),
         (
             "checks:\n- {id: run.perod, points: 1}\n",
-            "hidden.yaml:2: unknown check 'run.perod' (did you mean 'run.period'?)",
+            "hidden.yaml:2:4: unknown check 'run.perod' (did you mean 'run.period'?)",
         ),
-        ("check: []\n", "hidden.yaml:1: unknown key 'check' (did you mean 'checks'?)"),
+        ("check: []\n", "hidden.yaml:1:1: unknown key 'check' (did you mean 'checks'?)"),
     ],
 )
 def test_wrong_hidden_checks_are_reported_with_their_file(

@@ -1,4 +1,4 @@
-"""Checks a YAML document with a pydantic model: errors in our words, with file and line."""
+"""Checks a YAML document with a pydantic model: errors in our words, with file, line and column."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from grader.base.errors import AssignmentError
 from grader.base.nearest import meant_or_known, nearest
-from grader.base.positioned_yaml import Document, Loc
+from grader.base.positioned_yaml import Document, Loc, located
 
 Fault = tuple[Loc, str]
 """The place in the document, and the message."""
@@ -42,10 +42,8 @@ def validated(document: Document, model: type[M], keys: Keys) -> M:
 
 def error_of(document: Document, faults: Iterable[Fault]) -> AssignmentError:
     """Return one error of all faults, a line for each."""
-    rows = {(document.line(loc), text) for loc, text in faults}
-    return AssignmentError(
-        "\n".join(f"{document.path}:{line}: {text}" for line, text in sorted(rows))
-    )
+    rows = sorted({(document.spot(loc), text) for loc, text in faults})
+    return AssignmentError("\n".join(located(document.path, *row) for row in rows))
 
 
 def broken(text: str) -> PydanticCustomError:

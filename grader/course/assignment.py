@@ -10,9 +10,12 @@ from pydantic import ConfigDict, Field
 from grader.base.part import Part
 from grader.course.policy import Policy
 from grader.course.scenario import Node, RunPlan
+from grader.report.detail import FeedbackRules
 from grader.report.model import Visibility
 from grader.ros.distro import Distro
 
+OWN = "own."
+"""The ids of an instructor's own kinds of checks begin with it."""
 TURTLESIM = ("turtlesim", "turtlesim_msgs")
 """The package of turtlesim's interfaces: `turtlesim` up to jazzy, `turtlesim_msgs` later."""
 
@@ -80,6 +83,7 @@ class Lesson(Part):
     limits: dict[str, float] = Field(default_factory=dict)
     checks: tuple[CheckUse, ...]
     policy: Policy = Field(default_factory=Policy)
+    feedback: FeedbackRules = Field(default_factory=FeedbackRules)
 
     def assignment(self) -> Assignment:
         """Return the assignment; its main node is the first that the first run starts."""
@@ -100,6 +104,7 @@ class Lesson(Part):
             limits=self.limits,
             checks=self.checks,
             policy=self.policy,
+            feedback=self.feedback,
             nodes=self.nodes,
             runs=self.runs,
             interface_packages=self.interface_packages,
@@ -129,10 +134,14 @@ class Assignment(Part):
     limits: dict[str, float] = Field(default_factory=dict)
     checks: tuple[CheckUse, ...]
     policy: Policy = Field(default_factory=Policy)
+    feedback: FeedbackRules = Field(default_factory=FeedbackRules)
     sha256: str = ""
     nodes: dict[str, Node] = Field(default_factory=dict)
     runs: tuple[RunPlan, ...] = ()
     interface_packages: tuple[str, ...] = ()
+    own_checks: str = Field(
+        default="", exclude=True, description="the text of checks.py; it is code: never in a file"
+    )
 
     @property
     def function(self) -> str:
@@ -143,6 +152,13 @@ class Assignment(Part):
     def folder(self) -> str:
         """The inner folder: the Python package that the target names."""
         return self.target.partition(":")[0].partition(".")[0]
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """The packages that are handed in beside the main one: of interfaces, and of other nodes."""
+        of_nodes = (node.package for node in self.nodes.values())
+        names = dict.fromkeys((*self.interface_packages, *of_nodes))
+        return tuple(name for name in names if name not in ("", self.package))
 
     def plan(self, name: str) -> RunPlan:
         """Return a run's plan; the first one if the name is ""."""
@@ -175,7 +191,7 @@ class Assignment(Part):
         """Yield the types of its runs and checks."""
         for plan in self.runs:
             yield from plan.topics.values()
-            yield from (one.type for one in plan.do if one.type)
+            yield from (what.type for one in plan.do for what in one.typed.values())
         yield from (str(use.with_["type"]) for use in self.checks if "type" in use.with_)
 
     @property

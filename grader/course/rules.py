@@ -15,6 +15,7 @@ from grader.base.part import Part
 from grader.base.positioned_yaml import Document, Loc
 from grader.base.yaml_model import Fault, error_of, model_faults, validated
 from grader.course.assignment import Assignment, CheckUse, Lesson, Output
+from grader.course.interface_rules import interface_faults
 from grader.course.policy import Late, Policy, policy_faults
 from grader.course.scenario import (
     Call,
@@ -27,6 +28,7 @@ from grader.course.scenario import (
     Start,
     Stimulus,
 )
+from grader.report.detail import FeedbackRules
 
 # REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
 NAMES = {  # key: its pattern, and the pattern in words
@@ -50,7 +52,6 @@ NAMES = {  # key: its pattern, and the pattern in words
 
 SCHEMA_2 = ("nodes", "runs", "interface_packages")  # keys of Assignment that schema 1 does not have
 ONLY_GRAPH = ("topic.subscribes", "topic.qos")  # kinds that judge no messages
-TYPE = r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*"
 
 
 class KnownCheck(Protocol):
@@ -126,28 +127,29 @@ def _lesson(
     return _with_topics(assignment, document)
 
 
-def _with_topics(assignment: Assignment, document: Document) -> Assignment:
+def _with_topics(assignment: Assignment, document: Document, *, first: int = 0) -> Assignment:
     """Return the assignment with the topics of its checks among those that its runs record.
 
-    Raises AssignmentError for a topic without a type, or with two.
+    Raises AssignmentError for a topic without a type, or with two, and for types and fields that
+    do not exist. `first` is the check with which the document begins.
     """
     topics = {plan.name: dict(plan.topics) for plan in assignment.runs}
     places = [
-        (i, use, topics[assignment.plan(use.run).name]) for i, use in enumerate(assignment.checks)
+        (i, use, topics[assignment.plan(use.run).name])
+        for i, use in enumerate(assignment.checks)
+        if use.kind not in ONLY_GRAPH
     ]
     found: list[Fault] = []
     for i, use, known in places:
         topic, kind = use.with_.get("topic"), use.with_.get("type")
-        if use.kind in ONLY_GRAPH:
-            continue
         if topic and kind and known.setdefault(topic, kind) != kind:
             text = f"{topic} has the type {known[topic]} elsewhere in this run, not {kind}"
-            found.append((("checks", i, "with", "type"), text))
+            found.append((("checks", i - first, "with", "type"), text))
     for i, use, known in places:
         topic = use.with_.get("topic")
-        if topic and topic not in known and use.kind not in ONLY_GRAPH:
+        if topic and topic not in known:
             text = f"the type of {topic} is not known: add `topics: {{{topic}: …}}` to the run"
-            found.append((("checks", i, "with", "topic"), text))
+            found.append((("checks", i - first, "with", "topic"), text))
     if found:
         raise error_of(document, found)
     periods: dict[str, dict[str, float]] = {plan.name: {} for plan in assignment.runs}
@@ -159,7 +161,11 @@ def _with_topics(assignment: Assignment, document: Document) -> Assignment:
         plan.model_copy(update={"topics": topics[plan.name], "periods": periods[plan.name]})
         for plan in assignment.runs
     )
-    return assignment.model_copy(update={"runs": runs})
+    made = assignment.model_copy(update={"runs": runs})
+    found = list(interface_faults(made, first=first))
+    if found:
+        raise error_of(document, found)
+    return made
 
 
 def _lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
@@ -167,6 +173,7 @@ def _lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
     keys = _keys(Lesson)
     keys["policy",] = tuple(Policy.model_fields)
     keys["policy", "late"] = tuple(Late.model_fields)
+    keys["feedback",] = tuple(FeedbackRules.model_fields)
     nodes = content.get("nodes")
     for name in nodes if isinstance(nodes, Mapping) else ():
         keys["nodes", str(name)] = tuple(Node.model_fields)
@@ -189,6 +196,7 @@ def _runs(lesson: Lesson) -> Iterator[Fault]:
         if not re.fullmatch(pattern, name, re.ASCII) or name == lesson.package:
             text = f"the name of another package must be {words}, not '{name}'"
             yield ("interface_packages", i), text
+    yield from _packages_of_nodes(lesson)
     names = [plan.name for plan in lesson.runs]
     if not names:
         yield ("runs",), "runs is empty: an assignment of schema 2 needs at least one run"
@@ -203,6 +211,24 @@ def _runs(lesson: Lesson) -> Iterator[Fault]:
                 hint = meant_or_known(begin.node, tuple(lesson.nodes))
                 yield (*place, "start", j, "node"), f"unknown node '{begin.node}'{hint}"
         yield from _stimuli(plan, lesson, place)
+
+
+def _packages_of_nodes(lesson: Lesson) -> Iterator[Fault]:
+    pattern, words = NAMES["package"]
+    for name, node in lesson.nodes.items():
+        place: Loc = ("nodes", name, "package")
+        if node.package and not re.fullmatch(pattern, node.package, re.ASCII):
+            yield place, f"package must be {words}, not '{node.package}'"
+        elif node.package in lesson.interface_packages:
+            yield place, f"'{node.package}' is a package of interfaces: it has no nodes"
+    main = lesson.nodes.get(lesson.runs[0].start[0].node) if _starts(lesson) else None
+    if main is not None and main.package not in ("", lesson.package):
+        text = f"the first node of the first run must be in the package '{lesson.package}'"
+        yield ("runs", 0, "start", 0, "node"), text
+
+
+def _starts(lesson: Lesson) -> bool:
+    return bool(lesson.runs and lesson.runs[0].start)
 
 
 def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
@@ -227,11 +253,6 @@ def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
             yield (*here, "cancel"), f"unknown goal '{one.cancel}'{hint}"
         if (one.spawn or one.move) and not plan.world:
             yield (*here, "name"), f"'{one.name}' needs a world, the run '{plan.name}' has none"
-        deeds = (("publish", one.publish), ("call", one.call), ("goal", one.goal))
-        for key, what in deeds:
-            if what is not None and not re.fullmatch(TYPE, what.type):
-                text = f"type must be such as std_msgs/msg/String, not '{what.type}'"
-                yield (*here, key, "type"), text
 
 
 def _uses_of_runs(lesson: Lesson) -> Iterator[Fault]:
@@ -280,7 +301,8 @@ def merge_hidden(
         use if "visibility" in use.model_fields_set else _as_hidden(use) for use in extra
     )
     merged = assignment.model_copy(update={"checks": assignment.checks + marked})
-    return _with_topics(merged, hidden) if merged.runs else merged
+    first = len(assignment.checks)
+    return _with_topics(merged, hidden, first=first) if merged.runs else merged
 
 
 def _as_hidden(use: CheckUse) -> CheckUse:
@@ -297,6 +319,7 @@ def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:
         keys["output",] = tuple(Output.model_fields)
         keys["policy",] = tuple(Policy.model_fields)
         keys["policy", "late"] = tuple(Late.model_fields)
+        keys["feedback",] = tuple(FeedbackRules.model_fields)
     return keys
 
 

@@ -30,8 +30,12 @@ class _Part(Part):
 
 
 class Node(_Part):
-    """A node that the student writes: how it is run, its file in the inner folder, its name."""
+    """A node that the student writes: how it is run, its file in the inner folder, its name.
 
+    `package` is its package if that is not the assignment's own.
+    """
+
+    package: str = Field(default="", exclude_if=lambda name: not name)
     executable: str
     target: str
     file: str
@@ -120,21 +124,16 @@ class Stimulus(_Part):
     move: Place | None = None
 
     @property
-    def type(self) -> str:
-        """The type of the message or the service, "" if there is none."""
-        what = self.publish or self.call or self.goal
-        return what.type if what is not None else ""
+    def typed(self) -> dict[str, Publish | Call | SendGoal]:
+        """What has a type: the message, the call or the goal, by its key."""
+        parts = {"publish": self.publish, "call": self.call, "goal": self.goal}
+        return {key: what for key, what in parts.items() if what is not None}
 
     def with_types(self, named: Callable[[str], str]) -> Stimulus:
         """Return the same with other names of types."""
         update = {
             key: what.model_copy(update={"type": named(what.type)})
-            for key, what in (
-                ("publish", self.publish),
-                ("call", self.call),
-                ("goal", self.goal),
-            )
-            if what is not None
+            for key, what in self.typed.items()
         }
         return self.model_copy(update=update)
 

@@ -111,6 +111,15 @@ def value_at(values: Any, path: str) -> Any:
         return None
 
 
+def first_misfit(values: Any, each: Mapping[str, Form]) -> tuple[str, Form, Any] | None:
+    """Return the first field that does not have its form: its path, the form and the value."""
+    for path, form in each.items():
+        value = value_at(values, path)
+        if not form.fits(value):
+            return path, form, value
+    return None
+
+
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
