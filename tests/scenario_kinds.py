@@ -488,6 +488,13 @@ def write_package(form: Form, folder: Path) -> Path:
     for old, new in form.edits:
         assert node.count(old) == 1, (form.name, old)
         node = node.replace(old, new)
+    write_files(root, node)
+    (root / form.readme[0]).write_text(form.readme[1], encoding="utf-8")
+    return root
+
+
+def write_files(root: Path, node: str) -> None:
+    """Write the package `doubling` with the text of its node."""
     texts = {
         "package.xml": MANIFEST,
         "setup.py": SETUP,
@@ -495,11 +502,9 @@ def write_package(form: Form, folder: Path) -> Path:
         "[install]\ninstall_scripts=$base/lib/doubling\n",
         "resource/doubling": "",
         "doubling/__init__.py": "",
-        form.readme[0]: form.readme[1],
         "doubling/doubler.py": node,
     }
     for path, text in texts.items():
         (root / path).parent.mkdir(parents=True, exist_ok=True)
         (root / path).write_text(text, encoding="utf-8")
     (root / "doubling/doubler.py").chmod(0o755)
-    return root

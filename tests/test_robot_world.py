@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from grader.run.in_probe.robot import BEAMS, BOX, DT, RADIUS, SIZE, STEP, Drive, distance, is_free
-from tests.scenario_kinds import MANIFEST, SETUP
+from tests.scenario_kinds import write_files
 from tests.test_scenarios import marked
 
 ASSIGNMENT = """\
@@ -135,19 +135,9 @@ def test_a_package_is_judged_in_it(
 ) -> None:
     file = tmp_path / "halt" / "assignment.yaml"
     root = tmp_path / "ana" / "doubling"
-    texts = {
-        file: ASSIGNMENT,
-        root / "package.xml": MANIFEST,
-        root / "setup.py": SETUP,
-        root / "setup.cfg": "[develop]\nscript_dir=$base/lib/doubling\n"
-        "[install]\ninstall_scripts=$base/lib/doubling\n",
-        root / "resource" / "doubling": "",
-        root / "doubling" / "__init__.py": "",
-        root / "doubling" / "doubler.py": NODE.replace(old, new) if old else NODE,
-    }
-    for path, text in texts.items():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+    file.parent.mkdir()
+    file.write_text(ASSIGNMENT, encoding="utf-8")
+    write_files(root, NODE.replace(old, new) if old else NODE)
     report = marked(root, file, [])
     failed = {c.id: c.mistakes[0].id for c in report.checks if c.status == "failed"}
     assert failed == fails

@@ -69,7 +69,8 @@ def test_every_kind_with_parameters_is_tried_here() -> None:
     kinds = {kind for kind, check in CHECKS.items() if check.parameters is not None}
     lessons = ("draw_circle", "stay_inside", "start_stop", "own_message")
     used = {use.kind for name in lessons for use in load_visible(name).checks}
-    text = (ROOT / "tests" / "scenario_kinds.py").read_text(encoding="utf-8")
+    files = ("scenario_kinds.py", "test_two_packages.py")
+    text = "".join((ROOT / "tests" / name).read_text(encoding="utf-8") for name in files)
     assert {kind for kind in kinds if f"check: {kind}," not in text} - used == set()
 
 

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 
 from grader.base.errors import GraderError
 from grader.base.project import PACKAGE
-from grader.base.unheard import unheard
-from grader.batch.sandbox_proof import try_out
+from grader.batch.sandbox_proof import tried_out
 from grader.batch.verdict_key import NOT_MARKING, source_digest, surroundings_key
 from grader.batch.work import Job, Task, mark_task
-from grader.ros.distro import find_distro
-from grader.sandbox.choose import open_sandbox
 
 
 @dataclass(frozen=True)
@@ -35,18 +32,7 @@ def check_here(job: str) -> str:
     wanted = Job.from_text(job)
     own = source_digest(PACKAGE, NOT_MARKING)
     try:
-        distro = find_distro(wanted.distro)
-        sandbox = open_sandbox(
-            wanted.sandbox,
-            distro,
-            wanted.limits,
-            interfaces=wanted.assignment.needs_interfaces,
-            notify=unheard,
-        )
-        try:
-            try_out(sandbox)
-        finally:
-            sandbox.close()
+        sandbox = tried_out(wanted)
     except GraderError as error:
         return Checked(grader=own, problem=str(error)).to_text()
     key = surroundings_key(wanted.assignment, sandbox.ros, wanted.limits, lang=wanted.lang)

@@ -12,7 +12,8 @@ from grader.batch.model import HandedIn
 from grader.batch.verdict_key import verdict_key
 from grader.batch.work import Task
 from grader.course.assignment import Assignment
-from grader.package.submission import Submission, take_in
+from grader.package.submission import Submission
+from grader.verdict.take_in import take_in_for
 
 
 @dataclass(frozen=True)
@@ -81,11 +82,9 @@ def tasks(items: Iterable[IntakeItem], assignment: Assignment, surroundings: str
 
 
 def _take_in(attempt: HandedIn, assignment: Assignment) -> Submission:
-    return take_in(
+    return take_in_for(
+        assignment,
         attempt.path,
-        package=assignment.package,
-        node_file=assignment.node_file,
-        others=assignment.interface_packages,
         name=attempt.student.name or attempt.student.key,
         modes_kept=attempt.modes_kept,
     )

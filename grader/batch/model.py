@@ -8,11 +8,13 @@ of the folder or archive.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, overload
 
+from grader.report.detail import Detail
+from grader.report.feedback import with_feedback
 from grader.report.model import Report
 
 if TYPE_CHECKING:
@@ -158,6 +160,18 @@ class GradebookEntry:
     lang: str = "en"
     """The language of the student's texts: the report's, if there is one."""
 
+    def for_student(self, detail: Detail, *, show_hidden: bool = False) -> GradebookEntry:
+        """Return the entry with a report that a student may read (see `with_feedback`)."""
+        held = vars(self)["_report"]
+        if held is None:
+            return self
+
+        def seen() -> Report:
+            report: Report = held() if callable(held) else held
+            return with_feedback(report, detail, show_hidden=show_hidden)
+
+        return replace(self, report=seen)
+
 
 @dataclass(frozen=True)
 class ClassResult:
@@ -174,6 +188,8 @@ class ClassResult:
     notes: tuple[str, ...] = ()
     identical: tuple[tuple[str, ...], ...] = field(default=())
     """Groups of keys whose submissions are the same apart from white space and comments."""
+    detail: Detail = Detail.LINE
+    """What students get to know of a failed check."""
 
     def entry(self, key: str) -> GradebookEntry:
         """Return one student's entry; KeyError if there is no such student."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import datetime, timezone
 from functools import partial
 
 from grader.base.shown import utf8_name
@@ -96,7 +96,12 @@ def class_result(
         seconds=seconds,
         notes=folder.notes,
         identical=identical,
+        detail=assignment.feedback.handed_back(assignment.policy.deadline, started or _now()),
     )
+
+
+def _now() -> datetime:
+    return datetime.now(timezone.utc)
 
 
 def _entry(

@@ -16,6 +16,11 @@ from grader.sandbox.choose import open_sandbox
 
 def prove(job: Job) -> None:
     """Open the job's sandbox and try it; raise SurroundingsError for what does not work."""
+    tried_out(job)
+
+
+def tried_out(job: Job) -> Sandbox:
+    """Open the job's sandbox, try it and close it; return it. Raises as `prove`."""
     sandbox = open_sandbox(
         job.sandbox,
         find_distro(job.distro),
@@ -27,6 +32,7 @@ def prove(job: Job) -> None:
         try_out(sandbox)
     finally:
         sandbox.close()
+    return sandbox
 
 
 def try_out(sandbox: Sandbox) -> None:

@@ -11,8 +11,8 @@ from grader.base.errors import GraderError
 from grader.base.signing import PublicKey
 from grader.batch.find_evidence import FoundEvidence
 from grader.batch.ledger import Ledger
-from grader.package.submission import take_in
 from grader.verdict.evidence_file import EvidenceFile, changed_files, differences
+from grader.verdict.take_in import take_in_for
 
 
 @dataclass
@@ -55,13 +55,7 @@ def verify_report(found: FoundEvidence, key: PublicKey | None, submission: Path 
     if submission is None:
         findings.say("submission", "not compared (--submission PATH compares it)")
         return findings
-    given = take_in(
-        submission,
-        package=evidence.assignment.package,
-        node_file=evidence.assignment.node_file,
-        others=evidence.assignment.interface_packages,
-        modes_kept=marked.modes == "recorded",
-    )
+    given = take_in_for(evidence.assignment, submission, modes_kept=marked.modes == "recorded")
     if given.sha256 == marked.sha256:
         findings.say("submission", "the one that was marked")
     else:

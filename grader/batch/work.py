@@ -53,13 +53,15 @@ class Job:
         """Return it as JSON on one line."""
         assignment = self.assignment.model_dump(mode="json", by_alias=True)
         rest = {"distro": self.distro, "sandbox": self.sandbox, "limits": asdict(self.limits)}
-        return json.dumps({"assignment": assignment, **rest, "lang": self.lang})
+        own = self.assignment.own_checks
+        return json.dumps({"assignment": assignment, "own": own, **rest, "lang": self.lang})
 
     @classmethod
     def from_text(cls, text: str) -> Job:
         """Return what `to_text` wrote."""
         found = json.loads(text)
         assignment = Assignment.model_validate(found["assignment"])
+        assignment = assignment.model_copy(update={"own_checks": found["own"]})
         limits = Limits(**found["limits"])
         return cls(assignment, found["distro"], found["sandbox"], limits, found["lang"])
 

@@ -17,19 +17,29 @@ if TYPE_CHECKING:
     from grader.report.model import Report
 
 OF_SYSTEMS = report_forms()
-FORMS = [*OF_SYSTEMS, "junit", "md"]
+FORMS = [*OF_SYSTEMS, "json", "junit", "md"]
+FEEDBACK = ("policy", "full", "hints", "where", "score")
 
 
 @click.command("convert")
 @click.argument("form", type=click.Choice(FORMS))
 @click.argument("report", type=click.Path(path_type=Path))
 @click.option("--show-hidden", is_flag=True, help="Name the hidden checks.")
-def convert(form: str, report: Path, show_hidden: bool) -> int:
+@click.option(
+    "--feedback",
+    type=click.Choice(FEEDBACK),
+    default="policy",
+    show_default=True,
+    help="How much it says about failed checks (default: as the assignment's feedback: says).",
+)
+def convert(form: str, report: Path, show_hidden: bool, feedback: str) -> int:
     """Print a report.json in the format of another system (FORM), in the report's language.
+
+    `json` is report.json as a student may read it.
 
     `github` prints the line for $GITHUB_OUTPUT: grader convert github REPORT >> "$GITHUB_OUTPUT".
     """
-    made = _forms(show_hidden=show_hidden)[form](_read(report))
+    made = _forms(show_hidden=show_hidden)[form](_read(report, feedback))
     content = made.encode() if isinstance(made, str) else made
     if sys.stdout.isatty():
         click.echo(content.decode(), nl=False)
@@ -42,11 +52,20 @@ def _forms(*, show_hidden: bool) -> dict[str, Callable[[Report], str | bytes]]:
     from grader.batch.points import single  # noqa: PLC0415 - keeps --help fast
     from grader.publish import junit  # noqa: PLC0415
     from grader.publish.markdown import markdown  # noqa: PLC0415
+    from grader.report.feedback import handed_back, without_hidden  # noqa: PLC0415
+    from grader.report.files import report_json  # noqa: PLC0415
+
+    def seen(report: Report) -> Report:
+        return handed_back(report, show_hidden=show_hidden)
+
+    def named(report: Report) -> Report:
+        return seen(report) if show_hidden else without_hidden(seen(report))
 
     return {
         **{name: partial(_as_in, form, show_hidden) for name, form in OF_SYSTEMS.items()},
-        "junit": junit.report_xml,
-        "md": lambda r: markdown(single(r), r.assignment.title, show_hidden=show_hidden),
+        "json": lambda r: report_json(named(r)),
+        "junit": lambda r: junit.report_xml(named(r)),
+        "md": lambda r: markdown(single(seen(r)), r.assignment.title, show_hidden=show_hidden),
     }
 
 
@@ -54,7 +73,13 @@ def _as_in(form: Callable[[Report, bool], str], show_hidden: bool, report: Repor
     return form(report, show_hidden)
 
 
-def _read(path: Path) -> Report:
-    from grader.report.files import read_report  # noqa: PLC0415 - keeps --help fast
+def _read(path: Path, feedback: str) -> Report:
+    from grader.report.detail import FeedbackRules  # noqa: PLC0415 - keeps --help fast
+    from grader.report.files import read_report  # noqa: PLC0415
 
-    return read_report(path)
+    report = read_report(path)
+    if feedback == "policy":
+        return report
+    rules = FeedbackRules.model_validate(feedback)
+    info = report.assignment.model_copy(update={"feedback": rules})
+    return report.model_copy(update={"assignment": info})

@@ -62,5 +62,10 @@ def fix(
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if len(orders) > 1:
             raise UsageError(say("fix runs the node on one distro: name one"))
+        if orders[0].assignment.feedback.lab in ("where", "score"):
+            raise UsageError(
+                say("there are no fixes for {assignment}", assignment=orders[0].assignment.id),
+                remedy=say("Your instructor has chosen that. Ask for help in class."),
+            )
         request = FixRequest(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
         return fix_package(request, notify=lambda text: click.echo(text, err=True))

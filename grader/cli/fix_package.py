@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -25,14 +24,15 @@ from grader.package.edit.disk import apply
 from grader.package.edit.files import Files
 from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.given import package_above
-from grader.package.submission import Submission, take_in
+from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.report.shown_patch import shown_patch
 from grader.verdict.checks.all import STATIC
 from grader.verdict.fix import FixPlan, fix_all, fix_files
-from grader.verdict.mark import grade
+from grader.verdict.mark import mark
 from grader.verdict.order import Order
 from grader.verdict.static import static_results
+from grader.verdict.take_in import take_in_for
 
 Notify = Callable[[str], None]
 STYLES = {"+": "green", "-": "red", "@": "cyan", "d": "bold"}
@@ -113,8 +113,7 @@ def _own_copy(order: Order) -> Submission:
     path, where = order.path, shown(str(order.path))
     if path.is_file():
         raise _only_a_file(path)
-    assignment = order.assignment
-    found = take_in(path, package=assignment.package, node_file=assignment.node_file)
+    found = take_in_for(order.assignment, path)
     if found.root is not None and found.origin in ("zip", "tar"):
         raise UsageError(
             say("the package is in an archive in {path}, and archives are not changed", path=where),
@@ -151,7 +150,7 @@ def make_plan(request: FixRequest, submission: Submission, notify: Notify) -> Fi
         return plan
     if not request.runs or request.only in STATIC:
         return plan
-    judge = _RunJudge(request, notify)
+    judge = _RunJudge(request, submission, notify)
     ran = fix_all(plan.new, assignment, judge)
     return FixPlan(old, ran.new, (*plan.fixed, *ran.fixed), ran.left)
 
@@ -172,16 +171,14 @@ class _RunJudge:
     """Finds mistakes by building and running the package, as `grader check` does."""
 
     request: FixRequest
+    submission: Submission
     notify: Notify
 
     def __call__(self, files: Files) -> list[Finding]:
         """Return the findings of a build and a run."""
         order = self.request.order
         self.notify(say("running the node …"))
-        with tempfile.TemporaryDirectory(prefix="grader-fix-") as folder:
-            path = Path(folder) / order.assignment.package
-            _write_tree(files, path)
-            report = grade(replace(order, path=path), unheard)
+        report = mark(files.put_into(self.submission), order, unheard)
         if report.environment.sandbox == "none":
             self.notify(
                 say("No sandbox was used: the package ran as your user, with access to your files.")
@@ -199,21 +196,6 @@ class _RunJudge:
         if found is None and unknown:
             found = Finding(result.id, "", actual=result.actual)
         return [found] if found is not None else []
-
-
-def _write_tree(files: Files, root: Path) -> None:
-    """Write all files of a package to a new folder, to run them there."""
-    root.mkdir(parents=True)
-    for path, file in sorted(files.by_path.items()):
-        place = root / path
-        place.parent.mkdir(parents=True, exist_ok=True)
-        if file.kind == "folder":
-            place.mkdir(exist_ok=True)
-        elif file.kind == "link":
-            place.symlink_to(file.target)
-        elif not file.unreadable:
-            place.write_bytes(file.data)
-            place.chmod(file.mode & 0o777 | 0o600)
 
 
 def _finish(request: FixRequest, submission: Submission, plan: FixPlan, notify: Notify) -> None:

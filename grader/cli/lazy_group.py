@@ -13,10 +13,14 @@ from grader.cli.localized import translated_texts, untranslated
 
 
 class LazyCommand(NamedTuple):
-    """Where a command is (`module:attribute`), and the first line of its help."""
+    """Where a command is (`module:attribute`), and the first line of its help.
+
+    A `hidden` command is for other programs: no help lists it.
+    """
 
     target: str
     help: str
+    hidden: bool = False
 
     def load(self) -> click.Command:
         """Import the command."""
@@ -37,7 +41,7 @@ class LazyGroup(click.Group):
         super().__init__(*args, **kwargs)
         self.lazy = lazy
         for name, entry in lazy.items():
-            self.add_command(click.Command(name, help=entry.help))
+            self.add_command(click.Command(name, help=entry.help, hidden=entry.hidden))
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

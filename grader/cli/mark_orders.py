@@ -5,15 +5,20 @@ from __future__ import annotations
 import importlib
 import sys
 import threading
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from grader.base.errors import UsageError
 from grader.base.i18n.message import say, say_plural
 from grader.base.i18n.translator import Translator
 from grader.base.signing import own_key
+from grader.course.assignment import Assignment
 from grader.report import events
+from grader.report.detail import HINTS
 from grader.report.live import LiveProgress
 from grader.report.model import Report
 from grader.verdict.checks.all import QUOTES
@@ -25,6 +30,7 @@ if TYPE_CHECKING:
 
 # needed after the build only, which leaves the time to import them
 NEEDED_LATER = (
+    "grader.report.feedback",
     "grader.report.files",
     "grader.report.report_page",
     "grader.report.terminal",
@@ -32,11 +38,64 @@ NEEDED_LATER = (
 )
 
 
-def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hidden: bool) -> int:
+@dataclass(frozen=True)
+class Asked:
+    """What a student asks to know: hints about the first failure, or everything (`explain`).
+
+    `command` is what shows the next hint; `{n}` in it is the number of hints to ask for.
+    """
+
+    hints: int
+    explain: bool
+    command: str
+
+    def check(self, assignment: Assignment) -> None:
+        """Raise UsageError if it asks for what the assignment does not give."""
+        given = assignment.feedback.lab
+        if (self.hints or self.explain) and given in ("where", "score"):
+            raise UsageError(
+                say("there are no hints for {assignment}", assignment=assignment.id),
+                remedy=say("Your instructor has chosen that. Ask for help in class."),
+            )
+
+    def seen(self, report: Report) -> Report:
+        """Return the report with what the student asks to know."""
+        from grader.report.feedback import for_lab  # noqa: PLC0415 - see NEEDED_LATER
+
+        rules = report.assignment.feedback
+        return for_lab(report, rules, hints=self.hints, explain=self.explain)
+
+    def more(self, report: Report) -> str:
+        """Return how to get the next hint, "" if there is none."""
+        from grader.report.feedback import first_failure  # noqa: PLC0415 - see NEEDED_LATER
+
+        all_seen = self.explain or self.hints >= HINTS
+        if report.assignment.feedback.lab != "hints" or all_seen:
+            return ""
+        if first_failure(report.checks) is None:
+            return ""
+        return say(
+            "{command}: more about this. check --explain: everything at once.",
+            command=self.command.replace("{n}", str(self.hints + 1)),
+        )
+
+
+def mark_orders(
+    orders: list[Order],
+    out: Path | None,
+    *,
+    verbose: bool,
+    show_hidden: bool,
+    asked: Asked | None = None,
+    heard: Callable[[Report], None] | None = None,
+) -> int:
     """Mark each order, print the report (of several distros a matrix), return the exit status.
 
-    The reports and their evidence are written to `out` unless it is None.
+    The reports and their evidence are written to `out` unless it is None. `asked` is what a
+    student asks to know; None is for instructors, who see everything. `heard` gets each report.
     """
+    if asked is not None:
+        asked.check(orders[0].assignment)
     if out is not None:
         own_key()  # a key that cannot be used is said before anything is marked
     translate = Translator(orders[0].lang)
@@ -45,8 +104,11 @@ def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hi
         kept: list[Judged] = []
         with LiveProgress(sys.stderr, lang=order.lang) as progress:
             report = grade(order, _Listener(progress), keep=kept.append)
-        reports.append(report)
+        if heard is not None:
+            heard(report)
         written = None if out is None else _write(report, kept[0], order, out)
+        report = report if asked is None else asked.seen(report)
+        reports.append(report)
         if len(orders) == 1:
             from grader.report import terminal  # noqa: PLC0415 - see NEEDED_LATER
 
@@ -58,6 +120,7 @@ def mark_orders(orders: list[Order], out: Path | None, *, verbose: bool, show_hi
                 show_hidden=show_hidden,
                 path=written,
                 own_code=order.own_code,
+                more="" if asked is None else asked.more(report),
             )
         if report.environment.sandbox == "none":
             bare = say(

@@ -33,10 +33,13 @@ def replay(
     from grader.verdict.evidence_file import EvidenceFile, differences  # noqa: PLC0415
     from grader.verdict.mark import replay as judge_again  # noqa: PLC0415
     from grader.verdict.order import load_with_hidden  # noqa: PLC0415
+    from grader.verdict.own_checks import read_own_checks  # noqa: PLC0415
 
     found = find_evidence(path, ledger=ledger)
     evidence = EvidenceFile.from_bytes(found.content)
     wanted = evidence.assignment if assignment is None else load_with_hidden(assignment, keys)
+    if assignment is None and keys is not None:
+        wanted = wanted.model_copy(update={"own_checks": read_own_checks(keys)})
     again = judge_again(
         evidence.recording,
         evidence.taken_in(),

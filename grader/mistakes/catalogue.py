@@ -8,6 +8,7 @@ from types import MappingProxyType
 from grader.mistakes import (
     actions,
     arguments,
+    beside,
     build,
     callback,
     classes,
@@ -57,6 +58,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             entry_points,
             other_language,
             interfaces,
+            beside,
             ends,
             topics,
             actions,

@@ -151,7 +151,7 @@ def _class_published(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     for call in raised.source.calls_of("publish"):
         if call.args and isinstance(call.args[0], ast.Name) and call.args[0].id[:1].isupper():
             return raised.finding("published_class", at=call, name=call.args[0].id)
-    types = _imported(raised)
+    types = raised.interfaces
     for node in raised.source.own_nodes:
         value = node.value if isinstance(node, ast.Assign) else None
         if isinstance(value, ast.Name) and value.id in types:
@@ -229,7 +229,7 @@ def _depth(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 def _type_in_place(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A field is read of a message's type, not of the message that came."""
     del match
-    types = _imported(raised)
+    types = raised.interfaces
     for node in raised.source.own_nodes:
         whole = node.value if isinstance(node, ast.Attribute) else None
         if not isinstance(node, ast.Attribute) or not isinstance(whole, ast.Name):
@@ -237,17 +237,6 @@ def _type_in_place(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
         if whole.id in types and node.attr.islower():
             return raised.finding("field_of_type", at=node, name=f"{whole.id}.{node.attr}")
     return None
-
-
-def _imported(raised: Raised) -> set[str]:
-    """Return the names of the interfaces that the node's file imports."""
-    return {
-        alias.asname or alias.name
-        for node in raised.module.nodes
-        if isinstance(node, ast.ImportFrom)
-        and (node.module or "").endswith((".msg", ".srv", ".action"))
-        for alias in node.names
-    }
 
 
 def _replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -59,6 +59,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "interface.inside": {"package": "my_interfaces"},
     "interface.not_cmake": {"package": "my_interfaces"},
     "interface.missing": {"name": "my_interfaces"},
+    "beside.missing": {"package": "my_listener"},
+    "beside.not_python": {"package": "my_listener"},
     "interface.field_name": {"name": "totalDistance"},
     "interface.field_missing": {"type": "float64", "field": "distance"},
     "interface.field_type": {"type": "float64", "field": "distance"},

@@ -53,6 +53,17 @@ class Raised:
         """The line of the student's file."""
         return self.where.line if self.where else None
 
+    @property
+    def interfaces(self) -> set[str]:
+        """The names of the messages, services and actions that this file imports."""
+        return {
+            alias.asname or alias.name
+            for node in self.module.nodes
+            if isinstance(node, ast.ImportFrom)
+            and (node.module or "").endswith((".msg", ".srv", ".action"))
+            for alias in node.names
+        }
+
     def finding(
         self,
         slug: str,

@@ -48,12 +48,7 @@ def _invalid_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 def _of_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A variable was set to a message's class without parentheses."""
     del match
-    types = {
-        alias.asname or alias.name
-        for node in raised.module.nodes
-        if isinstance(node, ast.ImportFrom) and (node.module or "").endswith((".msg", ".srv"))
-        for alias in node.names
-    }
+    types = raised.interfaces
     for node in raised.module.nodes:
         named = node.value if isinstance(node, ast.Assign) else None
         if isinstance(named, ast.Name) and named.id in types:

@@ -38,8 +38,8 @@ def take_in(
 ) -> Submission:
     """Take in a folder or an archive: the package, a workspace, or a parent of the package.
 
-    `others` are the names of other packages to take in. `modes_kept` is False if the exec bits of a folder's files were lost on the way (e.g. in an
-    upload file by file). Raises UsageError for a path that is neither, does not exist or cannot
+    `others` are the names of other packages to take in. `modes_kept` is False if the exec bits of a
+    folder's files were lost on the way (e.g. in an upload file by file). Raises UsageError for a path that is neither, does not exist or cannot
     be read. Any other problem is the student's and is recorded in the Submission.
     """
     own = resolved(path)

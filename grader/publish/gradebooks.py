@@ -44,7 +44,11 @@ def write_outputs(
     folder cannot be written. The files may reach the disk a while later.
     """
     written = Written()
-    comment = partial(short_html, show_hidden=show_hidden)
+
+    def comment(entry: GradebookEntry) -> str:
+        seen = entry.for_student(result.detail, show_hidden=show_hidden)
+        return short_html(seen, show_hidden=show_hidden)
+
     made: dict[str, Callable[[], Filled]] = {
         GRADEBOOK: lambda: Filled(gradebook_csv(result, bom=True)),
         JUNIT: lambda: Filled(class_xml(result)),
@@ -76,9 +80,10 @@ def _feedback(
     for entry in result.entries:
         if entry.status == "elsewhere" and not entry.overrides:
             continue
+        seen = entry.for_student(result.detail, show_hidden=show_hidden)
         page = pages[entry.student.key]
-        yield page, partial(html_page, entry, title, show_hidden=show_hidden)
-        text = partial(_markdown, entry, title, show_hidden=show_hidden)
+        yield page, partial(html_page, seen, title, show_hidden=show_hidden)
+        text = partial(_markdown, seen, title, show_hidden=show_hidden)
         yield f"{page.removesuffix('.html')}.md", text
 
 

@@ -7,11 +7,13 @@ the clock started at 0, `wall` instants seconds of the epoch.
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Literal
 
 from pydantic import ConfigDict, Field
 
 from grader.base.part import Part
+from grader.report.detail import FeedbackRules
 
 CheckStatus = Literal["passed", "failed", "skipped", "inconclusive", "error"]
 Visibility = Literal["visible", "hidden", "after_due_date"]
@@ -21,6 +23,8 @@ Quote = Literal["build_log", "transcript", "before_ctrl_c"]
 """What of `Evidence` shows why a check failed; `before_ctrl_c` is that part of the transcript."""
 LIMITS_MET = ("build.timeout", "build.resource", "run.resource", "run.too_much_output")
 """The mistakes by which a limit on the submission ended what it did."""
+NEAR = 1e-6  # of a value or an instant: float32 fields, and rounding
+SHORTEST = 1e-3  # extent of a plot's axis
 
 
 class Mistake(Part):
@@ -71,6 +75,10 @@ class AssignmentInfo(Part):
     id: str
     title: str
     sha256: str
+    due: datetime | None = Field(default=None, description="the due date, in UTC")
+    feedback: FeedbackRules = Field(
+        default_factory=FeedbackRules, description="how much students get to know"
+    )
 
 
 class SubmissionInfo(Part):
@@ -151,11 +159,75 @@ class TopicInfo(Part):
     count: int
 
 
+class Band(Part):
+    """The values from `low` to `high` that a check wants from `first` to `last` (s of ROS time).
+
+    `every` is whether it wants them of every message, not of one.
+    """
+
+    check: str
+    first: float
+    last: float
+    low: float
+    high: float
+    every: bool = True
+
+
+class TopicPlot(Part):
+    """The values of a field of a topic's messages over ROS time, for the `checks` that judge it.
+
+    `points` are (s, value); `field` is empty if only the instants count. `due` are the instants
+    at which a message is wanted, `end` is where the run ended, in s.
+    """
+
+    topic: str
+    field: str = ""
+    checks: list[str] = Field(default_factory=list)
+    points: list[tuple[float, float]] = Field(default_factory=list)
+    due: list[float] = Field(default_factory=list)
+    bands: list[Band] = Field(default_factory=list)
+    end: float = 0
+
+    @property
+    def times(self) -> tuple[float, float]:
+        """The first and the last instant that a plot shows; they differ."""
+        ends = [at for at, _ in self.points] + [band.last for band in self.bands]
+        return 0.0, max([self.end, *self.due, *ends, SHORTEST])
+
+    @property
+    def values(self) -> tuple[float, float]:
+        """The lowest and the highest value that a plot shows; they differ."""
+        shown = [value for _, value in self.points]
+        shown += [value for band in self.bands for value in (band.low, band.high)]
+        low, high = min(shown, default=0.0), max(shown, default=0.0)
+        room = (high - low) / 10 or max(abs(high) / 10, SHORTEST)
+        return low - room, high + room
+
+    @property
+    def wrong(self) -> int:
+        """How many messages have a value that is not as wanted."""
+        return sum(not self.is_right(at, value) for at, value in self.points)
+
+    def is_right(self, at: float, value: float) -> bool:
+        """Whether a message's value is in each band of its instant that holds for every message."""
+        return all(
+            band.low - _near(band.low) <= value <= band.high + _near(band.high)
+            for band in self.bands
+            if band.every and band.first - NEAR <= at <= band.last + NEAR
+        )
+
+
+def _near(value: float) -> float:
+    """Return by how much a value that went through a float32 field may differ."""
+    return NEAR * max(1.0, abs(value))
+
+
 class RunInfo(Part):
     """One run of a scenario: what was observed, and where its turtles drove.
 
     `instants` is how many instants of ROS time the clock showed, `period` s apart (`observed`);
     `path` has points in metres by the turtle's name, `wanted` those of the path that was wanted.
+    `plots` are the values that the checks of topics judge.
     """
 
     name: str
@@ -165,6 +237,7 @@ class RunInfo(Part):
     topics: list[TopicInfo] = Field(default_factory=list)
     path: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)
     wanted: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)
+    plots: list[TopicPlot] = Field(default_factory=list)
 
 
 class Evidence(Part):

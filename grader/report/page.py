@@ -60,6 +60,11 @@ class Page:
         )
 
     @property
+    def columns(self) -> int:
+        """The columns that a text beside a label has."""
+        return self._width - (4 if self.narrow else LABEL)
+
+    @property
     def narrow(self) -> bool:
         """Whether the page is too narrow for columns."""
         return self._width < NARROW

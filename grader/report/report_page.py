@@ -9,7 +9,9 @@ from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, one_line, points
 from grader.report.blocks import UNSEEN, WORDS, block, evidence_of, quotation, roots, row
+from grader.report.feedback import most_stopping
 from grader.report.page import Page
+from grader.report.sketch import path_sketch, value_sketch
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,6 +19,9 @@ if TYPE_CHECKING:
     from grader.report.model import CheckResult, Quote, Report
 
 LINES, LINES_VERBOSE = 12, 200  # per text
+VALUES_KEY = say("* as wanted, x not as wanted, - wanted; below, | is a due instant")
+INSTANTS_KEY = say("* a message; below, | is a due instant")
+PATH_KEY = say("* driven from S to E, . wanted")
 CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
 
 
@@ -30,6 +35,7 @@ def report_page(
     show_hidden: bool,
     path: Path | None,
     own_code: bool = False,
+    more: str = "",
 ) -> str:
     """Return the page as a string; it depends on the arguments alone (see `render_report`)."""
     page = Page(width=width, styled=styled, translate=Translator(report.lang))
@@ -42,7 +48,7 @@ def report_page(
     _advice(page, checks)
     if verbose:
         _details(page, report, checks, quoted)
-    _foot(page, report, checks, path, own_code=own_code)
+    _foot(page, report, checks, path, own_code=own_code, more=more)
     return str(page)
 
 
@@ -120,11 +126,29 @@ def _blocks(
             continue
         page.gap()
         block(page, check, lines=lines)
+        _sketches(page, report, check)
         found = evidence_of(check, report.evidence, quotes)
         if found is not None and found.text.strip() and found.title not in quoted:
             quoted.add(found.title)
             quotation(page, found.text, found.title, lines=lines, whole=verbose)
     return frozenset(quoted)
+
+
+def _sketches(page: Page, report: Report, check: CheckResult) -> None:
+    """Draw what a failed check judged: values of a topic, or the path of a turtle."""
+    if check.status != "failed":
+        return
+    for run in report.runs:
+        judged = [plot for plot in run.plots if check.id in plot.checks and plot.points]
+        for plot in [plot for plot in judged if plot.wrong] or judged[:1]:
+            what = one_line(f"{plot.topic} {plot.field}".rstrip(), most=60)
+            page.code(say("values"), [what, *value_sketch(plot, page.columns)])
+            page.field("", VALUES_KEY if plot.field else INSTANTS_KEY)
+        if any(found.id.startswith("world.") for found in check.mistakes):
+            for turtle, driven in run.path.items():
+                lines = path_sketch(driven, run.wanted.get(turtle, []), page.columns)
+                page.code(say("path"), [one_line(turtle, most=60), *lines])
+                page.field("", PATH_KEY)
 
 
 def _skipped(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
@@ -195,15 +219,6 @@ def _details(
             quotation(page, text, title, lines=LINES_VERBOSE, whole=True)
 
 
-def most_stopping(failed: Sequence[CheckResult], checks: Sequence[CheckResult]) -> CheckResult:
-    """Return the failed check because of which most checks were skipped; of equals, the first.
-
-    A failure that is only the consequence of another one comes after all others.
-    """
-    causes = [cause.id for c in checks if c.status == "skipped" for cause in roots(c, checks)]
-    return max(failed, key=lambda check: (not check.consequence_of, causes.count(check.id)))
-
-
 def _next(check: CheckResult, *, own_code: bool) -> str:
     name = one_line(check.id, most=60)
     if check.where is None:
@@ -225,6 +240,7 @@ def _foot(
     path: Path | None,
     *,
     own_code: bool,
+    more: str,
 ) -> None:
     page.gap()
     failed = [check for check in checks if check.status == "failed"]
@@ -234,3 +250,5 @@ def _foot(
         page.code(say("command"), [one_line(report.observed.command, most=4_000)])
     if path is not None:
         page.code(say("report"), [one_line(str(path), most=4_000)])
+    if more:
+        page.field(say("hint"), more, style="bold")

@@ -32,13 +32,14 @@ def render_report(
     show_hidden: bool = False,
     path: Path | None = None,
     own_code: bool = False,
+    more: str = "",
 ) -> str:
     """Return the page of a report, `width` columns wide; ASCII except for the report's own text.
 
     `quotes` has what of the evidence each check quotes, by its id. `verbose` adds versions, limits,
     times and the whole evidence. Checks that are not `visible` are only counted, unless
     `show_hidden`. `path` is where the report was written. `own_code` means that a student reads
-    about their own package.
+    about their own package; `more` then says how to get the next hint.
     """
     from grader.report.report_page import report_page  # noqa: PLC0415 - rich costs 35 ms
 
@@ -51,6 +52,7 @@ def render_report(
         show_hidden=show_hidden,
         path=path,
         own_code=own_code,
+        more=more,
     )
 
 
@@ -80,6 +82,7 @@ def print_report(
     show_hidden: bool = False,
     path: Path | None = None,
     own_code: bool = False,
+    more: str = "",
 ) -> None:
     """Print a report (see `render_report`) to `file`, by default standard output."""
     file = file or sys.stdout
@@ -92,6 +95,7 @@ def print_report(
         show_hidden=show_hidden,
         path=path,
         own_code=own_code,
+        more=more,
     )
     show(text, file)
 

@@ -36,7 +36,7 @@ MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes
 def command_of(assignment: Assignment, begin: Start) -> str:
     """Return the `ros2 run` command that starts a node of a plan."""
     node = assignment.nodes[begin.node]
-    words = ["ros2", "run", assignment.package, node.executable]
+    words = ["ros2", "run", node.package or assignment.package, node.executable]
     return shlex.join([*words, "--ros-args", *begin.arguments()])
 
 
@@ -240,37 +240,30 @@ class _Scene:
         done = Done(one.name, one.at)
         self.seen.done.append(done)
         if one.publish is not None:
-            said = self.probe.said("publish", seconds=STEP_SECONDS, **one.publish.model_dump())
-            done.heard = int(said["heard"])
-            self._record(said)
+            self._act(done, "publish", **one.publish.model_dump())
         elif one.call is not None:
-            more = {"name": one.name, **one.call.model_dump()}
-            said = self.probe.said("call", seconds=STEP_SECONDS, **more)
-            done.heard = int(said["heard"])
-            self._record(said)
+            self._act(done, "call", name=one.name, **one.call.model_dump())
         elif one.goal is not None:
             self.seen.goals.append(Goal(one.name, one.at))
-            more = {"name": one.name, **one.goal.model_dump()}
-            said = self.probe.said("goal", seconds=STEP_SECONDS, **more)
-            done.heard = int(said["heard"])
-            self._record(said)
+            self._act(done, "goal", name=one.name, **one.goal.model_dump())
         elif one.cancel is not None:
-            said = self.probe.said("cancel", seconds=STEP_SECONDS, name=one.cancel)
-            done.heard = int(said["heard"])
-            self._record(said)
-        elif one.spawn is not None or one.move is not None:
-            key, place = ("spawn", one.spawn) if one.spawn else ("move", one.move)
-            assert place is not None
-            said = self.probe.said("place", seconds=STEP_SECONDS, how=key, **place.model_dump())
-            done.heard = int(said["heard"])
-            self._record(said)
+            self._act(done, "cancel", name=one.cancel)
+        elif one.spawn is not None:
+            self._act(done, "place", how="spawn", **one.spawn.model_dump())
+        elif one.move is not None:
+            self._act(done, "place", how="move", **one.move.model_dump())
         for node, values in (one.set or {}).items():
             name = self._names.get(node, f"/{node}")
-            said = self.probe.said("set", seconds=STEP_SECONDS, name=name, values=values)
-            done.heard += int(said["heard"])
+            said = self._act(done, "set", name=name, values=values)
             for parameter, accepted, reason in said["set"]:
                 done.accepted[str(parameter)] = "" if accepted else str(reason) or "refused"
-            self._record(said)
+
+    def _act(self, done: Done, command: str, **more: object) -> Mapping[str, Any]:
+        """Let the probe do something, count who received it, and keep what came of it."""
+        said = self.probe.said(command, seconds=STEP_SECONDS, **more)
+        done.heard += int(said["heard"])
+        self._record(said)
+        return said
 
     def _record(self, said: Mapping[str, Any]) -> None:
         """Keep what an answer holds, at the present instant."""

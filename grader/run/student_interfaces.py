@@ -13,12 +13,12 @@ import io
 import os
 import re
 import tarfile
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.base.cache import cache_root
+from grader.base.folder import Folder
 from grader.package.submission import Package, Submission
 from grader.ros.distro import HERE
 from grader.ros.interface_package import BUILD, PATH, interface_package
@@ -130,7 +130,5 @@ def _keep(file: Path, content: bytes) -> None:
     """Write a file of the cache; a cache that cannot be written costs only time."""
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, staging = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}-")
-        with os.fdopen(descriptor, "wb") as stream:
-            stream.write(content)
-        Path(staging).rename(file)
+        with Folder.open(file.parent) as folder:
+            folder.replace(file.name, content)

@@ -14,12 +14,13 @@ from grader.batch.local_pool import LocalPool
 from grader.batch.run import cores_here, prepare
 from grader.batch.work import Done, Task
 from grader.package.edit.tree import Tree, write_tree
-from grader.package.submission import Submission, take_in
+from grader.package.submission import Submission
 from grader.publish.class_run import MOST_A_CORE
 from grader.report.model import CheckResult, CheckStatus
-from grader.verdict.checks.all import STATIC
 from grader.verdict.order import Order
+from grader.verdict.own_checks import static_of
 from grader.verdict.static import evaluate_static
+from grader.verdict.take_in import take_in_for
 
 UNDECIDED = ("inconclusive", "error")
 
@@ -55,28 +56,23 @@ class Marked:
 
 
 def submit(tree: Tree, order: Order) -> Submission:
-    """Take in a package, and the interface packages beside it, as if a student had submitted it."""
+    """Take in a package, and the packages beside it, as if a student had submitted it."""
     assignment = order.assignment
     with tempfile.TemporaryDirectory(prefix="grader-validate-") as folder:
         path = Path(folder) / "handed_in"
-        write_tree(tree, path / assignment.package if assignment.interface_packages else path)
+        write_tree(tree, path / assignment.package if assignment.others else path)
         return submit_path(path, order)
 
 
 def submit_path(path: Path, order: Order) -> Submission:
     """Take in the package at a path."""
-    assignment = order.assignment
-    return take_in(
-        path,
-        package=assignment.package,
-        node_file=assignment.node_file,
-        others=assignment.interface_packages,
-    )
+    return take_in_for(order.assignment, path)
 
 
 def mark_files(submission: Submission, order: Order) -> Marked:
     """Mark a package by its files only, up to the first check that needs a build."""
-    results = evaluate_static(submission, order.assignment, only=STATIC, lang=order.lang)
+    only = static_of(order.assignment)
+    results = evaluate_static(submission, order.assignment, only=only, lang=order.lang)
     return _marked(itertools.takewhile(lambda result: result.status not in UNDECIDED, results))
 
 

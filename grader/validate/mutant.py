@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
 from grader.package.edit.tree import Edit, EditError, Tree, apply_all
-from grader.verdict.checks.all import STATIC
+from grader.verdict.own_checks import static_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,8 @@ class Mutant:
 
     def may_be_static(self, assignment: Assignment) -> bool:
         """Whether its files could be sufficient to decide it."""
-        static = (use.id for use in assignment.checks if use.kind in STATIC)
+        kinds = static_of(assignment)
+        static = (use.id for use in assignment.checks if use.kind in kinds)
         return not self.equivalent and any(map(self.is_hit_by, static))
 
     def is_hit_by(self, check_id: str) -> bool:

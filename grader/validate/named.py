@@ -45,6 +45,7 @@ from grader.base.nearest import nearest
 from grader.base.part import Part
 from grader.base.positioned_yaml import Document, Loc, read_yaml
 from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, model_faults
+from grader.course.assignment import OWN
 from grader.mistakes.kind import Kind
 from grader.package.edit import tree
 from grader.validate.mutant import Mutant
@@ -347,7 +348,7 @@ def _faults(
         if named.check not in checks:
             text = f"the assignment has no check '{named.check}'{_hint(named.check, checks)}"
             yield ("mutants", n, "check"), text
-        if named.mistake not in mistakes:
+        if named.mistake not in mistakes and not named.mistake.startswith(OWN):
             text = f"there is no mistake '{named.mistake}'{_hint(named.mistake, mistakes)}"
             yield ("mutants", n, "mistake"), text
         if named.name in names:

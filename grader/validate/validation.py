@@ -18,8 +18,8 @@ from grader.validate.marking import Marked, mark_all, mark_files, submit, submit
 from grader.validate.matrix import Matrix, MutantResult, as_json
 from grader.validate.mutant import Mutant
 from grader.validate.named import MUTANTS, MutantsFile, read_mutants
-from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import Order
+from grader.verdict.own_checks import checks_of
 
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"
@@ -84,7 +84,7 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     path = options.keys / MUTANTS
     written = MutantsFile()
     if path.is_file():
-        beside = bool(assignment.interface_packages)
+        beside = bool(assignment.others)
         written = read_mutants(path, checks=ids, kinds=CATALOGUE, beside=beside)
     seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
     made = []
@@ -100,7 +100,8 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
 
 def _of_scenarios(mutant: Mutant, assignment: Assignment) -> Mutant:
     """Return a mutant that a check of a scenario may catch too, if one of a run is expected to."""
-    own = tuple(use.id for use in assignment.checks if CHECKS[use.kind].parameters is not None)
+    known = checks_of(assignment)
+    own = tuple(use.id for use in assignment.checks if known[use.kind].parameters is not None)
     if not own or not any(family.startswith("run.") for family in mutant.families):
         return mutant
     return replace(mutant, families=(*mutant.families, "run.stays", *own))
@@ -121,12 +122,12 @@ def write_json(matrix: Matrix, path: Path) -> None:
 
 
 def solution_of(keys: Path, assignment: Assignment) -> Tree:
-    """Return the solution's package; the files of the interface packages begin with `../`.
+    """Return the solution's package; the files of other packages begin with `../`.
 
     Raises UsageError if a package is missing.
     """
     tree = _package(keys, assignment.package, assignment)
-    for name in assignment.interface_packages:
+    for name in assignment.others:
         tree = {**tree, **Nest(f"../{name}").apply(_package(keys, name, assignment))}
     return tree
 

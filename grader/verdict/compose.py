@@ -17,6 +17,7 @@ from grader.run.run import Run
 from grader.verdict.checks.world import Path as WantedPath
 from grader.verdict.checks.world import circle_from
 from grader.verdict.evidence import Evidence
+from grader.verdict.plots import topic_plots
 
 REMARKS = {
     "asks": msg(
@@ -48,7 +49,11 @@ def compose(
     unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
     return model.Report(
         assignment=model.AssignmentInfo(
-            id=assignment.id, title=assignment.title, sha256=assignment.sha256
+            id=assignment.id,
+            title=assignment.title,
+            sha256=assignment.sha256,
+            due=assignment.policy.deadline,
+            feedback=assignment.feedback,
         ),
         submission=model.SubmissionInfo(
             name=submission.name,
@@ -150,6 +155,7 @@ def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
             for turtle in turtles
         },
         wanted=_wanted(run, assignment),
+        plots=topic_plots(run, assignment),
     )
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import compared, meant, nearest
 from grader.base.shown import shown
+from grader.course.assignment import OWN
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
@@ -45,12 +46,27 @@ class Diagnosis:
     @classmethod
     def of(cls, failed: Failed) -> Diagnosis:
         """Return the check's own diagnosis. KeyError if the catalogue lacks its mistake."""
+        if failed.mistake.id.startswith(OWN):
+            return cls._in_own_words(failed)
         kind = CATALOGUE[failed.mistake.id]
         values = {**failed.mistake.params, **failed.words}
         return cls(
             mistakes=[failed.mistake],
             rationale=kind.rationale(values, failed.variant),
             fix=failed.fix or kind.fix_text(values, failed.variant),
+            expected=failed.expected,
+            actual=failed.actual,
+            where=failed.where,
+            advice=failed.advice,
+        )
+
+    @classmethod
+    def _in_own_words(cls, failed: Failed) -> Diagnosis:
+        """Return the diagnosis of an instructor's own mistake, which has no catalogue entry."""
+        return cls(
+            mistakes=[failed.mistake],
+            rationale=failed.rationale,
+            fix=failed.fix,
             expected=failed.expected,
             actual=failed.actual,
             where=failed.where,

@@ -17,6 +17,7 @@ from grader.verdict.checks.declare import Check
 from grader.verdict.diagnose import diagnose
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Inconclusive, Passed
+from grader.verdict.own_checks import checks_of
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def assigned_checks(assignment: Assignment) -> list[AssignedCheck]:
             use,
             tuple(found.id for needed in check.depends for found in uses.get(needed, ())),
         )
-        for check in CHECKS.values()
+        for check in checks_of(assignment).values()
         for use in uses.get(check.id, ())
     ]
 
@@ -109,7 +110,7 @@ def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator
         found = _found(assigned, evidence)
     except GraderError:
         raise
-    except Exception:  # a bug in one check must not lose the results of the others
+    except (Exception, SystemExit):  # a bug in one check must not lose the results of the others
         found = _Result(
             status="error",
             actual=say("this check of the grader has a bug; the report has the details"),

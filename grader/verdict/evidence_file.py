@@ -159,8 +159,10 @@ def differences(ours: EvidenceFile, report: Report) -> Iterator[str]:
 
 def changed_files(ours: Submission, theirs: Submission) -> list[str]:
     """Return the names of the files that two versions of a submission do not share, sorted."""
-    one = {(file.path, file.kind, file.mode & 0o100, file.data) for file in ours.files}
-    other = {(file.path, file.kind, file.mode & 0o100, file.data) for file in theirs.files}
+    one, other = (
+        {(path, file.kind, file.mode & 0o100, file.data) for path, file in version.all_files()}
+        for version in (ours, theirs)
+    )
     return sorted({utf8_name(entry[0]) for entry in one ^ other})
 
 

@@ -15,7 +15,7 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
-from grader.package.submission import Submission, take_in
+from grader.package.submission import Submission
 from grader.report import events, model
 from grader.ros.distro import distros
 from grader.run.observer import Event
@@ -27,6 +27,7 @@ from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import patch_for
 from grader.verdict.order import Order
+from grader.verdict.take_in import take_in_for
 
 if TYPE_CHECKING:
     from grader.verdict.evidence_file import Judged
@@ -42,13 +43,8 @@ def grade(order: Order, listener: events.Listener, *, keep: Keep | None = None) 
     grader's own surroundings fail; everything else is in the report.
     """
     begin = time.monotonic()
-    submission = take_in(
-        order.path,
-        package=order.assignment.package,
-        node_file=order.assignment.node_file,
-        others=order.assignment.interface_packages,
-        name=order.name,
-        modes_kept=order.modes_kept,
+    submission = take_in_for(
+        order.assignment, order.path, name=order.name, modes_kept=order.modes_kept
     )
     return mark(submission, order, listener, intake=time.monotonic() - begin, keep=keep)
 

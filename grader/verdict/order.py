@@ -17,6 +17,7 @@ from grader.ros.distro import Distro, find_distro
 from grader.sandbox.choose import check_name
 from grader.sandbox.limits import UNITS, Limits
 from grader.verdict.checks.all import CHECKS
+from grader.verdict.own_checks import all_checks, read_own_checks
 
 HIDDEN = "hidden.yaml"
 
@@ -98,12 +99,13 @@ def _limit_values(words: tuple[str, ...]) -> dict[str, float]:
 
 
 def load_visible(assignment: str | None) -> Assignment:
-    """Load an assignment without its hidden checks; see `make_orders` for `assignment`."""
-    return _load(assignment_file(assignment))
+    """Load an assignment without its hidden checks and the instructor's own; see `make_orders` for `assignment`."""
+    file = assignment_file(assignment)
+    return load_assignment(file, known_checks=CHECKS, known_limits=UNITS, drop_own=True)
 
 
 def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assignment:
-    """Load an assignment with the hidden checks of the instructor's folder.
+    """Load an assignment with the hidden checks and own checks of the instructor's folder.
 
     Raises UsageError if it announces hidden checks and that folder has none.
     """
@@ -114,7 +116,14 @@ def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assign
         raise UsageError(missing + meant(nearest_path(keys)))
     hidden = folder / HIDDEN if folder is not None else None
     there = hidden is not None and hidden.is_file()
-    loaded = _load(file, hidden=hidden if there else None)
+    text = read_own_checks(folder)
+    loaded = load_assignment(
+        file,
+        hidden=hidden if there else None,
+        known_checks=all_checks(text),
+        known_limits=UNITS,
+        own_checks=text,
+    )
     if loaded.hidden_checks and not there:
         raise UsageError(
             say(
@@ -126,7 +135,3 @@ def load_with_hidden(assignment: str | None, keys: Path | None = None) -> Assign
             remedy=say("Give the folder that has {name} with --keys.", name=HIDDEN),
         )
     return loaded
-
-
-def _load(file: Path, *, hidden: Path | None = None) -> Assignment:
-    return load_assignment(file, hidden=hidden, known_checks=CHECKS, known_limits=UNITS)

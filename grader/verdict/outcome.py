@@ -28,6 +28,9 @@ class Failed(Outcome):
     `params` and `words` fill the placeholders (only `params` are in the report). `fix` replaces
     the entry's fix if only the check knows what to do. If not `blocks`, the checks that depend on
     this one are evaluated all the same.
+
+    An instructor's own check may name a mistake of its own (`own.…`): it has no entry, so that
+    `rationale` and `fix` are all that students read.
     """
 
     def __init__(
@@ -39,6 +42,7 @@ class Failed(Outcome):
         params: Mapping[str, str | int | float] | None = None,
         words: Mapping[str, Value] | None = None,
         variant: str = "",
+        rationale: str = "",
         fix: str = "",
         where: Where | None = None,
         advice: Sequence[str] = (),
@@ -50,6 +54,7 @@ class Failed(Outcome):
         self.actual = actual
         self.words = dict(words or {})
         self.variant = variant
+        self.rationale = rationale
         self.fix = fix
         self.where = where
         self.advice = tuple(advice)

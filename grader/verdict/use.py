@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from grader.base.i18n.message import say
 from grader.course.assignment import CheckUse
-from grader.course.scenario import RunPlan
+from grader.course.scenario import Node, RunPlan
+from grader.package.source.node import read_node
 from grader.report.model import Where
 from grader.run.conduct import full_name
 from grader.run.observations import End, Message, Observations, Role
 from grader.run.run import Run
-from grader.verdict.checks.declare import Parameters
+from grader.verdict.checks.declare import EDGE, Parameters
 from grader.verdict.checks.faults import node_file
 from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
@@ -22,7 +23,6 @@ from grader.verdict.outcome import Blocked, Inconclusive
 
 P_co = TypeVar("P_co", bound=Parameters, covariant=True)
 T = TypeVar("T")
-EDGE = 1e-6  # s by which an instant may be outside a window
 SERVICE_TOPICS = ("/rosout", "/parameter_events", "/clock")
 
 
@@ -42,6 +42,8 @@ class Use(Generic[P_co]):
     @property
     def run(self) -> Run:
         """The run that is judged. Raises Blocked if its nodes did not start."""
+        if self._other_package:
+            self.blocked_by("package.beside", package=self._other_package)
         run = self.evidence.run_of(self.plan.name)
         if not run.started:
             raise Blocked(by="run.starts")
@@ -66,6 +68,18 @@ class Use(Generic[P_co]):
         if wanted not in names and len(names) == 1 and len(plan.start) == 1:
             return names[0]  # its name is another check's matter
         return wanted
+
+    @property
+    def _judged(self) -> Node | None:
+        """The node that is judged, as the assignment describes it."""
+        begin = self.use.of or (self.plan.start[0].node if self.plan.start else "")
+        return self.evidence.assignment.nodes.get(begin)
+
+    @property
+    def _other_package(self) -> str:
+        """The package of the judged node, if it is not the main one."""
+        node, main = self._judged, self.evidence.asked.package
+        return node.package if node is not None and node.package != main else ""
 
     @property
     def end(self) -> float:
@@ -113,6 +127,12 @@ class Use(Generic[P_co]):
             if same and other.kind in kinds and self.evidence.has_failed(other.id):
                 raise Blocked(by=other.id)
 
+    def blocked_by_call(self, name: str) -> None:
+        """Raise Blocked if the stimulus of that name calls a service that is not offered."""
+        stimulus = self.plan.stimulus(name)
+        if stimulus is not None and stimulus.call is not None:
+            self.blocked_by("service.offers", service=stimulus.call.service)
+
     def messages(self, topic: str) -> list[Message]:
         """Return the messages of a topic in the window."""
         return self.in_window(self.seen.of_topic(topic), lambda message: message.at)
@@ -132,10 +152,35 @@ class Use(Generic[P_co]):
 
         A call with the text `mentions` among its arguments comes before the others.
         """
+        if self._other_package:
+            return self._call_in_other(*names, mentions=mentions)
         source = source_of_node(self.evidence)
         found = source.calls_of(*names) if source is not None else []
         if source is None or not found:
             return node_file(self.evidence)
-        wanted = mentions.strip("/")
-        best = next((one for one in found if wanted and wanted in ast.unparse(one)), found[0])
+        best = _best(found, mentions)
         return Where(file=source.module_of(best).path, line=best.lineno)
+
+    def _call_in_other(self, *names: str, mentions: str) -> Where:
+        """Return the same as `call`, in the package of the judged node."""
+        node, package = self._judged, self.evidence.submission.package(self._other_package)
+        assert node is not None
+        module, _, function = node.target.partition(":")
+        path = f"{module.partition('.')[0]}/{node.file}"
+        place = Where(file=f"{self._other_package}/{path}")
+        if package is None:
+            return place
+        texts = {file.path: file.data for file in package.files if file.kind == "file"}
+        source = read_node(texts.get, path, function)
+        found = source.calls_of(*names) if source is not None else []
+        if source is None or not found:
+            return place
+        best = _best(found, mentions)
+        file = f"{self._other_package}/{source.module_of(best).path}"
+        return Where(file=file, line=best.lineno)
+
+
+def _best(found: Sequence[ast.Call], mentions: str) -> ast.Call:
+    """Return the call with a text among its arguments, else the first."""
+    wanted = mentions.strip("/")
+    return next((one for one in found if wanted and wanted in ast.unparse(one)), found[0])

@@ -25,7 +25,8 @@ from grader.batch.run import (
 from grader.batch.sandbox_proof import prove
 from grader.batch.systems.known import FOLDERS
 from grader.batch.work import Answer, Done, Job, Task
-from grader.package.submission import Submission, take_in
+from grader.course.assignment import Assignment
+from grader.package.submission import Submission
 from grader.publish.feedback import html_page
 from grader.publish.gradebook_csv import gradebook_csv
 from grader.ros.distro import find_distro
@@ -33,6 +34,7 @@ from grader.ros.prefix import Ros
 from grader.run import probe_link
 from grader.sandbox.base import Sandbox
 from grader.sandbox.limits import Limits
+from grader.verdict.take_in import take_in_for
 from tests.batch.pool_tasks import JOB, package
 from tests.marking import ASSIGNMENT
 from tests.report.samples import report
@@ -154,12 +156,12 @@ def test_a_submission_that_intake_fails_on_stops_nobody_else(
 ) -> None:
     folder = a_class(tmp_path / "in", 3)
 
-    def fails(path: Path, **options: Any) -> Submission:
+    def fails(assignment: Assignment, path: Path, **options: Any) -> Submission:
         if path.name == "s1":
             raise RecursionError("too deep")
-        return take_in(path, **options)
+        return take_in_for(assignment, path, **options)
 
-    monkeypatch.setattr(intake, "take_in", fails)
+    monkeypatch.setattr(intake, "take_in_for", fails)
     items = list(take_in_class(folder.handed_in, ASSIGNMENT, "key", seen=lambda _: None))
     assert [bool(item.key) for item in items] == [True, False, True]
     result = class_result(ledger, folder, items, ASSIGNMENT, distro="jazzy")

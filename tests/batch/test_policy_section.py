@@ -83,4 +83,4 @@ def test_an_invalid_policy_is_reported_with_its_line(
     before = len(COURSE.read_text(encoding="utf-8").splitlines())
     with pytest.raises(AssignmentError, match=words) as caught:
         load(tmp_path, text)
-    assert f"assignment.yaml:{before + line}: " in str(caught.value)
+    assert f"assignment.yaml:{before + line}:" in str(caught.value)

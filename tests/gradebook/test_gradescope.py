@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
+from datetime import datetime, timezone
+from pathlib import Path
 
 import jsonschema
 import pytest
 from hypothesis import given, settings
 
 from grader.batch.model import ClassResult, Override
+from grader.batch.systems.gradescope import container
 from grader.batch.systems.gradescope import write as gradescope
+from grader.report.detail import Detail
 from grader.report.model import Report
 from tests.gradebook.hostile_texts import hostile_entry, texts
 from tests.gradebook.schemas import GRADESCOPE
+from tests.processes import ROOT
 from tests.report import samples
 
 
@@ -99,3 +104,26 @@ def test_hostile_texts_are_shown_as_harmless_text(text: str) -> None:
     for test in found["tests"]:
         assert test["name"].isprintable()
         assert test["output"].replace("\n", "").isprintable()
+
+
+@pytest.mark.parametrize(
+    ("theirs", "policy", "told"),
+    [
+        ("2999-01-01T00:00:00.000000-08:00", "", False),
+        ("2020-01-01T00:00:00.000000-08:00", "", True),
+        ("2020-01-01T00:00:00.000000-08:00", "policy: {due: 2999-01-01T00:00:00Z}", False),
+        (None, "", True),
+        ("soon", "", True),
+    ],
+)
+def test_gradescopes_due_date_counts_if_the_policy_has_none(
+    theirs: str | None, policy: str, told: bool, tmp_path: Path
+) -> None:
+    lesson = ROOT / "lab/course/hello_time/assignment.yaml"
+    file = tmp_path / "assignment.yaml"
+    file.write_text(f"{lesson.read_text(encoding='utf-8')}{policy}\n", encoding="utf-8")
+    metadata = {"assignment": {"due_date": theirs}}
+    order = container.order_for(tmp_path, metadata, str(file), "jazzy", "account")
+    rules, due = order.assignment.feedback, order.assignment.policy.deadline
+    detail = rules.handed_back(due, datetime(2026, 11, 20, tzinfo=timezone.utc))
+    assert (detail == Detail.LINE) == told

@@ -30,6 +30,7 @@ FIRST = ("Ann", "Bela", "Chidi", "Dörte", "Émile", "Farah", "Goran", "Hana", "
 LAST = ("Lee", "Nagy", "Okafor", "Weiß", "Zola", "Aziz", "Ilić", "Mori", "Costa", "Núñez")
 # fields with fixed values, which are not texts of a student
 FIXED = {"status", "visibility", "origin", "modes", "ros", "sandbox", "clock", "lang"}
+FIXED |= {"lab", "before_due", "after_due"}
 
 
 def student(number: int) -> Student:

@@ -95,7 +95,7 @@ def test_a_mutant_of_an_unused_check_is_reported_with_its_line(course: Path, key
     (keys / "mutants.yaml").write_text(MUTANTS.replace("package.marker\n", "source.shebang\n"))
     status, _, errors = validate(course, "--keys", keys, "--static")
     assert status == 2
-    assert f"{keys}/mutants.yaml:11: the assignment has no check 'source.shebang'" in errors
+    assert f"{keys}/mutants.yaml:11:5: the assignment has no check 'source.shebang'" in errors
 
 
 @pytest.mark.parametrize(

@@ -88,7 +88,7 @@ def test_edits_name_files_of_the_interface_package(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", ["..", ".", "../../x", "../a/../../x", "a/../x", "/x"])
 def test_edits_name_nothing_outside_of_the_packages(path: str, tmp_path: Path) -> None:
     for pair in ((path, "x"), ("x", path)):
-        with pytest.raises(AssignmentError, match=":7: not a path inside") as caught:
+        with pytest.raises(AssignmentError, match=r":7:\d+: not a path inside") as caught:
             read(tmp_path, *pair)
         assert str(caught.value).endswith(f": {path}")
 

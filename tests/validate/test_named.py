@@ -123,7 +123,7 @@ def test_an_error_is_reported_with_file_and_line(
 ) -> None:
     with pytest.raises(AssignmentError) as caught:
         read(tmp_path, textwrap.dedent(text))
-    assert str(caught.value).startswith(f"{tmp_path}/mutants.yaml:{line}: ")
+    assert str(caught.value).startswith(f"{tmp_path}/mutants.yaml:{line}:")
     assert says in str(caught.value)
 
 
@@ -135,10 +135,10 @@ def test_all_errors_are_reported_at_once(tmp_path: Path) -> None:
         line.removeprefix(f"{tmp_path}/mutants.yaml:") for line in str(caught.value).split("\n")
     ]
     assert lines == [
-        "7: not a path inside the package: ../f",
-        "8: mutants.0.edits.1.mode must be text (put it in quotes), not 420",
-        "9: no such edit: chmdo: did you mean 'chmod'?",
-        "11: missing key 'why'",
+        "7:10: not a path inside the package: ../f",
+        "8:20: mutants.0.edits.1.mode must be text (put it in quotes), not 420",
+        "9:9: no such edit: chmdo: did you mean 'chmod'?",
+        "11:5: missing key 'why'",
     ]
 
 

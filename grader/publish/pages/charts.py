@@ -129,7 +129,7 @@ def timeline(observed: Observed) -> Timeline | None:
         clock=observed.clock,
         dots=dots,
         due=tuple((x(at), at) for at in due),
-        axis=tuple((x(at), at) for at in _marks(start, end)),
+        axis=tuple((x(at), at) for at in axis_marks(start, end)),
         missed=_missed(due, dots) if virtual else (),
         left_out=len(known) - len(ticks),
     )
@@ -208,7 +208,7 @@ def _missed(due: Sequence[float], dots: Sequence[Dot]) -> tuple[float, ...]:
     return tuple(at for at in due if (off := _off(at, came)) is None or abs(off) > ON_TIME)
 
 
-def _marks(start: float, end: float) -> list[float]:
+def axis_marks(start: float, end: float) -> list[float]:
     """Return round numbers for the axis, at most twelve."""
     span = max(end - start, 1e-3)
     size = 10.0 ** math.floor(math.log10(span / 10))

@@ -14,6 +14,7 @@ from grader.batch.words import instant
 from grader.publish.pages.calculation import calculation
 from grader.publish.pages.charts import PathPlot, Timeline, path_plots, timeline
 from grader.publish.pages.overview import shown
+from grader.publish.pages.value_plots import ValuePlot, value_plots
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
 from grader.report.report_page import ran_on
@@ -64,6 +65,7 @@ class StudentView:
     details: tuple[tuple[str, str], ...]
     timeline: Timeline | None
     paths: tuple[PathPlot, ...]
+    plots: tuple[ValuePlot, ...]
     transcript: str
     build_log: str
 
@@ -92,6 +94,7 @@ def student_view(entry: GradebookEntry, *, show_hidden: bool, lang: str = SOURCE
         details=tuple((n, v) for n, v in _details(report) if v) if report else (),
         timeline=timeline(report.observed) if report else None,
         paths=path_plots(report.runs) if report else (),
+        plots=value_plots(report.runs) if report else (),
         transcript=_log(evidence.transcript, translate) if evidence else "",
         build_log=_log(evidence.build_log, translate) if evidence else "",
     )

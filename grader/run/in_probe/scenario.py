@@ -19,7 +19,7 @@ from __future__ import annotations
 import importlib
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from typing import Any
 from uuid import uuid4
@@ -83,6 +83,16 @@ def interface(name: str) -> Any:
         return getattr(importlib.import_module(f"{package}.{kind}"), rest, None)
     except (ImportError, ValueError):
         return None
+
+
+def taken_from(subscription: Any, most: int) -> Iterator[Any]:
+    """Take the messages that have arrived at a subscription, at most so many, and yield them."""
+    for _ in range(most):
+        with subscription.handle:
+            taken = subscription.handle.take_message(subscription.msg_type, False)
+        if taken is None:
+            return
+        yield taken[0]
 
 
 class Values:
@@ -233,26 +243,18 @@ class Scenario:
         for topic, subscriptions in self.watched.items():
             count = 0
             for subscription in subscriptions:
-                while count < DEPTH:
-                    with subscription.handle:
-                        taken = subscription.handle.take_message(subscription.msg_type, False)
-                    if taken is None:
-                        break
+                for message in taken_from(subscription, DEPTH - count):
                     count += 1
                     if count <= MOST_MESSAGES:
-                        self.messages.append([topic, Values().of(taken[0])])
+                        self.messages.append([topic, Values().of(message)])
             if count:
                 self.counts[topic] = self.counts.get(topic, 0) + count
             found[topic] = count
         for subscription in self.feedback:
-            for _ in range(MOST_FEEDBACK):
-                with subscription.handle:
-                    taken = subscription.handle.take_message(subscription.msg_type, False)
-                if taken is None:
-                    break
-                name = self.sent.get(bytes(taken[0].goal_id.uuid))
+            for message in taken_from(subscription, MOST_FEEDBACK):
+                name = self.sent.get(bytes(message.goal_id.uuid))
                 if name is not None:
-                    self.of_goals.append([name, "feedback", Values().of(taken[0].feedback)])
+                    self.of_goals.append([name, "feedback", Values().of(message.feedback)])
         return found
 
     def trips(self, count: int, deadline: float) -> bool | None:
@@ -320,13 +322,8 @@ class Scenario:
 
     def take_logs(self) -> None:
         """Take the log records that have come: all of them, not one for each turn of the executor."""
-        handle = self.probe.rosout.handle
-        for _ in range(MOST_LOGS):
-            with handle:
-                taken = handle.take_message(self.probe.rosout.msg_type, False)
-            if taken is None:
-                return
-            self.probe.on_log(taken[0])
+        for log in taken_from(self.probe.rosout, MOST_LOGS):
+            self.probe.on_log(log)
 
     def tick(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Move the world and the clock to an instant."""

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field
 
 from grader.base.i18n.message import say, say_plural
-from grader.base.nearest import nearest, with_difference
-from grader.course.values import Form, shown_value, value_at
-from grader.verdict.checks.declare import Parameters, kind
+from grader.course.values import Form, first_misfit, shown_value
+from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.verdict.checks.fields import must_fit
+from grader.verdict.checks.offered import must_offer
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
 SEND_GOAL = "/_action/send_goal"
 OF_TYPE = "_SendGoal"
-EDGE = 1e-6  # s
 Status = Literal["succeeded", "canceled", "aborted"]
 
 
@@ -63,43 +63,19 @@ class Cancels(Parameters):
 @kind("action.offers", Action, after=["run.node_name"])
 def offers(use: Use[Action]) -> Passed:
     """The node offers the action {action}, of the type {type}"""
-    given = use.given
-    own = {
-        end.name.removesuffix(SEND_GOAL): end.type.removesuffix(OF_TYPE)
+    own = [
+        (end.name.removesuffix(SEND_GOAL), end.type.removesuffix(OF_TYPE))
         for end in use.ends("service")
         if end.name.endswith(SEND_GOAL)
-    }
-    words = {"service": given.action, "short": given.type.rpartition("/")[2]}
-    expected = f"{given.action} ({given.type})"
-    where = use.call("ActionServer", mentions=given.action)
-    found = own.get(given.action)
-    if found == given.type:
-        return Passed(actual=say("{node} has it", node=use.node))
-    if found is not None:
-        raise Failed(
-            "action.wrong_type",
-            expected=expected,
-            actual=with_difference(found, found, given.type),
-            where=where,
-            params={"type": found},
-            words=words,
-        )
-    if own:
-        close = nearest(given.action, own) or next(iter(own))
-        raise Failed(
-            "action.wrong_name",
-            expected=expected,
-            actual=with_difference(", ".join(own), close, given.action),
-            where=use.call("ActionServer", mentions=close),
-            params={"name": close},
-            words=words,
-        )
-    raise Failed(
-        "action.missing",
-        expected=expected,
-        actual=say("{node} has no such end on the ROS graph", node=use.node),
-        where=where,
-        words=words,
+    ]
+    return must_offer(
+        use,
+        own,
+        use.given.action,
+        use.given.type,
+        made_by="ActionServer",
+        family="action",
+        missing="action.missing",
     )
 
 
@@ -144,22 +120,22 @@ def feedback(use: Use[Feedback]) -> Passed:
             words={"service": given.action},
         )
     for at, values in goal.feedback:
-        for path, form in given.each.items():
-            value = value_at(values, path)
-            if not form.fits(value):
-                raise Failed(
-                    "action.wrong_feedback",
-                    expected=f"{path}: {form}",
-                    actual=say(
-                        "{path}: {value}, in the message at {at} s",
-                        path=path,
-                        value=shown_value(value),
-                        at=f"{at:g}",
-                    ),
-                    where=where,
-                    params={"field": path},
-                    words={"service": given.action},
-                )
+        wrong = first_misfit(values, given.each)
+        if wrong is not None:
+            path, form, value = wrong
+            raise Failed(
+                "action.wrong_feedback",
+                expected=f"{path}: {form}",
+                actual=say(
+                    "{path}: {value}, in the message at {at} s",
+                    path=path,
+                    value=shown_value(value),
+                    at=f"{at:g}",
+                ),
+                where=where,
+                params={"field": path},
+                words={"service": given.action},
+            )
     return Passed(actual=count)
 
 
@@ -194,17 +170,7 @@ def result(use: Use[Result]) -> Passed:
             params={"found": goal.status},
             words=words,
         )
-    for path, form in given.each.items():
-        value = value_at(goal.result, path)
-        if not form.fits(value):
-            raise Failed(
-                "action.wrong_result",
-                expected=f"{path}: {form}",
-                actual=f"{path}: {shown_value(value)}",
-                where=where,
-                params={"field": path},
-                words=words,
-            )
+    must_fit(goal.result, given.each, "action.wrong_result", where=where, words=words)
     return Passed(actual=say("it ends as {status}", status=goal.status))
 
 

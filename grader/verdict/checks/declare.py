@@ -46,6 +46,7 @@ class Stage:
 INTAKE = Stage(0, "intake", say("looking at the package"), "files")
 BUILD = Stage(1, "build", say("building with colcon"), "build")
 RUN = Stage(2, "run", say("running the node"), "run")
+EDGE = 1e-6  # s by which an instant may be outside a window
 STARTED = ("run.starts", "run.spins")
 
 
@@ -83,14 +84,19 @@ class Check:
     ) -> Passed | Failed | Blocked | Inconclusive:
         """Return the outcome for this evidence. Any other exception is a bug of ours."""
         try:
-            if self.parameters is None:
-                return self.function(evidence) or Passed()
-            from grader.verdict.use import Use  # noqa: PLC0415 - it needs the evidence of a run
-
-            given = self.parameters.model_validate(use.with_)
-            return self.function(Use(use, given, evidence)) or Passed()
+            found = self._passed(evidence, use)
         except (Failed, Blocked, Inconclusive) as outcome:
             return outcome
+        if found is not None and not isinstance(found, Passed):
+            raise TypeError(f"{self.id} returned {found!r}: it must return Passed or raise Failed")
+        return found or Passed()
+
+    def _passed(self, evidence: Evidence, use: CheckUse) -> Passed | None:
+        if self.parameters is None:
+            return self.function(evidence)
+        from grader.verdict.use import Use  # noqa: PLC0415 - it needs the evidence of a run
+
+        return self.function(Use(use, self.parameters.model_validate(use.with_), evidence))
 
 
 def check(

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from grader.base.i18n.message import say
-from grader.base.nearest import nearest, with_difference
-from grader.course.values import Form, shown_value, value_at
-from grader.verdict.checks.declare import Parameters, kind
+from grader.course.values import Form
+from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.verdict.checks.fields import must_fit
+from grader.verdict.checks.offered import must_offer
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -55,42 +56,16 @@ def calls(use: Use[Service]) -> Passed:
 
 
 def _must_have(role: Role, use: Use[Service]) -> Passed:
-    given = use.given
-    make = "create_service" if role == "service" else "create_client"
     ends = (end for end in use.ends(role) if "/_action/" not in end.name)
-    own = [end for end in ends if end.name.rpartition("/")[2] not in OWN]
-    here = [end for end in own if end.name == given.service]
-    expected = f"{given.service} ({given.type})"
-    words = {"service": given.service, "short": given.type.rpartition("/")[2], "make": make}
-    where = use.call(make, mentions=given.service)
-    if any(end.type == given.type for end in here):
-        return Passed(actual=say("{node} has it", node=use.node))
-    if here:
-        raise Failed(
-            "service.wrong_type",
-            expected=expected,
-            actual=with_difference(here[0].type, here[0].type, given.type),
-            where=where,
-            params={"type": here[0].type},
-            words=words,
-        )
-    names = [end.name for end in own]
-    if names:
-        close = nearest(given.service, names) or names[0]
-        raise Failed(
-            "service.wrong_name",
-            expected=expected,
-            actual=with_difference(", ".join(names), close, given.service),
-            where=use.call(make, mentions=close),
-            params={"name": close},
-            words=words,
-        )
-    raise Failed(
-        "service.missing" if role == "service" else "service.no_client",
-        expected=expected,
-        actual=say("{node} has no such end on the ROS graph", node=use.node),
-        where=where,
-        words=words,
+    own = [(end.name, end.type) for end in ends if end.name.rpartition("/")[2] not in OWN]
+    return must_offer(
+        use,
+        own,
+        use.given.service,
+        use.given.type,
+        made_by="create_service" if role == "service" else "create_client",
+        family="service",
+        missing="service.missing" if role == "service" else "service.no_client",
     )
 
 
@@ -108,7 +83,7 @@ def answers(use: Use[Answers]) -> Passed:
     expected = ", ".join(f"{path}: {form}" for path, form in given.each.items())
     if done.replied is None and (use.run.ended_by_itself or use.seen.stuck is not None):
         raise Blocked(by="run.stays")
-    if done.replied is None or done.replied > done.at + given.within + 1e-6:
+    if done.replied is None or done.replied > done.at + given.within + EDGE:
         raise Failed(
             "service.no_answer",
             expected=expected or say("an answer within {within} s", within=f"{given.within:g}"),
@@ -116,15 +91,5 @@ def answers(use: Use[Answers]) -> Passed:
             where=where,
             words=words,
         )
-    for path, form in given.each.items():
-        value = value_at(done.reply, path)
-        if not form.fits(value):
-            raise Failed(
-                "service.wrong_answer",
-                expected=f"{path}: {form}",
-                actual=f"{path}: {shown_value(value)}",
-                where=where,
-                params={"field": path},
-                words=words,
-            )
+    must_fit(done.reply, given.each, "service.wrong_answer", where=where, words=words)
     return Passed(actual=say("it answered at {at} s", at=f"{done.replied:g}"))

@@ -11,8 +11,9 @@ from pydantic import Field
 from grader.base.i18n.message import Message as Text
 from grader.base.i18n.message import joined, say, say_plural
 from grader.base.nearest import nearest, with_difference
-from grader.course.values import Form, shown_value, value_at
-from grader.verdict.checks.declare import Parameters, kind
+from grader.course.values import Form, first_misfit, shown_value
+from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.verdict.checks.fields import is_integer_bits
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 CALLS: dict[str, str] = {"publisher": "create_publisher", "subscription": "create_subscription"}
-DENORMAL = 1e-300  # below it, a value is the bits of an integer that were read as a float
 
 
 class Publishes(Parameters):
@@ -117,9 +117,7 @@ def _must_hear(use: Use[Parameters], topic: str) -> None:
     if not any(one.kind == "topic.period" for one in checks):
         use.blocked_by("topic.subscribes")
     for one in checks:
-        stimulus = use.plan.stimulus(one.after) if one.after else None
-        if stimulus is not None and stimulus.call is not None:
-            use.blocked_by("service.offers", service=stimulus.call.service)
+        use.blocked_by_call(one.after)
 
 
 @kind("topic.subscribes", Subscribes, after=["run.node_name"])
@@ -332,31 +330,28 @@ def silent(use: Use[Silent]) -> Passed:
 
 def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> None:
     """Raise Failed if a field of a message does not have its form."""
-    for path, form in each.items():
-        value = value_at(message.values, path)
-        if not form.fits(value):
-            _must_be_new(message.topic, path, use)
-            garbage = isinstance(value, float) and 0 < abs(value) < DENORMAL
-            raise Failed(
-                "topic.int_in_float" if garbage else "topic.wrong_value",
-                expected=f"{path}: {form}",
-                actual=say(
-                    "{path}: {value}, in the message at {at} s",
-                    path=path,
-                    value=shown_value(value),
-                    at=f"{message.at:g}",
-                ),
-                where=use.call("publish", mentions=message.topic),
-                params={"field": path},
-                words={"topic": message.topic, "field": path, "wanted": str(form)},
-                variant="changed" if _is_set(use) and not garbage else "",
-            )
-
-
-def _is_set(use: Use[Parameters]) -> bool:
-    """Whether the window begins when parameters are set."""
-    stimulus = use.plan.stimulus(use.use.after) if use.use.after else None
-    return stimulus is not None and stimulus.set is not None
+    wrong = first_misfit(message.values, each)
+    if wrong is None:
+        return
+    path, form, value = wrong
+    _must_be_new(message.topic, path, use)
+    garbage = is_integer_bits(value)
+    stimulus = use.plan.stimulus(use.use.after)
+    is_set = stimulus is not None and stimulus.set is not None
+    raise Failed(
+        "topic.int_in_float" if garbage else "topic.wrong_value",
+        expected=f"{path}: {form}",
+        actual=say(
+            "{path}: {value}, in the message at {at} s",
+            path=path,
+            value=shown_value(value),
+            at=f"{message.at:g}",
+        ),
+        where=use.call("publish", mentions=message.topic),
+        params={"field": path},
+        words={"topic": message.topic, "field": path, "wanted": str(form)},
+        variant="changed" if is_set and not garbage else "",
+    )
 
 
 def _must_be_new(topic: str, path: str, use: Use[Parameters]) -> None:
@@ -389,10 +384,10 @@ def reacts(use: Use[Reacts]) -> Passed:
     )
     if done is not None and not done.heard:
         use.blocked_by("topic.subscribes")
-    if use.end < begin + given.within - 1e-6:
+    if use.end < begin + given.within - EDGE:
         raise use.unreached()
-    last = begin + given.within + 1e-6
-    found = [m for m in use.seen.of_topic(given.topic) if begin - 1e-6 <= m.at <= last]
+    last = begin + given.within + EDGE
+    found = [m for m in use.seen.of_topic(given.topic) if begin - EDGE <= m.at <= last]
     if not found:
         use.blocked_by("topic.publishes", topic=given.topic)
         raise Failed(
@@ -402,11 +397,7 @@ def reacts(use: Use[Reacts]) -> Passed:
             where=use.call("create_subscription"),
             words={"topic": given.topic},
         )
-    fits = [
-        message
-        for message in found
-        if all(form.fits(value_at(message.values, path)) for path, form in given.each.items())
-    ]
+    fits = [message for message in found if first_misfit(message.values, given.each) is None]
     if not fits:
         _must_fit(found[0], given.each, use)
     return Passed(actual=say("it came at {at} s", at=f"{(fits or found)[0].at:g}"))

@@ -10,10 +10,10 @@ from pydantic import Field
 
 from grader.base.i18n.message import say
 from grader.base.part import Part
-from grader.course.values import Form, shown_value, value_at
+from grader.course.values import Form
 from grader.run.in_probe import robot, turtlesim
 from grader.verdict.checks.declare import Parameters, kind
-from grader.verdict.checks.topic import DENORMAL
+from grader.verdict.checks.fields import is_integer_bits, must_fit
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -172,9 +172,7 @@ def event(use: Use[Happens]) -> Passed:
     where = use.call("call_async", "call", "create_client")
     if not found:
         use.require_window()
-        stimulus = use.plan.stimulus(use.use.after) if use.use.after else None
-        if stimulus is not None and stimulus.call is not None:
-            use.blocked_by("service.offers", service=stimulus.call.service)
+        use.blocked_by_call(use.use.after)
         use.blocked_by("service.calls")
         raise Failed(
             "world.not_asked",
@@ -184,17 +182,7 @@ def event(use: Use[Happens]) -> Passed:
             words=words,
         )
     values = found[-1]
-    for path, form in given.each.items():
-        value = value_at(values, path)
-        if not form.fits(value):
-            raise Failed(
-                "world.wrong_request",
-                expected=f"{path}: {form}",
-                actual=f"{path}: {shown_value(value)}",
-                where=where,
-                params={"field": path},
-                words=words,
-            )
+    must_fit(values, given.each, "world.wrong_request", where=where, words=words)
     return Passed(actual=say("it came at {at} s", at=f"{values['at']:g}"))
 
 
@@ -202,7 +190,7 @@ def _no_garbage(use: Use[Parameters]) -> None:
     """Raise Failed if a whole number in a field for floating-point numbers steered the turtle."""
     for message in use.seen.messages:
         for path, value in _numbers(message.values):
-            if isinstance(value, float) and 0 < abs(value) < DENORMAL:
+            if is_integer_bits(value):
                 raise Failed(
                     "topic.int_in_float",
                     expected=say("a number with a point in {path}", path=path),

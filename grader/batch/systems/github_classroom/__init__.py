@@ -8,6 +8,7 @@ from grader.batch.points import single
 from grader.batch.sheet import Sheet
 from grader.batch.systems.github_classroom import read, write
 from grader.batch.systems.system import Download, RosterForm, RosterKey, System
+from grader.report.feedback import handed_back
 from grader.report.model import Report
 
 
@@ -19,7 +20,8 @@ def _roster_key(_sheet: Sheet, header: Sequence[str]) -> RosterKey | None:
 
 
 def _github(report: Report, show_hidden: bool) -> str:
-    return write.github_output(write.results(single(report), show_hidden=show_hidden))
+    seen = handed_back(report, show_hidden=show_hidden)
+    return write.github_output(write.results(single(seen), show_hidden=show_hidden))
 
 
 SYSTEM = System(

@@ -19,6 +19,7 @@ from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.project import CHECKOUT
 from grader.course.find import assignment_file
 from grader.verdict.order import HIDDEN, load_with_hidden
+from grader.verdict.own_checks import FILE as CHECKS
 
 PARTS = (
     "grader",
@@ -98,8 +99,9 @@ def gradescope_zip(
         named = f"{OWN_ASSIGNMENT}/{file.name}"
     load_with_hidden(assignment, keys)  # errors are reported here, not at Gradescope
     words = ["--assignment", named, "--distro", distro, "--sandbox", sandbox, "--lang", lang]
-    if keys is not None and (keys / HIDDEN).is_file():
-        files[f"{OWN_KEYS}/{HIDDEN}"] = ((keys / HIDDEN).read_bytes(), FILE)
+    own = [name for name in (HIDDEN, CHECKS) if keys is not None and (keys / name).is_file()]
+    if keys is not None and own:
+        files |= {f"{OWN_KEYS}/{name}": ((keys / name).read_bytes(), FILE) for name in own}
         words += ["--keys", OWN_KEYS]
     files["setup.sh"] = (SETUP.format(distro=shlex.quote(distro)).encode(), PROGRAM)
     run = RUN.format(words=shlex.join(words), problem=shlex.quote(_problem(lang)))

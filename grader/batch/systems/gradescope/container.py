@@ -25,6 +25,7 @@ from grader.base.i18n.translator import Translator, chosen_language
 from grader.base.plain_text import one_line
 from grader.batch.policy import penalty
 from grader.batch.systems.gradescope import write as gradescope
+from grader.course.assignment import Assignment
 from grader.report import events
 from grader.report.blocks import UNSEEN
 from grader.report.model import CheckResult, Report
@@ -170,18 +171,33 @@ def order_for(
     order = make_orders(
         submission, assignment, distro, sandbox, (), name=name, keys=keys, lang=lang
     )[0]
+    dated = _with_due_date(order.assignment, metadata)
     # uploaded files have lost their exec bits, a clone has not
     cloned = metadata.get("submission_method") in CLONED
-    return replace(order, modes_kept=cloned)
+    return replace(order, assignment=dated, modes_kept=cloned)
+
+
+def _with_due_date(assignment: Assignment, metadata: dict[str, Any]) -> Assignment:
+    """Return the assignment with Gradescope's due date if its policy has none."""
+    theirs = metadata.get("assignment")
+    due = _instant(theirs.get("due_date")) if isinstance(theirs, dict) else None
+    if assignment.policy.due is not None or due is None or due.tzinfo is None:
+        return assignment
+    policy = assignment.policy.model_copy(update={"due": due})
+    return assignment.model_copy(update={"policy": policy})
+
+
+def _instant(text: object) -> datetime | None:
+    try:
+        return datetime.fromisoformat(str(text).replace("Z", "+00:00"))
+    except ValueError:
+        return None
 
 
 def late_points(report: Report, metadata: dict[str, Any], order: Order) -> float:
     """Return the points that the policy takes for lateness, by Gradescope's time stamp."""
-    try:
-        submitted = datetime.fromisoformat(str(metadata.get("created_at")).replace("Z", "+00:00"))
-    except ValueError:
-        return 0
-    if submitted.tzinfo is None:
+    submitted = _instant(metadata.get("created_at"))
+    if submitted is None or submitted.tzinfo is None:
         return 0
     return penalty(report.score, report.max_score, submitted, order.assignment.policy)
 
@@ -208,6 +224,8 @@ def _empty_report(order: Order) -> Report:
                 "id": assignment.id,
                 "title": assignment.title,
                 "sha256": assignment.sha256,
+                "due": assignment.policy.deadline,
+                "feedback": assignment.feedback,
             },
             "submission": {"name": order.name or "", "path": "", "sha256": ""},
             "environment": {"distro": order.distro.name, "ros": "wheels", "sandbox": "account"},

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from datetime import datetime, timezone
 from typing import Any
 
 from grader.base.i18n.message import say
@@ -16,16 +17,25 @@ from grader.base.plain_text import first_lines, one_line, points
 from grader.batch.check_text import check_text
 from grader.batch.model import GradebookEntry, Override
 from grader.batch.points import Mark, adjustments, in_points, marks, rounded, single
+from grader.report.detail import IN_FILES, Detail
+from grader.report.feedback import with_feedback
 from grader.report.model import Report
 
 MOST = 200  # characters of a name
 
 
 def results(
-    report: Report, *, penalty: float = 0, overrides: Sequence[Override] = ()
+    report: Report,
+    *,
+    penalty: float = 0,
+    overrides: Sequence[Override] = (),
+    now: datetime | None = None,
 ) -> dict[str, Any]:
-    """Return the results for a report; `penalty` are the points taken for lateness."""
-    entry = single(report, penalty=penalty, overrides=overrides)
+    """Return the results for a report; `penalty` are the points taken for lateness.
+
+    `now` (default: the present) decides what students get to know of a failed check.
+    """
+    entry = single(for_gradescope(report, now), penalty=penalty, overrides=overrides)
     return {
         "score": entry.final or 0.0,
         "execution_time": round(report.timing.total, 3),
@@ -38,6 +48,20 @@ def results(
         "extra_data": _extra(report),
         "tests": [_test(mark, report) for mark in marks(entry)],
     }
+
+
+def for_gradescope(report: Report, now: datetime | None = None) -> Report:
+    """Return a report as Gradescope may show it.
+
+    Gradescope shows a test with the visibility `after_due_date` when its own due date has passed,
+    and one that is `hidden` to instructors only: they keep what they have.
+    """
+    rules, due = report.assignment.feedback, report.assignment.due
+    now = now or datetime.now(timezone.utc)
+    after = IN_FILES[rules.after_due]
+    levels = {"hidden": Detail.LINE, "after_due_date": after}
+    of = {c.id: levels[c.visibility] for c in report.checks if c.visibility in levels}
+    return with_feedback(report, rules.handed_back(due, now), of=of)
 
 
 def results_json(found: dict[str, Any]) -> str:

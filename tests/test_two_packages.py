@@ -1,0 +1,183 @@
+"""An assignment with nodes in two Python packages, which are built and run together."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.base.errors import AssignmentError
+from grader.base.unheard import unheard
+from grader.course.load import load_assignment
+from grader.report.model import Report
+from grader.ros.distro import find_distro
+from grader.sandbox.limits import Limits
+from grader.verdict.checks.all import CHECKS
+from grader.verdict.mark import grade
+from grader.verdict.order import Order
+
+ASSIGNMENT = """\
+schema: 2
+id: relay
+title: "Two packages"
+package: sensing
+nodes:
+  source: {executable: source, target: sensing.source:main, file: source.py, name: source}
+  relay: {package: relaying, executable: relay, target: relaying.relay:main, file: relay.py, name: relay}
+runs:
+  - name: together
+    start: [{node: source}, {node: relay}]
+    clock: {period: 0.1, ticks: 20}
+checks:
+  - {id: package.found, points: 1}
+  - {id: relay.there, check: package.beside, points: 1, with: {package: relaying}}
+  - {id: build.colcon, points: 1}
+  - {id: run.starts, points: 1}
+  - {id: run.spins, points: 1}
+  - {id: run.stays, points: 1}
+  - {id: source.says, check: topic.publishes, of: source, points: 1, with: {topic: /in, type: std_msgs/msg/Int32}}
+  - {id: relay.hears, check: topic.subscribes, of: relay, points: 1, with: {topic: /in, type: std_msgs/msg/Int32}}
+  - {id: relay.says, check: topic.values, of: relay, points: 1, with: {topic: /out, each: {data: 2}}}
+  - {id: relay.type, check: topic.publishes, of: relay, points: 1, with: {topic: /out, type: std_msgs/msg/Int32}}
+"""
+NODE = """\
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+
+class {name}(Node):
+    def __init__(self):
+        super().__init__('{lower}')
+        self.made = self.create_publisher(Int32, '{topic}', 10)
+        {rest}
+
+    def on_timer(self):
+        self.made.publish(Int32(data=1))
+
+    def on_number(self, number):
+        self.made.publish(Int32(data=2 * number.data))
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    rclpy.spin({name}())
+"""
+MANIFEST = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>{package}</name><version>0.0.0</version><description>A node</description>
+  <maintainer email="a@b.example">a</maintainer><license>Apache-2.0</license>
+  <exec_depend>rclpy</exec_depend><exec_depend>std_msgs</exec_depend>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+SETUP = """\
+from setuptools import find_packages, setup
+
+setup(
+    name='{package}',
+    version='0.0.0',
+    packages=find_packages(),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/{package}']),
+        ('share/{package}', ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    entry_points={{'console_scripts': ['{node} = {package}.{node}:main']}},
+)
+"""
+
+
+def write_one(src: Path, package: str, node: str, code: str) -> None:
+    texts = {
+        "package.xml": MANIFEST.format(package=package),
+        "setup.py": SETUP.format(package=package, node=node),
+        "setup.cfg": f"[develop]\nscript_dir=$base/lib/{package}\n"
+        f"[install]\ninstall_scripts=$base/lib/{package}\n",
+        f"resource/{package}": "",
+        f"{package}/__init__.py": "",
+        f"{package}/{node}.py": code,
+    }
+    for path, text in texts.items():
+        (src / package / path).parent.mkdir(parents=True, exist_ok=True)
+        (src / package / path).write_text(text, encoding="utf-8")
+
+
+SOURCE = NODE.format(
+    name="Source", lower="source", topic="/in", rest="self.create_timer(0.2, self.on_timer)"
+)
+RELAY = NODE.format(
+    name="Relay",
+    lower="relay",
+    topic="/out",
+    rest="self.create_subscription(Int32, '/in', self.on_number, 10)",
+)
+
+
+def marked(folder: Path, *, relay: str | None) -> Report:
+    file = folder / "assignment.yaml"
+    file.write_text(ASSIGNMENT, encoding="utf-8")
+    src = folder / "ws/src"
+    write_one(src, "sensing", "source", SOURCE)
+    if relay is not None:
+        write_one(src, "relaying", "relay", relay)
+    assignment = load_assignment(file, known_checks=CHECKS)
+    assert assignment.others == ("relaying",)
+    order = Order(
+        path=folder / "ws",
+        assignment=assignment,
+        distro=find_distro("jazzy"),
+        sandbox="bubblewrap",
+        limits=Limits().override({"build_seconds": 120}),  # two packages
+    )
+    return grade(order, unheard)
+
+
+@pytest.mark.prefix
+@pytest.mark.full
+def test_two_packages_get_full_marks(tmp_path: Path) -> None:
+    report = marked(tmp_path, relay=RELAY)
+    assert {c.id: (c.status, c.actual) for c in report.checks if c.status != "passed"} == {}
+    assert {node for run in report.runs for node in run.observed.nodes} == {"/source", "/relay"}
+
+
+@pytest.mark.prefix
+@pytest.mark.full
+@pytest.mark.parametrize(
+    ("relay", "failed"),
+    [
+        (RELAY.replace("2 * number", "3 * number"), {"relay.says": "topic.wrong_value"}),
+        (None, {"relay.there": "beside.missing"}),
+        (RELAY.replace("'/out'", "'/uot'"), {"relay.type": "topic.wrong_name"}),
+    ],
+)
+def test_a_mistake_in_the_second_package_is_found(
+    relay: str | None, failed: dict[str, str], tmp_path: Path
+) -> None:
+    report = marked(tmp_path, relay=relay)
+    found = {c.id: c for c in report.checks if c.status == "failed"}
+    assert {c.id: c.mistakes[0].id for c in found.values()} == failed
+    for check in found.values():
+        assert check.where is None or check.where.file == "relaying/relaying/relay.py"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("package: relaying,", "package: Relaying,", "package must be"),
+        ("package: relaying,", "pakage: relaying,", "did you mean 'package'"),
+        ("[{node: source}, {node: relay}]", "[{node: relay}]", "must be in the package 'sensing'"),
+    ],
+)
+def test_a_wrong_package_is_told_with_its_line(
+    old: str, new: str, words: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "assignment.yaml"
+    file.write_text(ASSIGNMENT.replace(old, new), encoding="utf-8")
+    line = ASSIGNMENT[: ASSIGNMENT.index(old)].count("\n") + 1
+    with pytest.raises(AssignmentError, match=words) as told:
+        load_assignment(file, known_checks=CHECKS)
+    assert str(told.value).startswith(f"{file}:{line}:")
