@@ -23,7 +23,7 @@ from grader.sandbox.bubblewrap import FILES, Bubblewrap, memory_file, parents_of
 from grader.sandbox.limits import Limits
 from grader.sandbox.local import require_program
 from grader.sandbox.processes import kill_with_children
-from lab.config import BASHRC, LAB_ROOT, WORKSPACE, LabConfig, accounts
+from lab.config import HIDDEN_HOME, LAB_ROOT, WORKSPACE, LabConfig, accounts
 from lab.terminal import ignoring_interrupts, restoring_foreground
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -86,9 +86,7 @@ class BubblewrapLab:
             words += ["--unshare-user", "--uid", str(owner.uid), "--gid", str(owner.gid)]
         words += self._mounts(config)
         for path, descriptor in descriptors.items():
-            kind = "--file" if path.startswith(HOME) else "--ro-bind-data"
-            words += ["--perms", "0666" if kind == "--file" else "0444", kind]
-            words += [str(descriptor), path]
+            words += ["--perms", "0444", "--ro-bind-data", str(descriptor), path]
         words += ["--remount-ro", "/", "--chdir", WORKSPACE]
         if self._root:
             for capability in ("CAP_SETUID", "CAP_SETGID", "CAP_SETPCAP"):
@@ -113,8 +111,10 @@ class BubblewrapLab:
         yield from ("--bind", os.path.realpath(SHARED_MEMORY), SHARED_MEMORY)
         for scratch in SCRATCH:
             yield from ("--perms", "1777", "--tmpfs", scratch)
-        yield from ("--perms", "0777", "--tmpfs", HOME)
+        yield from ("--bind", str(config.workspace.home), HOME)
         yield from ("--bind", str(config.workspace.path), WORKSPACE)
+        # it is in the workspace too: without this, `find ~` would never end
+        yield from ("--perms", "0555", "--tmpfs", HIDDEN_HOME, "--remount-ro", HIDDEN_HOME)
         yield from ("--ro-bind", str(self._ros.path), self._ros.inside)
         yield from self._course(config)
 
@@ -147,7 +147,6 @@ class BubblewrapLab:
             "/etc/passwd": own["passwd"],
             "/etc/group": own["group"],
             "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files dns\n",
-            f"{HOME}/.bashrc": f". {BASHRC}\n",
         }
 
     def _environment(self, config: LabConfig) -> dict[str, str]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -18,8 +19,10 @@ from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
 from grader.cli.main import main as run_grader
+from lab.commands.cli import main as run_lab
 
-OF_A_DISTRO = ("check", "fix")
+if TYPE_CHECKING:
+    from grader.course.assignment import Assignment
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -30,10 +33,12 @@ def main(argv: list[str] | None = None) -> int:
 def run_in_lab(name: str) -> int:
     """Run the grader's command `name` with this process' arguments; return its exit status.
 
-    `check` and `fix` use the distro of this terminal unless --distro is given.
+    `fix` uses the distro of this terminal unless --distro is given; `check` is `lab check`.
     """
     words = sys.argv[1:]
-    if name in OF_A_DISTRO and not any(word.startswith("--distro") for word in words):
+    if name == "check":
+        return run_lab([name, *words])
+    if name == "fix" and not any(word.startswith("--distro") for word in words):
         words = ["--distro", os.environ.get("ROS_DISTRO", "jazzy"), *words]
     return run_grader([name, *words])
 
@@ -63,7 +68,16 @@ def run_in_lab(name: str) -> int:
     show_default=True,
     help=msg("How the lab is opened: auto, docker or bubblewrap."),
 )
-@options.assignment
+@click.option(
+    "--lesson",
+    "--assignment",
+    "assignment",
+    metavar="ID|FILE",
+    help=msg(
+        "The lesson: its id, or the path of an assignment.yaml (default: the first of the course "
+        "that is not finished in this workspace)."
+    ),
+)
 @options.lang
 @click.argument("words", nargs=-1, type=click.UNPROCESSED, metavar="[-- COMMAND...]")
 def command(
@@ -80,16 +94,16 @@ def command(
     from lab.choose import choose  # noqa: PLC0415
     from lab.config import LabConfig  # noqa: PLC0415
     from lab.lesson import chosen_lesson  # noqa: PLC0415
-    from lab.workspace import prepare  # noqa: PLC0415
+    from lab.workspace import prepare, workspace_path  # noqa: PLC0415
 
     translate = Translator(lang or chosen_language(os.environ))
     with errors_in(translate.lang):
         found = find_distro(distro)
-        lesson = chosen_lesson(assignment)
+        lesson = chosen_lesson(assignment, workspace_path(workspace))
         enter = choose(
             sandbox,
             found,
-            interfaces=load_assignment(lesson.file).needs_interfaces,
+            interfaces=_wants_turtlesim(load_assignment(lesson.file)),
             notify=lambda text: _notify(translate(text)),
         )
         config = LabConfig(found, prepare(workspace), lesson, command=words, lang=translate.lang)
@@ -98,6 +112,19 @@ def command(
     return (
         0 if interactive else status
     )  # a shell returns its last command's status, which is not the lab's
+
+
+def _wants_turtlesim(assignment: Assignment) -> bool:
+    """Whether the lab has turtlesim: if the lesson needs its interfaces, or uses it and can build it.
+
+    A lesson in turtlesim's world whose node uses none of its types goes without a compiler too.
+    """
+    from grader.ros.interfaces import missing_for_building  # noqa: PLC0415 - keeps --help fast
+
+    if assignment.needs_interfaces:
+        return True
+    uses = any(plan.world == "turtlesim" for plan in assignment.runs)
+    return uses and not missing_for_building()
 
 
 def _notify(text: str) -> None:

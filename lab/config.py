@@ -13,9 +13,9 @@ from lab.lesson import OpenedLesson
 from lab.workspace import Student, Workspace
 
 WORKSPACE = f"{HOME}/ros2_ws"
+HIDDEN_HOME = f"{WORKSPACE}/.lab/home"  # the folder in the workspace that is mounted as HOME
 LAB_ROOT = "/opt/ros2_teaching_lab"
 SHELL_FILES = f"{LAB_ROOT}/lab/shell"
-BASHRC = f"{SHELL_FILES}/bashrc"
 PROXIES = ("HTTP_PROXY", "HTTPS_PROXY", "FTP_PROXY", "ALL_PROXY", "NO_PROXY")
 PASSED = (
     *("TERM", "COLORTERM", "NO_COLOR", "TZ"),
@@ -60,6 +60,7 @@ class LabConfig:
             "TERM": "xterm-256color",
             "ROS_DISTRO": self.distro.name,
             "LAB_WORKSPACE": str(self.workspace.path),
+            "LAB_HOME_KEPT": "1",
             OWN: self.lang,
             **self.lesson.environment,
         }

@@ -25,9 +25,10 @@ from docker.types import Mount
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.sandbox.base import HOME
-from lab.config import LAB_ROOT, WORKSPACE, LabConfig, accounts
+from lab.config import HIDDEN_HOME, LAB_ROOT, WORKSPACE, LabConfig, accounts
 from lab.exec_stream import ExecStream
 from lab.supervisor import LAST, READY, VARIABLE
+from lab.window.published import is_taken, published
 from lab.workspace import Student
 
 LABEL = "ros2-teaching-lab.lab"
@@ -101,7 +102,7 @@ class ContainerLab:
         return found if found.status == "running" else None
 
     def _start(self, config: LabConfig) -> Container | None:
-        """Create and start the container; return None if another lab was faster."""
+        """Create and start the container; return None if it was too late for its name or port."""
         owner = config.workspace.owner
         try:
             made = self._client.containers.create(
@@ -118,8 +119,10 @@ class ContainerLab:
                 cap_drop=["ALL"],
                 security_opt=["no-new-privileges"],
                 network_mode="bridge",
+                **published(),
                 shm_size=SHARED_MEMORY,
-                tmpfs={HOME: f"exec,mode=0755,uid={owner.uid},gid={owner.gid}"},
+                # it is in the workspace too: without this, `find ~` would never end
+                tmpfs={HIDDEN_HOME: "ro,size=4k,mode=0555"},
                 mounts=list(_mounts(config)),
             )
         except APIError as error:
@@ -131,8 +134,10 @@ class ContainerLab:
             if owner != IMAGE_USER:
                 made.put_archive("/etc", _packed_accounts(owner))
             made.start()
-        except BaseException:
+        except BaseException as error:
             _remove(made)
+            if isinstance(error, APIError) and is_taken(error):
+                return None
             raise
         return made
 
@@ -208,6 +213,7 @@ def _user(config: LabConfig) -> str:
 
 
 def _mounts(config: LabConfig) -> Iterator[Mount]:
+    yield Mount(HOME, str(config.workspace.home), type="bind")
     yield Mount(WORKSPACE, str(config.workspace.path), type="bind")
     if config.lesson.folder is not None:
         lesson = str(config.lesson.folder)

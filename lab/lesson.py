@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.nearest import meant, nearest_path
-from grader.course.find import COURSE, FILE, LESSON, assignment_file, is_file, own_course
+from grader.course.find import (
+    COURSE,
+    FILE,
+    LESSON,
+    assignment_file,
+    course_folder,
+    is_file,
+    lessons_of,
+    order_of,
+    own_course,
+)
+from lab.guide.progress import read_progress
 
 INSIDE = "/opt/ros2_teaching_lab/course"
 
@@ -42,12 +54,26 @@ class OpenedLesson:
         return {COURSE: INSIDE, LESSON: f"{self.path_inside}/{self.file.name}"}
 
 
-def chosen_lesson(assignment: str | None) -> OpenedLesson:
-    """Return the chosen lesson (see `grader.course.find.chosen`).
+def first_unfinished(workspace: Path) -> str | None:
+    """Return the first lesson of the course that never had full marks in a workspace.
 
-    UsageError if there is no such lesson, or if its folder contains the user's home folder.
+    None if the environment names a lesson, if the course has no order, or if all are finished.
     """
-    file = assignment_file(assignment)
+    course = course_folder()
+    if os.environ.get(LESSON) or not order_of(course):
+        return None
+    kept = read_progress(workspace)
+    lessons = lessons_of(course)
+    return next((name for name in lessons if not kept.of(name).passed), None)
+
+
+def chosen_lesson(assignment: str | None, workspace: Path | None = None) -> OpenedLesson:
+    """Return the lesson that is named, else the first that is not finished in a workspace.
+
+    If all are finished it is the default one (see `grader.course.find.chosen`). UsageError if there is no such lesson, or if its folder contains the user's home folder.
+    """
+    unfinished = first_unfinished(workspace) if not assignment and workspace is not None else None
+    file = assignment_file(assignment or unfinished)
     if not is_file(file):
         missing = say("there is no assignment {file}", file=str(file))
         raise UsageError(missing + meant(nearest_path(file)))

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import os
 import pwd
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from grader.base.errors import UsageError
+from grader.base.folder import Folder
 from grader.base.i18n.message import say
 
+KEPT = ".lab"  # in the workspace: progress, backups, and the home folder; colcon skips it
+STARTUP = """\
+# Your own settings for the terminals of the lab. The first line sets the lab up: keep it.
+. /opt/ros2_teaching_lab/lab/shell/bashrc
+"""
 FIRST_USER = 1000  # the first ordinary user of Debian, Ubuntu and the images
 
 
@@ -28,6 +37,12 @@ class Workspace:
 
     path: Path
     owner: Student
+    INSIDE: ClassVar[str] = "ros2_ws"
+
+    @property
+    def home(self) -> Path:
+        """The folder that is the student's home folder in the lab: it is kept like the workspace."""
+        return self.path / KEPT / "home"
 
 
 def prepare(folder: Path | None) -> Workspace:
@@ -36,22 +51,29 @@ def prepare(folder: Path | None) -> Workspace:
     Existing files are not changed. UsageError for a path that cannot be a workspace or that the
     student cannot write to.
     """
-    path = folder.expanduser() if folder is not None else _home() / "ros2_ws"
+    path = workspace_path(folder)
     try:
         path = path.resolve()
         _check_path(path)
         owner = _student(path)
         _make(path, owner)
         _make(path / "src", owner)
+        for each in (path, path / "src"):
+            _check_writable(each, owner)
+        _make_home(Workspace(path, owner))
+        _check_writable(path / KEPT / "home", owner)
     except (OSError, RuntimeError) as error:  # (RuntimeError: links in a circle, on Python 3.10)
         said = str(error.strerror if isinstance(error, OSError) else error)
         raise UsageError(
             say("the workspace {path} cannot be created: {problem}", path=str(path), problem=said),
             remedy=say("Choose a folder of your own: make lab WORKSPACE=path"),
         ) from error
-    for each in (path, path / "src"):
-        _check_writable(each, owner)
     return Workspace(path, owner)
+
+
+def workspace_path(folder: Path | None) -> Path:
+    """Return the path of the workspace, which may not exist: a folder, or the caller's ~/ros2_ws."""
+    return folder.expanduser() if folder is not None else _home() / "ros2_ws"
 
 
 def _home() -> Path:
@@ -106,6 +128,22 @@ def _make(folder: Path, owner: Student) -> None:
     folder.mkdir(mode=0o755, exist_ok=True)  # (another lab may be faster)
     if os.geteuid() == 0:
         os.chown(folder, owner.uid, owner.gid)
+
+
+def _make_home(workspace: Workspace) -> None:
+    """Make the home folder and its .bashrc, unless the student has them already."""
+    _make(workspace.path / KEPT, workspace.owner)
+    if (workspace.path / KEPT).is_symlink() or workspace.home.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    _make(workspace.home, workspace.owner)
+    _make(workspace.home / workspace.INSIDE, workspace.owner)  # where the workspace is mounted
+    with contextlib.suppress(FileExistsError), Folder.open(workspace.home) as home:
+        if home.kind(".bashrc"):
+            return
+        home.replace(".bashrc", STARTUP.encode())
+        if os.geteuid() == 0:
+            uid, gid = workspace.owner.uid, workspace.owner.gid
+            os.chown(workspace.home / ".bashrc", uid, gid, follow_symlinks=False)
 
 
 def _check_writable(folder: Path, owner: Student) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from grader.base.i18n.message import msg
-from grader.base.i18n.translator import Translator, chosen_language, errors_in
+from grader.base.i18n.translator import errors_in
 from grader.cli import options
 from grader.cli.invoke import run
 
@@ -39,19 +39,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 @click.argument("what", required=False, metavar="[N|list|all]")
 def command(workspace: Path, assignment: str | None, lang: str | None, what: str | None) -> None:
     """Print a step of the lesson."""
-    from grader.course.find import assignment_file  # noqa: PLC0415 - keeps --help fast
-    from grader.course.load import load_assignment  # noqa: PLC0415
-    from grader.ros.distro import DEFAULT  # noqa: PLC0415
-    from lab.guide.lesson import lesson_file, read_lesson  # noqa: PLC0415
-    from lab.guide.progress import StudentState, next_actions  # noqa: PLC0415
+    from lab.guide.opened import opened_lab  # noqa: PLC0415 - keeps --help fast
     from lab.guide.show import show  # noqa: PLC0415
 
-    translate = Translator(lang or chosen_language(os.environ))
-    distro = os.environ.get("ROS_DISTRO") or DEFAULT
-    with errors_in(translate.lang):
-        file = assignment_file(assignment)
-        assigned = load_assignment(file)
-        lesson = read_lesson(lesson_file(file.parent, translate.lang), distro=distro)
-        state = StudentState(workspace.expanduser(), assigned, os.environ)
-        actions = [translate(action) for action in next_actions(state, lesson.steps)]
-        show(what, lesson, actions, translate)
+    with errors_in(lang):
+        lab = opened_lab(lang, workspace, assignment)
+        show(
+            what,
+            lab.lesson,
+            lab.task(os.environ).actions,
+            lab.translate,
+            passed=lab.progress().passed,
+        )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Sequence
+from typing import TextIO
 
 from rich.markdown import Markdown
 from rich.rule import Rule
@@ -14,37 +15,46 @@ from grader.base.errors import UsageError
 from grader.base.gated_console import GatedConsole
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
+from lab.guide.action import Action
 from lab.guide.lesson import Lesson, Step
-from lab.guide.progress import current
+from lab.guide.predicates import current
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
 MAX_WIDTH = 96  # columns; longer lines are hard to read
 
 
-def _console() -> GatedConsole:
-    console = GatedConsole(sys.stdout, soft_wrap=True)
+def console_for(file: TextIO) -> GatedConsole:
+    """Return a console for a file: with lines of MAX_WIDTH on a terminal, else not wrapped."""
+    console = GatedConsole(file, soft_wrap=True)
     if console.is_terminal:
-        return GatedConsole(sys.stdout, width=min(console.width, MAX_WIDTH))
+        return GatedConsole(file, width=min(console.width, MAX_WIDTH))
     return console
 
 
-def show(what: str | None, lesson: Lesson, actions: Sequence[str], translate: Translator) -> None:
+def show(
+    what: str | None,
+    lesson: Lesson,
+    actions: Sequence[Action | None],
+    translate: Translator,
+    *,
+    passed: bool = False,
+) -> None:
     """Print what a student asks for: a step's number, `list`, `all`, or None for the current step.
 
-    `actions` has what to do next for each step, "" if it is done. UsageError for anything else.
+    `actions` has what to do next for each step, None if it is done; `passed` as in `show_next`. UsageError for anything else.
     """
-    console = _console()
+    console = console_for(sys.stdout)
     if what == "list":
-        _show_list(console, lesson, actions, translate)
+        show_list(console, lesson, actions, translate, passed=passed)
     elif what == "all":
         _show_markdown(console, lesson.introduction)
         for step in lesson.steps:
-            _show_step(console, step, lesson, translate)
+            show_step(console, step, lesson, translate)
     else:
         position = _position(what, lesson) if what else current(actions)
-        _show_step(console, lesson.steps[position - 1], lesson, translate)
+        show_step(console, lesson.steps[position - 1], lesson, translate)
         if what is None:
-            _show_next(console, actions[position - 1], translate)
+            show_next(console, actions[position - 1], translate, passed=passed)
 
 
 def _position(word: str, lesson: Lesson) -> int:
@@ -63,19 +73,26 @@ def _position(word: str, lesson: Lesson) -> int:
     )
 
 
-def _show_list(
-    console: GatedConsole, lesson: Lesson, actions: Sequence[str], translate: Translator
+def show_list(
+    console: GatedConsole,
+    lesson: Lesson,
+    actions: Sequence[Action | None],
+    translate: Translator,
+    *,
+    passed: bool = False,
 ) -> None:
+    """Print the steps, which of them are done, and the next action."""
     here = current(actions)
     for position, step in enumerate(lesson.steps, start=1):
         done = not actions[position - 1] and (bool(step.done) or position < here)
         mark = "x" if done else ">" if position == here else " "
         style = "green" if done else "bold" if position == here else ""
         console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
-    _show_next(console, actions[here - 1], translate)
+    show_next(console, actions[here - 1], translate, passed=passed)
 
 
-def _show_step(console: GatedConsole, step: Step, lesson: Lesson, translate: Translator) -> None:
+def show_step(console: GatedConsole, step: Step, lesson: Lesson, translate: Translator) -> None:
+    """Print a step's heading and text."""
     heading = translate(
         say(
             "Step {number} of {count}: {title}",
@@ -104,6 +121,29 @@ def _show_markdown(console: GatedConsole, text: str) -> None:
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 
-def _show_next(console: GatedConsole, action: str, translate: Translator) -> None:
+def show_next(
+    console: GatedConsole, action: Action | None, translate: Translator, *, passed: bool = False
+) -> None:
+    """Print what was found and what to do next; `action` is None if all is done.
+
+    `passed` is whether the package had full marks; until then, the last thing to do is `check`.
+    """
+    if action is None and not passed:
+        action = Action("check", "check")
+    if action is None:
+        done = say("All steps of this lesson are done.")
+        console.print(Text(translate(done), style="bold green"), soft_wrap=True)
+        hand_in = say(
+            "lab submit makes the archive to hand in. The next lesson: exit, then make lab."
+        )
+        console.print(Text(translate(hand_in)), soft_wrap=True)
+        return
+    if action.found:
+        found = translate(say("Found: "))
+        console.print(
+            Text.assemble((found, "bold yellow"), translate(action.found)), soft_wrap=True
+        )
     label = translate(say("Next: "))
-    console.print(Text.assemble((label, "bold green"), action or "check"), soft_wrap=True)
+    console.print(Text.assemble((label, "bold green"), translate(action.next)), soft_wrap=True)
+    if action.hints:
+        console.print(Text(translate(say("More: lab hint")), style="dim"), soft_wrap=True)

@@ -9,23 +9,14 @@ for _lab_hook in "/opt/ros/$ROS_DISTRO" /usr; do
 done
 unset _lab_hook
 
+# The wheels' ros2 knows what can follow: commands, options, and names on the graph.
 _lab_ros2() {
-  local words=""
-  case $COMP_CWORD in
-    1) words="node pkg run topic" ;;
-    2)
-      case ${COMP_WORDS[1]} in
-        node | topic) words="list" ;;
-        pkg) words="create executables list prefix xml" ;;
-        run) words="$(ros2 pkg list 2> /dev/null)" ;;
-      esac
-      ;;
-    3)
-      case ${COMP_WORDS[1]}:${COMP_WORDS[2]} in
-        run:*) words="$(ros2 pkg executables "${COMP_WORDS[2]}" 2> /dev/null | cut -d' ' -f2)" ;;
-        pkg:executables | pkg:prefix | pkg:xml) words="$(ros2 pkg list 2> /dev/null)" ;;
-      esac
-      ;;
+  local words
+  words="$(ros2 _complete "${COMP_WORDS[@]:1:COMP_CWORD-1}" 2> /dev/null)"
+  # options only where one is begun, or where nothing else can stand
+  case ${COMP_WORDS[COMP_CWORD]} in
+    -*) ;;
+    *) words="$(grep -v '^-' <<< "$words")" ;;
   esac
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}")
 }

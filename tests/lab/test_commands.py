@@ -43,6 +43,14 @@ def test_a_script_on_standard_input_is_run_with_ros(kind: Kind, tmp_path: Path) 
     assert (tmp_path / "ws" / "v").read_text() == Path("/proc/version").read_text()
 
 
+def test_the_home_folder_is_kept_and_is_no_loop(kind: Kind, tmp_path: Path) -> None:
+    script = "mkdir ~/notes && echo mine > ~/notes/a && echo 'alias a=b' >> ~/.bashrc && find ~"
+    first = run(kind, tmp_path / "ws", "--", "bash", "-c", script)
+    assert (first.returncode, first.stderr.count("loop")) == (0, 0), first.stderr
+    again = run(kind, tmp_path / "ws", "--", "bash", "-c", "cat ~/notes/a; tail -1 ~/.bashrc")
+    assert again.stdout == "mine\nalias a=b\n"
+
+
 def test_the_student_is_not_root_and_has_no_privileges(kind: Kind, tmp_path: Path) -> None:
     script = "id -u; grep -E 'CapEff|CapPrm|CapBnd|NoNewPrivs' /proc/self/status"
     uid, *lines = run(kind, tmp_path / "ws", "--", "bash", "-c", script).stdout.splitlines()
@@ -72,7 +80,8 @@ def test_a_workspaces_name_is_data(name: str, kind: Kind, tmp_path: Path) -> Non
     workspace = tmp_path / name
     done = run(kind, workspace, "--", "touch", "src/here")
     assert done.returncode == 0, done.stderr
-    assert [str(path.relative_to(tmp_path)) for path in sorted(tmp_path.rglob("*"))] == [
+    found = [str(path.relative_to(tmp_path)) for path in sorted(tmp_path.rglob("*"))]
+    assert [path for path in found if not path.startswith(f"{name}/.lab")] == [
         name,
         f"{name}/src",
         f"{name}/src/here",

@@ -96,8 +96,9 @@ def test_labs_of_two_lessons_are_two_containers(tmp_path: Path) -> None:
     visits = [LabConfig(found, workspace, chosen_lesson(file)) for file in files]
     assert len({container._name(visit) for visit in visits}) == 3
     own, readings, _ = ([dict(m) for m in container._mounts(visit)] for visit in visits)
-    assert [mount["Target"] for mount in own] == ["/home/student/ros2_ws"]
-    assert readings[1:] == [
+    home = ["/home/student", "/home/student/ros2_ws"]
+    assert [mount["Target"] for mount in own] == home
+    assert readings[2:] == [
         {
             "Target": "/opt/ros2_teaching_lab/course/readings",
             "Source": str(course / "readings"),

@@ -135,14 +135,18 @@ def test_an_existing_workspace_is_used_and_not_changed(kind: Kind, tmp_path: Pat
         if os.geteuid() == 0:
             for path in (workspace, workspace / "src", workspace / "src" / "notes"):
                 os.chown(path, 4321, 4322)
-        before = {path: path.lstat() for path in (workspace, *workspace.rglob("*"))}
+        own = (workspace / "src", *workspace.rglob("src/*"), workspace / "build")
+        before = {path: path.lstat() for path in own}
         words: list[str | Path] = ["--sandbox", kind.sandbox, "--workspace", workspace, "--"]
         done = lab(*words, "sh", "-c", "id -u; id -g; whoami; cat src/notes", env=kind.env)
         uid, gid, name, text = done.stdout.splitlines()
         assert (name, text) == ("student", "mine")
         if os.geteuid() == 0:  # root's lab belongs to the workspace's owner
             assert (uid, gid) == ("4321", "4322")
-        after = {path: path.lstat() for path in (workspace, *workspace.rglob("*"))}
+        assert {path.name for path in workspace.iterdir()} == {"src", "build", ".lab"}
+        kept = {s.lstat().st_uid for s in (workspace / ".lab").rglob("*")}
+        assert kept == {before[own[0]].st_uid}
+        after = {path: path.lstat() for path in own}
         assert {path: (s.st_mtime_ns, s.st_uid, s.st_mode) for path, s in before.items()} == {
             path: (s.st_mtime_ns, s.st_uid, s.st_mode) for path, s in after.items()
         }

@@ -8,6 +8,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from tests import processes
+
 
 @contextlib.contextmanager
 def open_to_all() -> Iterator[Path]:
@@ -21,18 +23,11 @@ def open_to_all() -> Iterator[Path]:
 
 
 PACKAGE = "my_robot_controller"
+SOLUTION = processes.ROOT / "grader/keys/hello_time/solution" / PACKAGE
 MARKER = f"install/{PACKAGE}/share/ament_index/resource_index/packages/{PACKAGE}"
 EXECUTABLE = f"install/{PACKAGE}/lib/{PACKAGE}/test_node"
 ENTRY = "'test_node = my_robot_controller.my_first_node:main',"
-SETUP = """\
-from setuptools import setup
-
-setup(
-    name='my_robot_controller',
-    packages=['my_robot_controller'],
-    entry_points={'console_scripts': [ENTRY]},
-)
-"""
+SETUP = (SOLUTION / "setup.py").read_text(encoding="utf-8").replace(ENTRY, "ENTRY")
 
 
 def put(workspace: Path, file: str, text: str = "", *, mode: int = 0o644) -> Path:
@@ -49,7 +44,8 @@ def after_step(workspace: Path, step: int, node: str) -> dict[str, str]:
     inner = f"src/{PACKAGE}/{PACKAGE}"
     (workspace / "src").mkdir(parents=True)
     if step >= 3:
-        put(workspace, f"src/{PACKAGE}/package.xml", "<package/>")
+        for file in ("package.xml", "setup.cfg", f"resource/{PACKAGE}"):
+            put(workspace, f"src/{PACKAGE}/{file}", (SOLUTION / file).read_text(encoding="utf-8"))
         put(workspace, f"src/{PACKAGE}/setup.py", SETUP.replace("ENTRY", ""))
         put(workspace, f"{inner}/__init__.py")
     if step >= 4:

@@ -1,6 +1,7 @@
 # The texts of the lab's shell in Korean (see en.sh).
 lab_welcome='  ROS 2 %s. 워크스페이스는 ~/ros2_ws이며, 나가도 그대로 남습니다.\n'
 lab_on_your_machine='  내 컴퓨터에서의 위치: %q\n'
+lab_lab='    lab     작업을 지켜보며 수업을 안내합니다 (두 번째 터미널에서)\n'
 lab_guide='    guide   다음에 할 일을 한 단계씩 알려 줍니다\n'
 lab_check='    check   교수자와 같은 검사를 실행합니다\n'
 lab_fix='    fix     check가 찾은 문제를 고치는 방법을 보여 줍니다\n'
@@ -9,3 +10,5 @@ lab_no_editor='  여기에는 편집기가 없습니다. 실습실 밖에서 파
 lab_code_outside='VS Code는 실습실 밖에서 실행됩니다. 내 컴퓨터의 VS Code에서 이 폴더를 여십시오:\n  %s\n'
 lab_some_folder='워크스페이스 폴더'
 lab_edit_here='여기에서 편집할 수도 있습니다. 예: %s my_node.py\n'
+lab_window_program='%s은(는) 창을 여는 프로그램인데, 실습실에는 창을 띄울 화면이 없습니다. lab window를 사용하십시오. 거북이, 그래프, 로그, 플롯, 파라미터를 브라우저에서 보여 줍니다. 프로그램 자체는 ROS 2 데스크톱 설치본(ros-%s-desktop)에 있습니다.\n'
+lab_installs='%s은(는) root 권한으로 패키지를 설치하는 명령인데, 실습실에서는 허용되지 않습니다. 레슨에 필요한 것은 모두 설치되어 있습니다. 더 필요하면 교수자에게 문의하십시오.\n'

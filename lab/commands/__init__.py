@@ -1,0 +1,1 @@
+"""The commands of the `lab` program inside the lab: watch, status, hint, check, submit, …"""

@@ -1,0 +1,67 @@
+"""What `lab watch` shows: the current step, what is found, what is next, and the keys."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Sequence
+
+from rich.text import Text
+
+from grader.base.i18n.message import say
+from lab.guide.opened import OpenedLab, Task
+from lab.guide.show import console_for, show_list, show_next, show_step
+
+PLAIN = "LAB_PLAIN"  # set to anything: nothing is cleared, for screen readers
+
+
+class Screen:
+    """A terminal that shows a lesson."""
+
+    def __init__(self, lab: OpenedLab) -> None:
+        self._lab = lab
+        self._plain = bool(os.environ.get(PLAIN)) or os.environ.get("TERM", "dumb") == "dumb"
+
+    def clear(self) -> None:
+        """Clear the screen, unless it is plain."""
+        if not self._plain:
+            console_for(sys.stdout).clear()
+
+    def step(
+        self, task: Task, *, ahead: int = 0, done: Sequence[int] = (), more: Iterable[str] = ()
+    ) -> None:
+        """Show the step, the steps that were just `done`, and `more` lines."""
+        self.clear()
+        console = console_for(sys.stdout)
+        lesson, translate = self._lab.lesson, self._lab.translate
+        for number in done:
+            step = lesson.steps[number - 1]
+            text = say("Done: {number}. {title}", number=step.number, title=step.title)
+            console.print(Text(translate(text), style="bold green"))
+        show_step(console, lesson.steps[task.position - 1 + ahead], lesson, translate)
+        if not ahead:
+            show_next(console, task.action, translate, passed=self._lab.progress().passed)
+        for line in more:
+            console.print(Text(line), soft_wrap=True)
+        self._keys()
+
+    def steps(self, task: Task) -> None:
+        """Show the list of the steps."""
+        self.clear()
+        console = console_for(sys.stdout)
+        passed = self._lab.progress().passed
+        show_list(console, self._lab.lesson, task.actions, self._lab.translate, passed=passed)
+        self._keys()
+
+    def wait_for_key(self) -> None:
+        """Wait for Enter."""
+        print(self._lab.translate(say("Press Enter to go on.")), end=" ", flush=True)
+        sys.stdin.readline()
+
+    def end(self) -> None:
+        """Leave the cursor below what was shown."""
+        print()
+
+    def _keys(self) -> None:
+        keys = say("n next   h hint   c check   l list   d difference   w window   q quit")
+        print(f"\n{self._lab.translate(keys)}", flush=True)

@@ -1,0 +1,22 @@
+"""What a student does next in a step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Action:
+    """The next action of a step that is not done.
+
+    `next` says what to do. `found` says what is there but wrong, and where; "" if nothing is wrong
+    and something is only missing. `hints` say more and more, and end with the line to write.
+    `difference` has what is there and what is expected, with marks below where they differ.
+    `id` stays equal as long as the student has the same task, so that hints can be counted.
+    """
+
+    next: str
+    id: str
+    found: str = ""
+    hints: tuple[str, ...] = ()
+    difference: str = ""

@@ -1,0 +1,71 @@
+"""What a build left: in the wrong folder, missing, or older than the source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.base.i18n.message import say
+from lab.guide.action import Action
+from lab.guide.state import StudentState
+
+BUILD = "cd ~/ros2_ws && colcon build --symlink-install"
+
+
+def built(state: StudentState) -> Action | None:
+    """Done if a build installed the node's executable, and nothing of it is older than the source."""
+    name = state.assignment.package
+    if not state.installed(f"lib/{name}/{state.assignment.executable}"):
+        return elsewhere(state) or Action(BUILD, "executable")
+    if _other_entry(state):
+        found = say("setup.py has changed since the last build")
+        return Action(BUILD, "build.stale", found=found)
+    if _other_copy(state):
+        found = say("the build has an older copy of {file}", file=state.assignment.node_file)
+        why = say("With --symlink-install the build links to your file instead of copying it.")
+        return Action(BUILD, "build.old_copy", found=found, hints=(why,))
+    return None
+
+
+def elsewhere(state: StudentState) -> Action | None:
+    """Return the action for a build in another folder than the workspace."""
+    folders = {"~/ros2_ws/src": state.workspace / "src"}
+    folders[f"~/ros2_ws/src/{state.assignment.package}"] = state.package
+    if state.home is not None:
+        folders["~"] = state.home
+    for name, folder in folders.items():
+        if (folder / "install").is_dir() and (folder / "build").is_dir():
+            return Action(
+                f"cd {name} && rm -r build install log; {BUILD}",
+                "build.elsewhere",
+                found=say("you built in {folder}", folder=name),
+                hints=(say("colcon builds in the folder in which it is called."),),
+            )
+    return None
+
+
+def _other_entry(state: StudentState) -> bool:
+    """Whether the last build read another target of the executable from setup.py."""
+    assignment = state.assignment
+    line = f"{assignment.executable}={assignment.target}"
+    texts = [state.read(file).decode("utf-8", "replace") for file in _entry_files(state)]
+    return bool(texts) and not any(line in text.replace(" ", "") for text in texts)
+
+
+def _entry_files(state: StudentState) -> Iterator[Path]:
+    name = state.assignment.package
+    yield from (state.workspace / "build" / name).glob("*.egg-info/entry_points.txt")
+    yield from _site(state, "*-info/entry_points.txt")
+
+
+def _other_copy(state: StudentState) -> bool:
+    """Whether the build installed a copy of the node's file that differs from it."""
+    inner = f"{state.assignment.package}/{state.assignment.node_file}"
+    copies = [file for file in _site(state, inner) if not file.is_symlink()]
+    return any(state.read(file) != state.read(state.node) for file in copies)
+
+
+def _site(state: StudentState, pattern: str) -> Iterator[Path]:
+    install = state.workspace / "install"
+    for folder in (install / state.assignment.package, install):
+        yield from folder.glob(f"lib/python3*/site-packages/{pattern}")

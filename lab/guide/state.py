@@ -1,0 +1,92 @@
+"""The input of the guide: the workspace, the assignment and the environment of a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from grader.base.i18n.translator import SOURCE
+from grader.course.assignment import Assignment
+from grader.package.source.node import NodeSource, read_node
+from grader.package.submission import Submission
+from grader.report.model import CheckResult
+from grader.verdict.static import static_results
+from grader.verdict.take_in import take_in_for
+from lab.guide.action import Action
+
+MAX_BYTES = 200_000
+
+
+@dataclass(frozen=True)
+class StudentState:
+    """The input of the tests of the steps. `home` is None if only the workspace counts.
+
+    `passed` is whether the package once had full marks, `lang` the student's language, `failed`
+    what the last check found. It reads files when they are needed and
+    keeps what it read: make a new one for each look.
+    """
+
+    workspace: Path
+    assignment: Assignment
+    environment: Mapping[str, str]
+    home: Path | None = None
+    passed: bool = False
+    lang: str = SOURCE
+    failed: Action | None = None
+    _read: dict[Path, bytes] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def package(self) -> Path:
+        """The package's folder."""
+        return self.workspace / "src" / self.assignment.package
+
+    @property
+    def inner(self) -> Path:
+        """The folder of the package's modules."""
+        return self.package / self.assignment.package
+
+    @property
+    def node(self) -> Path:
+        """The node's file."""
+        return self.inner / self.assignment.node_file
+
+    @cached_property
+    def submission(self) -> Submission:
+        """What the marking would take in from the workspace."""
+        return take_in_for(self.assignment, self.workspace)
+
+    @cached_property
+    def results(self) -> dict[str, CheckResult]:
+        """The results of the checks that the files decide, by kind of check, in `lang`."""
+        if not self.workspace.is_dir():
+            return {}
+        kinds = {use.id: use.kind for use in self.assignment.checks}
+        found = static_results(self.submission, self.assignment, lang=self.lang)
+        return {kinds[each]: result for each, result in reversed(found.items())}
+
+    @cached_property
+    def source(self) -> NodeSource | None:
+        """The source of the node: its file, and the modules of the package that it imports."""
+        assignment = self.assignment
+        path = f"{assignment.package}/{assignment.node_file}"
+        return read_node(
+            lambda path: self.read(self.package / path) or None, path, assignment.function
+        )
+
+    def installed(self, path: str, package: str = "") -> bool:
+        """Whether a build has installed this path (isolated or merged install layout)."""
+        install = self.workspace / "install"
+        folders = (install / (package or self.assignment.package), install)
+        return any((folder / path).exists() for folder in folders)
+
+    def read(self, path: Path) -> bytes:
+        """Return the first MAX_BYTES of a file; nothing if it cannot be read."""
+        if path not in self._read:
+            try:
+                with path.open("rb") as stream:
+                    self._read[path] = stream.read(MAX_BYTES)
+            except OSError:
+                self._read[path] = b""
+        return self._read[path]
