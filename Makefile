@@ -7,9 +7,9 @@
 SHELL := /bin/sh
 
 # A variable's raw text reaches the recipes through the environment; nothing expands it.
-VARIABLES := STUDENT PACKAGE ASSIGNMENT DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
+VARIABLES := STUDENT PACKAGE ASSIGNMENT LESSON DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
   PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS CANVAS_COLUMN \
-  GRADE_COLUMN FEEDBACK_COLUMN ACCEPT SCHEDULER APPLY KEYS GRADER_COURSE GRADER_ASSIGNMENT
+  GRADE_COLUMN FEEDBACK_COLUMN ACCEPT SCHEDULER APPLY HINTS EXPLAIN KEYS GRADER_COURSE GRADER_ASSIGNMENT
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
@@ -47,9 +47,9 @@ setup:  ## Make the grader's environment and the ROS prefix, once (DISTRO=jazzy)
 	@$(BOOTSTRAP)
 	@$(GRADER) prefix $${DISTRO:+--distro "$$DISTRO"}
 
-lab:  ## Open a ROS 2 terminal with the course's guide (DISTRO=jazzy WORKSPACE=~/ros2_ws)
+lab:  ## Open a ROS 2 terminal with the course's guide (LESSON=id DISTRO=jazzy WORKSPACE=~/ros2_ws)
 	@$(BOOTSTRAP)
-	@.venv/bin/python -m lab $(OPTIONS) $${WORKSPACE:+--workspace "$$WORKSPACE"}
+	@.venv/bin/python -m lab $(OPTIONS) $${LESSON:+--lesson "$$LESSON"} $${WORKSPACE:+--workspace "$$WORKSPACE"}
 
 images:  ## Build the Docker images of a distro and list them with their sizes (DISTRO=jazzy BASE=ros)
 	@$(BOOTSTRAP)
@@ -77,9 +77,10 @@ grade-all:  ## Mark a class: make grade-all SUBMISSIONS=path [ROSTER=csv] [REGRA
 	  $${CANVAS_COLUMN:+--canvas-column "$$CANVAS_COLUMN"} $${ACCEPT:+--accept "$$ACCEPT"} \
 	  $${SCHEDULER:+--scheduler "$$SCHEDULER"} -- "$$SUBMISSIONS"
 
-check:  ## Check your own package before you submit it: make check [PACKAGE=path]
+check:  ## Check your own package before you submit it: make check [PACKAGE=path] [HINTS=n] [EXPLAIN=1]
 	@$(BOOTSTRAP)
-	@$(GRADER) check $(OPTIONS) $${PACKAGE:+-- "$$PACKAGE"}
+	@GRADER_HINT_COMMAND='make check HINTS={n}' $(GRADER) check $(OPTIONS) \
+	  $${HINTS:+--hints "$$HINTS"} $${EXPLAIN:+--explain} $${PACKAGE:+-- "$$PACKAGE"}
 
 fix:  ## Show fixes for your own package, or apply them: make fix [PACKAGE=path] [APPLY=1]
 	@$(BOOTSTRAP)

@@ -33,6 +33,8 @@ NOT_IMPORTED = (
     "bootstrap",
     "probe",
     "in_probe",
+    "bridge",
+    "turtlesim_programs",
     "ros2_command",
     "cluster",
     "cluster_worker",

@@ -111,7 +111,7 @@ VARIABLES = {
         **{"FEEDBACK_COLUMN": "--feedback-column", "CANVAS_COLUMN": "--canvas-column"},
         **{"ACCEPT": "--accept", "SCHEDULER": "--scheduler", "SUBMISSIONS": "--"},
     },
-    "check": {**OPTIONS, "PACKAGE": "--"},
+    "check": {**OPTIONS, "HINTS": "--hints", "PACKAGE": "--"},
     "fix": {**OPTIONS, "PACKAGE": "--"},
     "validate": {
         "DISTRO": "--distro",
@@ -152,6 +152,7 @@ def test_every_variable_is_an_option_and_passed_as_data(
 
 
 def test_switches_are_set_by_a_variable(given: Given) -> None:
+    assert given("check", "EXPLAIN=1")[0] == ["check", "--explain"]
     assert given("grade-all", "SUBMISSIONS=x", "REGRADE=1")[0] == [
         "grade-all",
         "--regrade",
