@@ -74,7 +74,7 @@ def _cell(package: Package, column: str) -> tuple[Report | None, str]:
         assert_verdict(package, report)
     except AssertionError as error:
         said = "not as expected: " + f"{error}\n".splitlines()[0].replace("|", "/")[:120]
-    left = [line for pid, line in processes.descendants().items() if pid not in before]
+    left = list(processes.descendants(without=before).values())
     return report, said or (f"left over: {left[0][:60]}" if left else "")
 
 

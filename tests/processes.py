@@ -120,8 +120,12 @@ def wait_until_asleep(pid: int) -> None:
         os.sched_yield()
 
 
-def descendants() -> dict[int, str]:
-    """Return the running descendants of this process with their command lines."""
+def descendants(without: Collection[int] = ()) -> dict[int, str]:
+    """Return the running descendants of this process with their command lines.
+
+    The processes `without` and their descendants are left out: a browser that other tests keep open
+    starts and ends processes at any time.
+    """
     parents: dict[int, int] = {}
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
@@ -129,7 +133,7 @@ def descendants() -> dict[int, str]:
                 state, parent = stat_fields(int(entry.name))[:2]
             except OSError:
                 continue
-            if state != "Z":
+            if state != "Z" and int(entry.name) not in without:
                 parents[int(entry.name)] = int(parent)
     found: dict[int, str] = {}
     todo = {os.getpid()}
@@ -145,7 +149,7 @@ def descendants() -> dict[int, str]:
 def wait_until_gone(before: Collection[int]) -> None:
     """Wait until this process has no descendants other than `before`; fail if one stays."""
     deadline = time.monotonic() + GONE_SECONDS
-    while left := {pid: line for pid, line in descendants().items() if pid not in before}:
+    while left := descendants(without=before):
         assert time.monotonic() < deadline, left
         time.sleep(0.02)
 

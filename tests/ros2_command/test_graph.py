@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from grader.ros.ros2_command import discovery
+
 from .graph import Graph
 
 pytestmark = pytest.mark.prefix
@@ -120,3 +122,11 @@ Subscribed topics:
 
 """
     )
+
+
+def test_a_missing_number_is_an_endpoint_that_was_not_announced() -> None:
+    participant, other = bytes(12), bytes(11) + b"\x01"
+    writers = {participant + bytes([0, 0, n, 3]) for n in (1, 2, 4)}
+    readers = {participant + bytes([0, 0, 3, 4]), other + bytes([0, 0, 1, 4])}
+    assert discovery.has_gap(writers)
+    assert not discovery.has_gap(writers | readers)

@@ -6,7 +6,11 @@ found the only other node in two thirds of the calls) or too long on a quiet one
 participants is taken from the system: each DDS participant binds two UDP ports of its domain, and
 `/proc/net/udp` lists the bound ports of this network namespace (RTPS 2.5, 9.6.2.3: 7400 + 250 ·
 domain + 10 + 2 · participant, and the next one). The wait ends when a node of each of them is
-known and nothing has changed for `SETTLED`.
+known, none of their endpoints is missing, and nothing has changed for `SETTLED` (longer on a busy
+machine, where the parts of one announcement come further apart).
+
+Fast DDS numbers the endpoints of a participant from 1 on, so a number that is missing below the
+highest one is an endpoint that was not announced yet, or one that was removed: hence the limit.
 
 As long as somebody is missing, `knock` makes them announce themselves again.
 
@@ -25,17 +29,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from .knock import knock
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
 PATIENCE = 3.5  # seconds; Fast DDS repeats a lost message of discovery after 3 s
 SETTLED = 0.06  # seconds without a change; the parts of one announcement come within 20 ms
 REMOTE = 0.5  # seconds for nodes on other machines, ros2cli's default
+GAP_PATIENCE = 1.0  # seconds for an endpoint whose number is missing
 POLL = 0.01  # seconds
 KNOCK_AGAIN = 0.1  # seconds; the endpoints of who answers come within 80 ms
 PORTS = Path("/proc/net/udp")
+LOAD = Path("/proc/loadavg")
 FIRST_PORT, PORTS_OF_DOMAIN, FIRST_OFFSET = 7400, 250, 10
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for an endpoint whose node is not known yet
 PARTICIPANT = 12  # leading bytes of a GID; the rest is the endpoint
+NUMBER = slice(12, 15)  # bytes of a GID with the endpoint's number in its participant, big-endian
 
 
 class View(NamedTuple):
@@ -57,7 +64,8 @@ def discover(node: Any) -> None:
     while (now := time.monotonic()) < start + PATIENCE:
         ports = participants_here(domain)
         if _is_everyone(last, ports):
-            if now >= least and now - since >= SETTLED:
+            waits_for_gap = now < start + GAP_PATIENCE and has_gap(last.endpoints)
+            if now >= least and not waits_for_gap and now - since >= SETTLED * _crowding():
                 return
         elif ports is not None and now - knocked >= KNOCK_AGAIN:
             knock_at_others(ports)
@@ -79,6 +87,23 @@ def view(node: Any) -> View:
             if info.node_name != UNKNOWN_NODE
         ),
     )
+
+
+def has_gap(endpoints: Iterable[bytes]) -> bool:
+    """Whether a participant lacks an endpoint with a lower number than another one of it."""
+    numbers: dict[bytes, set[int]] = {}
+    for gid in endpoints:
+        numbers.setdefault(gid[:PARTICIPANT], set()).add(int.from_bytes(gid[NUMBER], "big"))
+    return any(max(known) > len(known) for known in numbers.values())
+
+
+def _crowding() -> float:
+    """Return how many threads want to run for each core at this moment, at least 1."""
+    try:
+        runnable = int(LOAD.read_text(encoding="ascii").split()[3].partition("/")[0])
+    except (OSError, ValueError, IndexError):
+        return 1.0
+    return max(1.0, runnable / (os.cpu_count() or 1))
 
 
 def _endpoints(node: Any) -> Iterator[Any]:

@@ -56,10 +56,28 @@ def main(args: Namespace) -> None:
         raise CommandError(f"Failed to populate message fields: {error!r}") from None
     with graph.own_node(own_interrupts=True) as node:
         discover(node)  # a client finds a server at once that is known already
-        _send(node, kind, args.action_name, goal, _print_feedback if args.feedback else None)
+        _send(node, kind, args.action_name, goal, _Feedback() if args.feedback else None)
 
 
-def _send(node: Any, kind: Any, name: str, goal: Any, feedback: Any) -> None:
+class _Feedback:
+    """Prints the feedback; what comes before the server's answer to the goal is printed after it."""
+
+    def __init__(self) -> None:
+        self._held: list[Any] | None = []
+
+    def __call__(self, message: Any) -> None:
+        if self._held is None:
+            print(f"Feedback:\n    {to_yaml(message.feedback)}")
+        else:
+            self._held.append(message)
+
+    def release(self) -> None:
+        held, self._held = self._held or [], None
+        for message in held:
+            self(message)
+
+
+def _send(node: Any, kind: Any, name: str, goal: Any, feedback: _Feedback | None) -> None:
     from rclpy.action import ActionClient  # noqa: PLC0415 (slow to import)
 
     client = ActionClient(node, kind, name)
@@ -75,6 +93,8 @@ def _send(node: Any, kind: Any, name: str, goal: Any, feedback: Any) -> None:
         return
     try:
         print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        if feedback is not None:
+            feedback.release()
         future = handle.get_result_async()
         _wait(node, future)
     except KeyboardInterrupt:
@@ -106,7 +126,3 @@ def _cancel(node: Any, handle: Any) -> None:
     if not future.done() or not future.result().goals_canceling:
         raise CommandError("Failed to cancel goal")
     print("Goal canceled.")
-
-
-def _print_feedback(message: Any) -> None:
-    print(f"Feedback:\n    {to_yaml(message.feedback)}")
