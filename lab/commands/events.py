@@ -16,6 +16,7 @@ from pathlib import Path
 IGNORED = {"build", "log", "__pycache__", ".git", ".vscode"}
 DEBOUNCE = 100  # ms in which further changes belong to the same event
 STEP = 50  # ms without a change that end an event
+FIRST = 100  # ms after which the watch says that it runs: what changed before is looked at then
 CHANGED = 0  # no signal has this number
 KEPT = ("terminal", "progress.json")  # of the folder .lab
 
@@ -93,12 +94,17 @@ class Events:
             debounce=DEBOUNCE,
             step=STEP,
             stop_event=self._stop,
+            rust_timeout=FIRST,
+            yield_on_timeout=True,
             raise_interrupt=False,
             ignore_permission_denied=True,
         )
+        is_first = True
         with contextlib.suppress(OSError):
-            for _ in changes:
-                os.write(self._say, bytes([CHANGED]))
+            for found in changes:
+                if found or is_first:
+                    os.write(self._say, bytes([CHANGED]))
+                is_first = False
 
     def _counts(self, path: Path) -> bool:
         parts = path.relative_to(self._workspace).parts

@@ -261,6 +261,20 @@ def test_a_saved_file_is_noticed(watch: Watch, tmp_path: Path) -> None:
     watch.screen.expect(pexpect.EOF)
 
 
+def test_a_change_before_the_watch_runs_is_noticed(tmp_path: Path) -> None:
+    code = (
+        "import sys; from pathlib import Path; from lab.commands.events import events\n"
+        "with events(Path(sys.argv[1]), tick=3600) as stream:\n"
+        "    Path(sys.argv[1], 'saved').touch()\n"
+        "    print(next(iter(stream)))\n"
+    )
+    screen = pexpect.spawn(
+        sys.executable, ["-c", code, str(tmp_path)], cwd=processes.ROOT, timeout=30
+    )
+    screen.expect_exact("changed")
+    screen.expect(pexpect.EOF)
+
+
 def test_the_keys_do_what_the_last_line_says(watch: Watch) -> None:
     watch.press("n")
     watch.shows("Step 7 of 10")
