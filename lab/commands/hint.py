@@ -29,7 +29,7 @@ def hint(lang: str | None) -> None:
 
     with errors_in(lang):
         lab = opened_lab(lang)
-        for line in next_hint(lab, lab.task(os.environ)):
+        for line in next_hint(lab, lab.task(os.environ, look=True)):
             click.echo(line)
 
 

@@ -20,7 +20,7 @@ def status(lang: str | None) -> None:
 
     with errors_in(lang):
         lab = opened_lab(lang)
-        task = lab.task(os.environ)
+        task = lab.task(os.environ, look=True)
         kept = lab.progress()
         show("list", lab.lesson, task.actions, lab.translate, passed=kept.passed)
         if kept.checked:

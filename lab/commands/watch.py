@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
+import threading
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from grader.base.errors import GraderError
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
@@ -46,7 +50,7 @@ def watch_lesson(lang: str | None) -> int:
             show(
                 None,
                 lab.lesson,
-                lab.task(os.environ).actions,
+                lab.task(os.environ, look=True).actions,
                 lab.translate,
                 passed=lab.progress().passed,
             )
@@ -87,7 +91,7 @@ class _Watch:
         from lab.commands.events import events  # noqa: PLC0415
 
         self._screen.step(self._task)
-        with events(self._lab.workspace, tick=TICK) as stream:
+        with events(self._lab.workspace, tick=TICK) as stream, self._graph_watched():
             for event in stream:
                 if event == "q":
                     break
@@ -105,6 +109,25 @@ class _Watch:
 
     def _look(self) -> Task:
         return self._lab.task(environment_of(self._lab.workspace))
+
+    @contextlib.contextmanager
+    def _graph_watched(self) -> Iterator[None]:
+        """Look at the ROS graph again and again; what is seen changes the file of the progress."""
+        from lab.guide.graph import CONDITIONS  # noqa: PLC0415 - keeps --help fast
+
+        ended = threading.Event()
+
+        def look() -> None:
+            while not ended.wait(TICK):
+                with contextlib.suppress(OSError, GraderError):
+                    self._lab.task(environment_of(self._lab.workspace), look=True)
+
+        if any(step.done.partition(" ")[0] in CONDITIONS for step in self._lab.lesson.steps):
+            threading.Thread(target=look, daemon=True).start()
+        try:
+            yield
+        finally:
+            ended.set()
 
     def _changed(self) -> None:
         """Show the step again if something about it is new."""

@@ -47,7 +47,7 @@ def command(workspace: Path, assignment: str | None, lang: str | None, what: str
         show(
             what,
             lab.lesson,
-            lab.task(os.environ).actions,
+            lab.task(os.environ, look=what is None or what == "list").actions,
             lab.translate,
             passed=lab.progress().passed,
         )

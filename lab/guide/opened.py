@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from grader.course.find import assignment_file
 from grader.course.load import load_assignment
 from grader.ros.distro import DEFAULT, find_distro
 from lab.guide.action import Action
+from lab.guide.graph import sees
 from lab.guide.lesson import Lesson, lesson_file, read_lesson
 from lab.guide.predicates import current, next_actions
 from lab.guide.progress import FailedCheck, LessonProgress, keep_progress, read_progress
@@ -42,9 +44,23 @@ class OpenedLab:
     lesson: Lesson
     translate: Translator
 
-    def task(self, environment: Mapping[str, str]) -> Task:
-        """Return the current step, from the files as they are now and a terminal's environment."""
+    def task(self, environment: Mapping[str, str], *, look: bool = False) -> Task:
+        """Return the current step, from the files as they are now and a terminal's environment.
+
+        Where the step's condition is about the ROS graph, `look` asks it, which takes a second; what
+        was seen is kept if the workspace can be written to.
+        """
         kept = self.progress()
+        seen = list(kept.seen)
+
+        def saw(condition: str, name: str) -> bool:
+            if (key := f"{condition} {name}") in seen:
+                return True
+            if not (look and sees(condition, name, environment)):
+                return False
+            seen.append(key)
+            return True
+
         state = StudentState(
             self.workspace,
             self.assignment,
@@ -53,8 +69,12 @@ class OpenedLab:
             passed=kept.passed,
             lang=self.translate.lang,
             failed=_action(kept.failed) if kept.failed is not None else None,
+            saw=saw,
         )
         actions = next_actions(state, self.lesson.steps)
+        if seen != kept.seen:
+            with contextlib.suppress(OSError):
+                self.keep(seen=seen)
         position = current(actions)
         return Task(position, actions[position - 1], actions)
 

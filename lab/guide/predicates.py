@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from grader.base.errors import UsageError
@@ -25,7 +26,7 @@ from lab.guide.builds import BUILD, built, elsewhere
 from lab.guide.code import code_action
 from lab.guide.found import mistake, node_elsewhere, other_package, package_elsewhere
 from lab.guide.lesson import Step
-from lab.guide.state import StudentState
+from lab.guide.state import StudentState, unseen
 
 
 def next_actions(state: StudentState, steps: Iterable[Step]) -> tuple[Action | None, ...]:
@@ -33,7 +34,12 @@ def next_actions(state: StudentState, steps: Iterable[Step]) -> tuple[Action | N
 
     UsageError for a step that names an unknown condition.
     """
-    return tuple(_test(step)(state) if step.done else None for step in steps)
+    actions: list[Action | None] = []
+    for step in steps:
+        if any(actions):  # the graph is asked for the current step only: that takes a second
+            state = replace(state, saw=unseen)
+        actions.append(_test(step)(state) if step.done else None)
+    return tuple(actions)
 
 
 def current(actions: Sequence[Action | None]) -> int:
@@ -243,6 +249,30 @@ def _passes(state: StudentState, kind: str) -> Action | None:
     return mistake(state, kind) or Action(say("Do what this step says."), kind)
 
 
+def _node_on_graph(state: StudentState, name: str) -> Action | None:
+    """Done once a node with this full name was seen."""
+    seen = say("the node {name} runs", name=name)
+    return None if state.saw("node_on_graph", name) else _run_and_look(state, seen, name)
+
+
+def _topic_published(state: StudentState, name: str) -> Action | None:
+    """Done once a topic with this full name had a publisher."""
+    seen = say("a node publishes {name}", name=name)
+    return None if state.saw("topic_published", name) else _run_and_look(state, seen, name)
+
+
+def _run_and_look(state: StudentState, seen: str, name: str) -> Action:
+    sourced = _overlay(state)
+    if sourced is not None:
+        return sourced
+    run = f"ros2 run {state.assignment.package} {state.assignment.executable}"
+    then = say(
+        "(leave it running, and run `guide` in a second terminal: it looks whether {seen})",
+        seen=seen,
+    )
+    return Action(joined(run, then, by="   "), f"graph {name}")
+
+
 STEPS: Mapping[str, Callable[[StudentState], Action | None]] = {
     "terminal": _terminal,
     "workspace": _workspace,
@@ -263,5 +293,7 @@ STEPS: Mapping[str, Callable[[StudentState], Action | None]] = {
 WITH_ARGUMENT: Mapping[str, Callable[[StudentState, str], Action | None]] = {
     "exists": _exists,
     "passes": _passes,
+    "node_on_graph": _node_on_graph,
+    "topic_published": _topic_published,
 }
 """The conditions that take an argument."""

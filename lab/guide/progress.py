@@ -39,7 +39,8 @@ class LessonProgress(Open):
     """What is known of one lesson; `hints` counts those that were shown, by task.
 
     `failed` is of the last check, None if it passed.
-    `step` is the position (from 1) that the student was told last, 0 if none.
+    `step` is the position (from 1) that the student was told last, 0 if none. `seen` are the
+    conditions about the ROS graph that once held, each with the name of its node or topic.
     """
 
     score: float = 0
@@ -50,6 +51,7 @@ class LessonProgress(Open):
     step: int = 0
     failed: FailedCheck | None = None
     hints: dict[str, int] = Field(default_factory=dict)
+    seen: list[str] = Field(default_factory=list)
 
 
 class Progress(Open):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -19,13 +19,19 @@ from lab.guide.action import Action
 MAX_BYTES = 200_000
 
 
+def unseen(*_: str) -> bool:
+    """Whether a condition about the ROS graph holds, for who does not look."""
+    return False
+
+
 @dataclass(frozen=True)
 class StudentState:
     """The input of the tests of the steps. `home` is None if only the workspace counts.
 
     `passed` is whether the package once had full marks, `lang` the student's language, `failed`
-    what the last check found. It reads files when they are needed and
-    keeps what it read: make a new one for each look.
+    what the last check found. `saw` tells whether a condition of `graph.CONDITIONS` holds, or once
+    held, for a node or topic. It reads files when they are needed and keeps what it read: make a new
+    one for each look.
     """
 
     workspace: Path
@@ -35,6 +41,7 @@ class StudentState:
     passed: bool = False
     lang: str = SOURCE
     failed: Action | None = None
+    saw: Callable[[str, str], bool] = unseen
     _read: dict[Path, bytes] = field(default_factory=dict, compare=False, repr=False)
 
     @property
