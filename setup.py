@@ -38,5 +38,11 @@ setup(
     description="A ROS 2 teaching lab, and the autograder that marks its exercises.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"], "cluster": ["distributed"]},
-    entry_points={"console_scripts": ["grader = grader.cli.main:main"]},
+    entry_points={
+        "console_scripts": ["grader = grader.cli.main:main"],
+        "ros2cli.command": [
+            "lab = grader.ros.ros2_command.extensions:LabCommand",
+            "grade = grader.ros.ros2_command.extensions:GradeCommand",
+        ],
+    },
 )

@@ -2,7 +2,8 @@
 # Builds and tests all distros and bases on a machine with access to a registry, and prints the table
 # for the README:  docker/all.sh [DISTRO...]
 # For each: builds both images, marks the solutions of all lessons in a container (they must get full
-# marks), and runs `ros2 pkg prefix` in the lab. WHEELS_BASE names another image for the base `wheels`.
+# marks), and runs `ros2 pkg prefix`, `ros2 lab` and `ros2 grade` in the lab. WHEELS_BASE names
+# another image for the base `wheels`.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 python3 grader/bootstrap.py || exit 3
@@ -32,7 +33,8 @@ for distro in "$@"; do
           >> "$log/$distro-$base.log" 2>&1 || marked=no
       done
       docker run --rm "$GRADER_IMAGES:lab-$distro$suffix" bash -c \
-        ". /opt/ros/$distro/setup.bash && ros2 pkg prefix rclpy" >> "$log/$distro-$base.log" 2>&1 &&
+        ". /opt/ros/$distro/setup.bash && ros2 pkg prefix rclpy && \
+        . /opt/ros2_teaching_lab/lab/shell/environment.bash && ros2 lab --help && ros2 grade --help" >> "$log/$distro-$base.log" 2>&1 &&
         lab=yes
     fi
     size() { docker image inspect --format '{{.Size}}' "$1" 2> /dev/null | awk '$1 {printf "%.0f MB", $1 / 1e6}'; }

@@ -341,7 +341,7 @@ say(x=first.x, y=first.y, speed=mimicking.linear_velocity)
     assert ended(square)[0] == 0
 
 
-@pytest.mark.full
+@pytest.mark.long  # it makes another prefix
 def test_kilted_has_the_package_beside_that_of_the_messages(tmp_path: Path) -> None:
     kilted = Terminals(proven_ros(find_distro("kilted"), interfaces=True).path, tmp_path)
     try:

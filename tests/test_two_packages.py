@@ -145,13 +145,20 @@ def test_two_packages_get_full_marks(tmp_path: Path) -> None:
 
 
 @pytest.mark.prefix
-@pytest.mark.full
 @pytest.mark.parametrize(
     ("relay", "failed"),
     [
-        (RELAY.replace("2 * number", "3 * number"), {"relay.says": "topic.wrong_value"}),
-        (None, {"relay.there": "beside.missing"}),
-        (RELAY.replace("'/out'", "'/uot'"), {"relay.type": "topic.wrong_name"}),
+        pytest.param(
+            RELAY.replace("2 * number", "3 * number"),
+            {"relay.says": "topic.wrong_value"},
+            marks=pytest.mark.full,
+        ),
+        pytest.param(None, {"relay.there": "beside.missing"}, marks=pytest.mark.long),
+        pytest.param(
+            RELAY.replace("'/out'", "'/uot'"),
+            {"relay.type": "topic.wrong_name"},
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_a_mistake_in_the_second_package_is_found(

@@ -13,6 +13,19 @@ _lab_source_ros() { . "/opt/ros/$ROS_DISTRO/setup.bash"; }
 _lab_source_ros
 unset -f _lab_source_ros
 
+# `ros2 lab` and `ros2 grade` for the real ros2cli; that of the wheels has them
+if [ -d "/opt/ros/$ROS_DISTRO/share/ros2cli" ]; then
+  case ":${PYTHONPATH:-}:" in
+    *:/opt/ros2_teaching_lab/lab/shell/ros2cli:*) ;;
+    *) export PYTHONPATH="${PYTHONPATH:+$PYTHONPATH:}/opt/ros2_teaching_lab/lab/shell/ros2cli" ;;
+  esac
+fi
+
+# without a screen the real turtlesim draws nowhere; the window shows what its topics say
+if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+  export QT_QPA_PLATFORM="${QT_QPA_PLATFORM:-offscreen}"
+fi
+
 case ":$PATH:" in
   *:/opt/ros2_teaching_lab/lab/shell/bin:*) ;;
   *) export PATH="$PATH:/opt/ros2_teaching_lab/lab/shell/bin" ;;

@@ -9,5 +9,8 @@ from .hostile_world import WORLD
 from .model import Package
 
 HOSTILE: tuple[Package, ...] = (*NODES, *SETUPS, *POINTS_ATTACKS, *WORLD)
-WAITED_FOR = ("sleeps_twice", "stops_itself", "setup_makes_unreadable_folders")
-"""Packages whose verdict is waited for, half a minute and more: `make test-long`, not CI."""
+WAITED_FOR = (
+    *("sleeps_twice", "stops_itself", "setup_makes_unreadable_folders"),
+    *("forged_lines", "setup_deaf", "deaf_for_fifteen_seconds"),
+)
+"""Packages whose verdict is waited for, ten seconds and more: `make test-long`, not CI."""

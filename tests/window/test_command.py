@@ -11,6 +11,7 @@ import subprocess
 import sys
 import urllib.error
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -98,7 +99,8 @@ def first_state(port: int, cookie: str) -> dict[str, str]:
                     socket.close()
                     return dict(message)
 
-    return asyncio.run(ask())
+    with ThreadPoolExecutor(1) as thread:  # the browser of another test has this thread's loop
+        return thread.submit(asyncio.run, ask()).result()
 
 
 @pytest.mark.full

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import os
 import shutil
-from argparse import REMAINDER
+from argparse import REMAINDER, ArgumentParser
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .parsing import Parser, Result
+    from .parsing import Result
 
 
-def add_arguments(parser: Parser) -> None:
-    """Declare the words that the program gets."""
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the words that the program gets, options and -h included."""
+    parser.prefix_chars = "\0"  # no word begins with it
     parser.add_argument("words", nargs=REMAINDER, help="Arguments of the lab's own command")
 
 
