@@ -41,8 +41,8 @@ setup(
     entry_points={
         "console_scripts": ["grader = grader.cli.main:main"],
         "ros2cli.command": [
-            "lab = grader.ros.ros2_command.extensions:LabCommand",
-            "grade = grader.ros.ros2_command.extensions:GradeCommand",
+            "lab = grader.cli.ros2cli_extensions:LabCommand",
+            "grade = grader.cli.ros2cli_extensions:GradeCommand",
         ],
     },
 )

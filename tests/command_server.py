@@ -36,6 +36,7 @@ NOT_IMPORTED = (
     "bridge",
     "turtlesim_programs",
     "ros2_command",
+    "ros2cli_extensions",
     "cluster",
     "cluster_worker",
 )

@@ -26,9 +26,10 @@ if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   export QT_QPA_PLATFORM="${QT_QPA_PLATFORM:-offscreen}"
 fi
 
+export LAB_PROGRAMS=/opt/ros2_teaching_lab/lab/shell/bin
 case ":$PATH:" in
-  *:/opt/ros2_teaching_lab/lab/shell/bin:*) ;;
-  *) export PATH="$PATH:/opt/ros2_teaching_lab/lab/shell/bin" ;;
+  *":$LAB_PROGRAMS:"*) ;;
+  *) export PATH="$PATH:$LAB_PROGRAMS" ;;
 esac
 
 if [ -z "${EDITOR:-}" ]; then

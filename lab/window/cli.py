@@ -67,4 +67,4 @@ def command(port: int, host: str, no_open: bool, lang: str | None) -> int:
 def _has_browser() -> bool:
     """Whether a browser can be opened from here: a desktop, and not in the lab."""
     desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
-    return bool(desktop) and not os.environ.get("LAB_WORKSPACE")
+    return bool(desktop) and not os.environ.get("LAB_PROGRAMS")

@@ -122,7 +122,7 @@ def bridge_environment(environment: Mapping[str, str]) -> dict[str, str]:
 
 def _overlay(environment: Mapping[str, str]) -> str:
     """Return the set-up file of the lab's workspace, which has the student's own interfaces."""
-    if not environment.get("LAB_WORKSPACE"):
+    if not environment.get("LAB_PROGRAMS"):
         return ""  # not in the lab: what the terminal has sourced
     return str(Path(environment.get("HOME", "/"), OVERLAY))
 

@@ -111,6 +111,23 @@ def test_a_user_with_another_id_can_use_composes_lab(tmp_path: Path) -> None:
     assert (tmp_path / "hello" / "package.xml").stat().st_uid == 1234
 
 
+def test_files_outside_the_workspace_come_back_in_the_next_lab(workspace: Path) -> None:
+    def type_(line: str) -> str:
+        words = ("run", "--rm", "-T", "lab", "bash", "-ic", line)
+        done = compose(*words, env={"WORKSPACE": str(workspace)})
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    kept = "Your files outside ~/ros2_ws ({}) are kept in ~/ros2_ws/.lab/home"
+    said = type_("mkdir ~/notes; echo one > ~/'my file'; echo two > ~/notes/a; touch ~/.hidden")
+    assert kept.format("my file notes/a") in said
+    said = type_("cat ~/'my file' ~/notes/a; test -e ~/.hidden && rm ~/'my file'")
+    assert said.startswith("one\ntwo\n")
+    assert kept.format("notes/a") in said
+    assert "my file" not in type_("ls ~")
+    assert type_("rm -r ~/notes") == ""
+
+
 @pytest.fixture
 def built(client: DockerClient) -> Iterator[str]:
     """The repository for images that a test builds, removed after it."""

@@ -299,7 +299,8 @@ def test_the_labs_programs_are_commands_of_ros2_too(
     assert outside.status == 1
     assert "make lab" in outside.stderr
     text = '#!/bin/sh\necho "$0 $*"\nexit 5\n'
-    write_script(jazzy.prefix / "bin" / program, text)
-    inside = jazzy.ros2(command, "status", "--lang", "ko", environment={"LAB_WORKSPACE": "/ws"})
+    write_script(jazzy.prefix / "lab" / program, text)
+    lab = {"LAB_PROGRAMS": str(jazzy.prefix / "lab")}
+    inside = jazzy.ros2(command, "status", "--lang", "ko", environment=lab)
     assert (inside.status, inside.stderr) == (5, "")
     assert inside.stdout.endswith(f"{program} status --lang ko\n")

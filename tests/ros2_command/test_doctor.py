@@ -96,7 +96,7 @@ def test_what_the_lab_does_not_have_is_said_in_one_line(
 
 def _shell(folder: Path) -> Path:
     """Copy the lab's shell files to a folder, and correct the path at which the lab has them."""
-    shutil.copytree(SHELL, folder)
+    shutil.copytree(SHELL, folder, ignore=shutil.ignore_patterns("__pycache__"))
     for file in folder.rglob("*"):
         if file.is_file():
             text = file.read_text().replace("/opt/ros2_teaching_lab/lab/shell", str(folder))

@@ -42,7 +42,7 @@ def env(tmp_path: Path) -> dict[str, str]:
     for name in ("lab", "check"):
         (programs / name).write_text(PROGRAM, encoding="ascii")
         (programs / name).chmod(0o755)
-    return {"PATH": f"{programs}:{os.environ['PATH']}", "LAB_WORKSPACE": str(tmp_path)}
+    return {"LAB_PROGRAMS": str(programs)}
 
 
 @pytest.fixture
@@ -73,7 +73,7 @@ def test_ros2cli_finds_them(
 
 
 def test_outside_of_a_lab_grade_marks_and_lab_says_where(ros2cli: Path) -> None:
-    env = {"PYTHONPATH": f"{ros2cli}:{FOLDER}:{processes.ROOT}", "LAB_WORKSPACE": ""}
+    env = {"PYTHONPATH": f"{ros2cli}:{FOLDER}:{processes.ROOT}", "LAB_PROGRAMS": ""}
     call = [sys.executable, "-c", CONTRACT]
     done = processes.run([*call, "grade", "--help"], env=env)
     assert done.returncode == 0
@@ -87,7 +87,7 @@ def test_the_projects_own_installation_has_the_same_commands() -> None:
     setup = (processes.ROOT / "setup.py").read_text(encoding="utf-8")
     points = (FOLDER / "ros2_teaching_lab_command-1.dist-info/entry_points.txt").read_text()
     for line in points.splitlines()[1:]:
-        assert line.replace("ros2_teaching_lab_command.", "grader.ros.ros2_command.") in setup
+        assert line.replace("ros2_teaching_lab_command.", "grader.") in setup
 
 
 @pytest.mark.prefix

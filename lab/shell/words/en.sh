@@ -6,6 +6,7 @@ lab_guide='    guide   shows what to do next, step by step\n'
 lab_check="    check   runs the same checks as your instructor\n"
 lab_fix="    fix     shows how to fix what check has found\n"
 lab_exit='    exit    leaves the lab\n'
+lab_home_is_kept='Your files outside ~/ros2_ws (%s) are kept in ~/ros2_ws/.lab/home and come back in the next lab.\n'
 lab_no_editor='  There is no editor here: edit your files outside the lab, or install nano.\n'
 lab_code_outside='VS Code runs outside the lab. Open this folder in VS Code on your machine:\n  %s\n'
 lab_some_folder='your workspace folder'

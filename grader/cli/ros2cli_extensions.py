@@ -1,6 +1,6 @@
 """`ros2 lab` and `ros2 grade` as extensions of the real ros2cli (entry point group `ros2cli.command`).
 
-In the lab's image this package is also found as `ros2_teaching_lab_command`, see
+In the lab's image `grader` is found as `ros2_teaching_lab_command`, see
 lab/shell/ros2cli. Where the project is installed outside of a lab, `ros2 grade` marks a package.
 """
 
@@ -11,11 +11,11 @@ from argparse import ArgumentParser, Namespace
 
 from ros2cli.command import CommandExtension  # type: ignore[import-not-found]
 
-from . import lab_program
+from ..ros.ros2_command import lab_program
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from .parsing import Result
+    from ..ros.ros2_command.parsing import Result
 
 
 class LabCommand(CommandExtension):  # type: ignore[misc]
@@ -41,7 +41,7 @@ class GradeCommand(CommandExtension):  # type: ignore[misc]
     def main(self, *, parser: ArgumentParser, args: Namespace) -> Result:
         """Run `check` or `grader grade` with these arguments; return the exit status."""
         del parser
-        if os.environ.get("LAB_WORKSPACE"):
+        if os.environ.get("LAB_PROGRAMS"):
             return lab_program.run("check", args.words)
         from grader.cli.main import main  # noqa: PLC0415 - in the lab's image it is not found
 

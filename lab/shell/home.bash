@@ -1,0 +1,42 @@
+# Where only the workspace is kept (docker compose, the dev container), the files that a student
+# makes in the rest of the home are copied into the workspace when a terminal ends, and back when the
+# next lab begins. Caches are not.
+_lab_kept=~/ros2_ws/.lab/home
+
+_lab_restore_home() {
+  [ ! -e ~/.lab_opened ] || return 0  # by the first terminal of this lab
+  [ ! -d "$_lab_kept" ] || cp -a "$_lab_kept/." ~/
+  : > ~/.lab_opened
+}
+
+# Prints the files to keep, each ended by a null byte: changed ones, and those kept last time.
+_lab_own_files() {
+  local file
+  {
+    find . \( -path ./ros2_ws -o -path ./.cache -o -path ./.ros -o -path ./.vscode-server \) -prune \
+      -o -type f -newer .lab_opened -print0
+    [ ! -d "$_lab_kept" ] || (cd "$_lab_kept" && find . -type f -print0)
+  } | sort -zu | while IFS= read -r -d '' file; do
+    [ ! -f "$file" ] || printf '%s\0' "$file"
+  done
+}
+
+_lab_keep_home() {
+  local new names
+  mkdir -p ~/ros2_ws/.lab && new=$(mktemp -d ~/ros2_ws/.lab/home.XXXXXX) || return
+  if (cd ~ && set -o pipefail && _lab_own_files | tar -c --null -T - | tar -x -C "$new"); then
+    rm -rf "$_lab_kept"
+    mv "$new" "$_lab_kept"
+    names=$(cd "$_lab_kept" && find . -type f -not -path './.*' -printf '%P\n' | sort | head -n 5 |
+      paste -sd ' ')
+    [ -z "$names" ] || (
+      . /opt/ros2_teaching_lab/lab/shell/words/load.sh
+      printf "$lab_home_is_kept" "$names"
+    )
+  else
+    rm -rf "$new"
+  fi
+}
+
+_lab_restore_home
+trap _lab_keep_home EXIT
