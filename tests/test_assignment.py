@@ -130,6 +130,9 @@ def test_all_errors_are_reported_at_once_in_line_order(tmp_path: Path) -> None:
         ("limits:", "? [a]\n: 1\nlimits:", 12, "a key must be text"),
         ("schema: 1", "---\nschema: 1\n---", 3, "not YAML"),
         ("schema: 1", "schema: 1\nsha256: 00", 2, "unknown key 'sha256'"),
+        ("schema: 1", "schema: 1\narchive: a/b.zip", 2, "archive must be a file name"),
+        ("schema: 1", "schema: 1\narchive: '{name}.zip'", 2, "archive must be a file name"),
+        ("schema: 1", "schema: 1\narchive: a.tar", 2, "ends in .zip"),
     ],
 )
 def test_a_wrong_value_is_reported_with_its_line(

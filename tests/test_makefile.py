@@ -330,6 +330,23 @@ def test_without_a_network_the_first_run_says_only_that(tmp_path: Path) -> None:
     assert not (tmp_path / "checkout/.venv/stamp").exists()
 
 
+def test_the_folder_lab_run_by_another_python_opens_the_lab(tmp_path: Path) -> None:
+    python = Path(sys.base_prefix) / "bin/python3"
+    done = processes.run([python, processes.ROOT / "lab", "--help"], cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "--workspace" in done.stdout
+
+
+@pytest.mark.long  # it makes an environment
+def test_the_folder_lab_of_a_new_checkout_sets_itself_up(tmp_path: Path) -> None:
+    clone = tmp_path / "checkout"
+    processes.run(["git", "clone", "--quiet", processes.ROOT, clone])
+    done = processes.run([Path(sys.base_prefix) / "bin/python3", clone / "lab", "--help"])
+    assert done.returncode == 0, done.stderr
+    assert "setting up the grader's Python environment" in done.stderr
+    assert "--workspace" in done.stdout
+
+
 @pytest.mark.long  # it makes an environment and a prefix
 @pytest.mark.prefix
 def test_a_bare_machine_can_mark_in_a_checkout_with_a_path_too_long_for_a_shebang(

@@ -84,6 +84,7 @@ class Lesson(Part):
     checks: tuple[CheckUse, ...]
     policy: Policy = Field(default_factory=Policy)
     feedback: FeedbackRules = Field(default_factory=FeedbackRules)
+    archive: str = ""
 
     def assignment(self) -> Assignment:
         """Return the assignment; its main node is the first that the first run starts."""
@@ -105,6 +106,7 @@ class Lesson(Part):
             checks=self.checks,
             policy=self.policy,
             feedback=self.feedback,
+            archive=self.archive,
             nodes=self.nodes,
             runs=self.runs,
             interface_packages=self.interface_packages,
@@ -115,7 +117,8 @@ class Assignment(Part):
     """One assignment; `course/load.py` reads it from a file.
 
     Of schema 1, it has one node that counts (`output`) and no `nodes` and `runs`; of schema 2, the
-    names are those of the main node.
+    names are those of the main node. `archive` is the name of the file that `lab submit` makes, with
+    `{student}` for the student's name; "" for `<id>.zip`.
     """
 
     schema_: Literal[1, 2] = Field(alias="schema")
@@ -135,6 +138,7 @@ class Assignment(Part):
     checks: tuple[CheckUse, ...]
     policy: Policy = Field(default_factory=Policy)
     feedback: FeedbackRules = Field(default_factory=FeedbackRules)
+    archive: str = ""
     sha256: str = ""
     nodes: dict[str, Node] = Field(default_factory=dict)
     runs: tuple[RunPlan, ...] = ()

@@ -15,7 +15,7 @@ from grader.base.positioned_yaml import read_yaml
 from grader.course.assignment import OWN, Assignment
 from grader.course.rules import KnownChecks, check_content, merge_hidden
 
-AFTERWARDS = ("policy", "feedback")  # what changes no verdict
+AFTERWARDS = ("policy", "feedback", "archive")  # what changes no verdict
 BEFORE = ("id", "points", "visibility")  # of a check, in schema 1
 
 
@@ -85,7 +85,7 @@ def _without_own(assignment: Assignment) -> Assignment:
 def _digest(assignment: Assignment) -> str:
     """Return a hash of the content, which does not depend on the layout of the files.
 
-    The policy and the feedback are left out: a later due date changes no verdict.
+    The policy, the feedback and the archive's name are left out: they change no verdict.
     """
     content = assignment.model_dump(mode="json", by_alias=True, exclude={"sha256", *AFTERWARDS})
     if assignment.own_checks:

@@ -31,6 +31,7 @@ from grader.course.scenario import (
 from grader.report.detail import FeedbackRules
 
 # REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
+ARCHIVE = r"(?!\.)(?:[\w.-]|\{student\}){1,100}\.zip"
 NAMES = {  # key: its pattern, and the pattern in words
     "id": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
     "package": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
@@ -337,6 +338,12 @@ def _names(assignment: Assignment) -> Iterator[Fault]:
         reserved = [part for part in parts if keyword.iskeyword(part)]
         if reserved and key in ("package", "node_file", "target"):
             yield (key,), f"{key}: '{reserved[0]}' is a Python keyword"
+    if assignment.archive and not re.fullmatch(ARCHIVE, assignment.archive, re.ASCII):
+        yield (
+            ("archive",),
+            "archive must be a file name of letters, digits, '.', '_', '-' and {student} that ends "
+            f"in .zip, not '{assignment.archive}'",
+        )
     if assignment.package == "test":
         yield ("package",), "package: an ament_python package cannot be named 'test'"
     if not assignment.title.strip():

@@ -69,6 +69,13 @@ KINDS = (
          msg("The script of a renamed entry stays in install/, but no longer finds its entry."),
          msg("Delete the folders build and install of the workspace, and build again."),
          seen=r"^StopIteration$"),
+    _lab("built_both_ways", msg("The workspace was built with and without --symlink-install"),
+         msg("Without --symlink-install, colcon copies the files of an interface package into build/; "
+             "with it, colcon makes links there. It does not replace a folder by a link."),
+         msg("Delete the folders build and install of the workspace, and build again, from now on "
+             "always with: colcon build --symlink-install"),
+         seen=r"failed to create symbolic link '?(?P<path>[^'\n]{1,300}?)'? because existing path "
+              r"cannot be removed"),
     _lab("old_build", msg("The node still does what it did before the change"),
          msg("Without --symlink-install, colcon copies the files: a change has no effect until "
              "the next build."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from lab.guide.opened import OpenedLab
 
 FOLDER = "submit"
+STUDENT = "{student}"  # in the name that the instructor wants
+NAME = re.compile(r"[\w-][\w.-]{0,59}")
 FIRST_TIME = (1980, 1, 1, 0, 0, 0)  # the earliest that a zip can have: equal files, equal archive
 
 
@@ -29,8 +32,13 @@ FIRST_TIME = (1980, 1, 1, 0, 0, 0)  # the earliest that a zip can have: equal fi
         "bits. It is written to ~/ros2_ws/submit and read back as your instructor's grader will."
     )
 )
+@click.option(
+    "--name",
+    metavar="NAME",
+    help=msg("Your name in the archive's name, if your instructor wants it there. It is kept."),
+)
 @options.lang
-def submit(lang: str | None) -> None:
+def submit(name: str | None, lang: str | None) -> None:
     """Write the archive and print its path on the student's machine."""
     import os  # noqa: PLC0415
 
@@ -39,8 +47,9 @@ def submit(lang: str | None) -> None:
 
     with errors_in(lang):
         lab = opened_lab(lang)
-        file = write_archive(lab)
-        lab.keep(submitted=f"{FOLDER}/{file.name} {now()}")
+        student = lab.progress().student if name is None else name
+        file = write_archive(lab, student)
+        lab.keep(submitted=f"{FOLDER}/{file.name} {now()}", student=student)
         outside = os.environ.get("LAB_WORKSPACE")
         place = Path(outside) / FOLDER / file.name if outside else file
         click.echo(lab.translate(say("Hand in this file: {path}", path=shown(str(place)))))
@@ -55,10 +64,10 @@ def submit(lang: str | None) -> None:
             )
 
 
-def write_archive(lab: OpenedLab) -> Path:
-    """Write the archive of the lab's lesson; return its path. UsageError if there is no package.
+def write_archive(lab: OpenedLab, student: str = "") -> Path:
+    """Write the archive of the lab's lesson; return its path.
 
-    SurroundingsError if the archive, read back, is not what is in the workspace.
+    UsageError if there is no package, or the student's name is needed and is none. SurroundingsError if the archive, read back, is not what is in the workspace.
     """
     from grader.base.errors import SurroundingsError  # noqa: PLC0415
     from grader.base.folder import Folder  # noqa: PLC0415
@@ -67,7 +76,7 @@ def write_archive(lab: OpenedLab) -> Path:
     found = take_in_for(lab.assignment, lab.workspace)
     if found.root is None:
         raise UsageError(found.problem, remedy=found.problem_fix)
-    name = f"{lab.assignment.id}.zip"
+    name = _name(lab, student)
     with Folder.open(lab.workspace) as root:
         if root.kind(FOLDER) == "":
             (lab.workspace / FOLDER).mkdir()
@@ -81,6 +90,22 @@ def write_archive(lab: OpenedLab) -> Path:
             remedy=say("Save your files, and run `lab submit` again."),
         )
     return file
+
+
+def _name(lab: OpenedLab, student: str) -> str:
+    """Return the archive's name, as the instructor wants it."""
+    name = lab.assignment.archive or f"{lab.assignment.id}.zip"
+    if STUDENT not in name:
+        return name
+    again = say("Run: {command}", command="lab submit --name ada-lovelace")
+    if not student:
+        raise UsageError(say("your instructor wants your name in the archive's name"), remedy=again)
+    if NAME.fullmatch(student) is None:
+        raise UsageError(
+            say("--name takes letters, digits, '_', '-' and '.', not {name}", name=shown(student)),
+            remedy=again,
+        )
+    return name.replace(STUDENT, student)
 
 
 def _zipped(found: Submission) -> bytes:

@@ -40,7 +40,8 @@ class LessonProgress(Open):
 
     `failed` is of the last check, None if it passed.
     `step` is the position (from 1) that the student was told last, 0 if none. `seen` are the
-    conditions about the ROS graph that once held, each with the name of its node or topic.
+    conditions about the ROS graph that once held, each with the name of its node or topic. `student`
+    is the name for the archive.
     """
 
     score: float = 0
@@ -48,6 +49,7 @@ class LessonProgress(Open):
     passed: bool = False
     checked: str = ""
     submitted: str = ""
+    student: str = ""
     step: int = 0
     failed: FailedCheck | None = None
     hints: dict[str, int] = Field(default_factory=dict)
@@ -82,6 +84,7 @@ def keep_progress(workspace: Path, lesson: str, **changes: Any) -> LessonProgres
     """
     with Folder.open(workspace) as root, root.private(FOLDER) as folder:
         folder.lock()
+        folder.sweep()
         old = folder.read(FILE)
         progress = read_progress(workspace)
         if old is not None and not progress.lessons and not _is_empty(old):

@@ -124,6 +124,30 @@ def test_a_reset_of_the_entry_point_removes_only_the_entry(home: Path) -> None:
     assert kept.read_text() == before
 
 
+def test_the_archive_has_the_name_that_the_instructor_wants(home: Path) -> None:
+    file = home / "assignment.yaml"
+    text = (COURSE / "assignment.yaml").read_text(encoding="utf-8")
+    file.write_text(f'{text}\narchive: "{{student}}_hello.zip"\n', encoding="utf-8")
+    (home / "lesson.md").write_bytes((COURSE / "lesson.md").read_bytes())
+
+    def submit(*words: str) -> subprocess.CompletedProcess[str]:
+        return lab(home, "submit", *words, GRADER_ASSIGNMENT=str(file))
+
+    done = submit()
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "your instructor wants your name" in done.stderr
+    assert "lab submit --name" in done.stderr
+    done = submit("--name", "../ada")
+    assert done.returncode == 2
+    assert "not ../ada" in done.stderr
+    assert not (home / "ros2_ws/submit").exists()
+    for words in (("--name", "Ada-L."), ()):  # the second time it is known
+        done = submit(*words)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert "submit/Ada-L._hello.zip" in done.stdout
+    assert [file.name for file in (home / "ros2_ws/submit").iterdir()] == ["Ada-L._hello.zip"]
+
+
 @pytest.mark.parametrize(
     ("change", "env", "text"),
     [

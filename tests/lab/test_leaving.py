@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import os
 import secrets
 import shlex
 import signal
 import subprocess
+import time
 from pathlib import Path
 
 import pexpect
 import pytest
 
+from grader.base.folder import TEMPORARY
 from grader.sandbox.processes import adopt_orphans
+from lab.guide.progress import read_progress
 from tests import processes
 from tests.lab.helpers import SLOW, alive, run, start, until
 from tests.lab.kinds import Kind, containers
@@ -31,6 +35,38 @@ def test_kill_9_of_the_lab_leaves_nothing(kind: Kind, tmp_path: Path) -> None:
     if kind.sandbox == "docker":
         until(lambda: not containers(workspace))
     lab.screen.close(force=True)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("moment", range(20))
+def test_killed_at_any_moment_nothing_is_lost(kind: Kind, tmp_path: Path, moment: int) -> None:
+    """The student works and asks for hints; the lab is killed a bit later each time."""
+    adopt_orphans()
+    before = set(processes.descendants())
+    workspace = tmp_path / "ws"
+    env = {"GRADER_ASSIGNMENT": "hello_time"}
+    with Lab(kind, workspace, env=env) as lab:
+        lab.type("mkdir -p ~/ros2_ws/src; echo first > ~/ros2_ws/src/notes; lab hint > /dev/null")
+        hints = read_progress(workspace).of("hello_time").hints
+        assert sum(hints.values()) == 1
+        lab.screen.sendline(
+            "while :; do n=$((n + 1)); echo $n > ~/ros2_ws/src/new && mv ~/ros2_ws/src/{new,now}; "
+            "lab hint > /dev/null; lab status > /dev/null; done"
+        )
+        until((workspace / "src/now").exists)
+        time.sleep(0.15 * moment)  # any moment is a right one
+        os.kill(lab.screen.pid, signal.SIGKILL)
+    processes.wait_until_gone(before)
+    if kind.sandbox == "docker":
+        until(lambda: not containers(workspace))
+    assert (workspace / "src/notes").read_text() == "first\n"
+    assert int((workspace / "src/now").read_text()) >= 1
+    json.loads((workspace / ".lab/progress.json").read_text())
+    kept = read_progress(workspace).of("hello_time").hints
+    assert all(kept[task] >= count for task, count in hints.items())
+    with Lab(kind, workspace, env=env) as lab:
+        assert lab.type("cat ~/ros2_ws/src/notes; lab hint > /dev/null") == "first\n"
+    assert list((workspace / ".lab").glob(f"{TEMPORARY}*")) == []
 
 
 @pytest.mark.parametrize("name", ["KILL", "TERM"])

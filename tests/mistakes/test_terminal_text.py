@@ -51,6 +51,11 @@ SHOWN = {
     "node.main_missing": [
         "AttributeError: module 'my_robot_controller.my_first_node' has no attribute 'main'"
     ],
+    "lab.built_both_ways": [
+        "CMake Error at ament_cmake_symlink_install.cmake:1 (message):\n  failed to create symbolic "
+        "link '/home/ada/ros2_ws/build/msgs/ament_cmake_python/msgs/msgs' because existing path "
+        "cannot be removed: Is a directory\n"
+    ],
     "lab.stale_script": [TRACE + "StopIteration"],
     "package.marker_missing": [
         "error: can't copy 'resource/my_robot_controller': doesn't exist or not a regular file"
