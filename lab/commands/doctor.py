@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,11 +17,14 @@ from grader.base.i18n.translator import errors_in
 from grader.cli import options
 
 if TYPE_CHECKING:
+    from grader.base.gated_console import GatedConsole
     from lab.guide.opened import OpenedLab
     from lab.guide.state import StudentState
 
 LITTLE = 200_000_000  # bytes of free space
 MOST_FILES = 2_000  # that are looked at
+
+MARK = 6  # columns of the mark before a finding
 
 
 @dataclass(frozen=True)
@@ -40,20 +44,39 @@ class Finding:
 @options.lang
 def doctor(lang: str | None) -> int:
     """Print each finding with what to do."""
-    from rich.cells import set_cell_size  # noqa: PLC0415 - keeps --help fast
-
-    from lab.guide.opened import opened_lab  # noqa: PLC0415
+    from lab.guide.opened import opened_lab  # noqa: PLC0415 - keeps --help fast
+    from lab.guide.show import console_for  # noqa: PLC0415
 
     with errors_in(lang):
         lab = opened_lab(lang)
+        console = console_for(sys.stdout)
         wrong = 0
         for finding in findings(lab, dict(os.environ), Path.cwd()):
             mark = say("wrong") if finding.remedy else say("ok")
-            click.echo(set_cell_size(lab.translate(mark), 6) + lab.translate(finding.text))
+            _print(console, lab.translate(mark), lab.translate(finding.text))
             if finding.remedy:
                 wrong += 1
-                click.echo(f"      → {lab.translate(finding.remedy)}")
+                _print(console, "", f"→ {lab.translate(finding.remedy)}")
         return 1 if wrong else 0
+
+
+def _print(console: GatedConsole, mark: str, text: str) -> None:
+    """Print a text beside a mark; on a terminal its lines stay beside it, but for commands."""
+    from rich.cells import set_cell_size  # noqa: PLC0415 - keeps --help fast
+    from rich.table import Table  # noqa: PLC0415
+    from rich.text import Text  # noqa: PLC0415
+
+    from lab.guide.show import is_command  # noqa: PLC0415
+
+    line = Text(set_cell_size(mark, MARK) + text)
+    if not console.is_terminal or is_command(text.removeprefix("→ ")):
+        console.print(line, soft_wrap=True)
+        return
+    row = Table.grid()
+    row.add_column(width=MARK)
+    row.add_column(overflow="fold")
+    row.add_row(mark, Text(text))
+    console.print(row)
 
 
 def findings(lab: OpenedLab, environment: dict[str, str], folder: Path) -> Iterator[Finding]:

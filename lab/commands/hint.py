@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 
 import click
 
@@ -25,12 +26,16 @@ STUCK = re.compile(r"^\*[^*\n]{1,40}\?\* +(.+?)(?:\n\n|\Z)", re.MULTILINE | re.D
 @options.lang
 def hint(lang: str | None) -> None:
     """Print the hints so far and the next one, and count it."""
-    from lab.guide.opened import opened_lab  # noqa: PLC0415 - keeps --help fast
+    from rich.text import Text  # noqa: PLC0415 - keeps --help fast
+
+    from lab.guide.opened import opened_lab  # noqa: PLC0415
+    from lab.guide.show import console_for, is_command  # noqa: PLC0415
 
     with errors_in(lang):
         lab = opened_lab(lang)
+        console = console_for(sys.stdout)
         for line in next_hint(lab, lab.task(os.environ, look=True)):
-            click.echo(line)
+            console.print(Text(line), soft_wrap=is_command(line) or None)
 
 
 def next_hint(lab: OpenedLab, task: Task) -> list[str]:

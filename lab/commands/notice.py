@@ -35,8 +35,8 @@ def notice() -> None:
         if task.actions[number - 1] is None and steps[number - 1].done:
             step = steps[number - 1]
             text = say("Done: {number}. {title}", number=step.number, title=step.title)
-            console.print(Text(lab.translate(text), style="green"), soft_wrap=True)
+            console.print(Text(lab.translate(text), style="green"))
     if task.position > before and task.action is not None:
         now = steps[task.position - 1]
         text = say("Next: {number}. {title} (guide shows it)", number=now.number, title=now.title)
-        console.print(Text(lab.translate(text)), soft_wrap=True)
+        console.print(Text(lab.translate(text)))

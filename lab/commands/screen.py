@@ -6,12 +6,14 @@ import os
 import sys
 from collections.abc import Iterable, Sequence
 
+from rich.cells import cell_len
 from rich.text import Text
 
 from grader.base.i18n.message import say
 from lab.guide.opened import OpenedLab, Task
-from lab.guide.show import console_for, show_list, show_next, show_step
+from lab.guide.show import console_for, is_command, show_list, show_next, show_step
 
+BETWEEN = "   "  # two keys of the last line, which is broken only there
 PLAIN = "LAB_PLAIN"  # set to anything: nothing is cleared, for screen readers
 
 
@@ -42,7 +44,7 @@ class Screen:
         if not ahead:
             show_next(console, task.action, translate, passed=self._lab.progress().passed)
         for line in more:
-            console.print(Text(line), soft_wrap=True)
+            console.print(Text(line), soft_wrap=is_command(line) or None)
         self._keys()
 
     def steps(self, task: Task) -> None:
@@ -64,4 +66,11 @@ class Screen:
 
     def _keys(self) -> None:
         keys = say("n next   h hint   c check   l list   d difference   w window   q quit")
-        print(f"\n{self._lab.translate(keys)}", flush=True)
+        width, lines = console_for(sys.stdout).width, [""]
+        for key in self._lab.translate(keys).split(BETWEEN):
+            longer = f"{lines[-1]}{BETWEEN}{key}" if lines[-1] else key
+            if cell_len(longer) > width and lines[-1]:
+                lines.append(key)
+            else:
+                lines[-1] = longer
+        print("\n" + "\n".join(lines), flush=True)

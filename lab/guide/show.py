@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Sequence
-from typing import TextIO
+from typing import ClassVar, TextIO
 
-from rich.markdown import Markdown
+from rich.cells import cell_len
+from rich.console import Console, ConsoleOptions, RenderResult
+from rich.markdown import Markdown, MarkdownElement, TableElement
 from rich.rule import Rule
+from rich.table import Table
 from rich.text import Text
 
 from grader.base.errors import UsageError
@@ -20,7 +23,38 @@ from lab.guide.lesson import Lesson, Step
 from lab.guide.predicates import current
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"(?:cd|source|ros2|touch|mkdir|chmod|colcon) ")
+FIRST_COLUMN = 0.45  # of a line: a table's first column, if no word in it is longer
+WIDEST_NAME = 0.7  # of a line: the longest word for which it gets more
 MAX_WIDTH = 96  # columns; longer lines are hard to read
+
+
+class _Table(TableElement):
+    """A table of Markdown that cuts no name: the first column is as wide as its longest word."""
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        for table in super().__rich_console__(console, options):
+            assert isinstance(table, Table)
+            for column in table.columns:
+                column.overflow = "fold"
+            first = [str(cell) for cell in (table.columns[0].header, *table.columns[0].cells)]
+            word = max((cell_len(word) for cell in first for word in cell.split()), default=0)
+            if word <= WIDEST_NAME * options.max_width:
+                share = int(FIRST_COLUMN * options.max_width)
+                table.columns[0].width = max(word, min(share, max(map(cell_len, first))))
+            yield table
+
+
+class _Markdown(Markdown):
+    elements: ClassVar[dict[str, type[MarkdownElement]]] = {
+        **Markdown.elements,
+        "table_open": _Table,
+    }
+
+
+def is_command(line: str) -> bool:
+    """Whether a line is to be copied: it is not wrapped then."""
+    return COMMAND.match(line) is not None
 
 
 def console_for(file: TextIO) -> GatedConsole:
@@ -115,7 +149,7 @@ def _show_markdown(console: GatedConsole, text: str) -> None:
     parts = CODE.split(text)
     for prose, code in zip(parts[0::2], [*parts[1::2], ""]):
         if prose.strip():
-            console.print(Markdown(prose))
+            console.print(_Markdown(prose))
             console.print()
         if code:  # not wrapped, so that it can be copied
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
@@ -132,18 +166,17 @@ def show_next(
         action = Action("check", "check")
     if action is None:
         done = say("All steps of this lesson are done.")
-        console.print(Text(translate(done), style="bold green"), soft_wrap=True)
+        console.print(Text(translate(done), style="bold green"))
         hand_in = say(
             "lab submit makes the archive to hand in. The next lesson: exit, then make lab."
         )
-        console.print(Text(translate(hand_in)), soft_wrap=True)
+        console.print(Text(translate(hand_in)))
         return
     if action.found:
         found = translate(say("Found: "))
-        console.print(
-            Text.assemble((found, "bold yellow"), translate(action.found)), soft_wrap=True
-        )
+        console.print(Text.assemble((found, "bold yellow"), translate(action.found)))
     label = translate(say("Next: "))
-    console.print(Text.assemble((label, "bold green"), translate(action.next)), soft_wrap=True)
+    line = translate(action.next)
+    console.print(Text.assemble((label, "bold green"), line), soft_wrap=is_command(line) or None)
     if action.hints:
-        console.print(Text(translate(say("More: lab hint")), style="dim"), soft_wrap=True)
+        console.print(Text(translate(say("More: lab hint")), style="dim"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import sys
@@ -11,9 +12,13 @@ from pathlib import Path
 import pexpect
 import pytest
 
+from grader.base.gated_console import GatedConsole
+from grader.base.i18n.translator import Translator
+from grader.course.find import lessons_of, own_course
 from grader.course.load import load_assignment
 from lab.guide import predicates as steps
-from lab.guide.lesson import read_lesson
+from lab.guide.lesson import lesson_file, read_lesson
+from lab.guide.show import show_step
 from lab.guide.state import StudentState
 from tests import processes
 from tests.lab.ten_steps import NODE
@@ -208,3 +213,20 @@ def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
         in text
     )
     assert "\x1b[" in screen.before
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+@pytest.mark.parametrize("lang", ["en", "ko"])
+@pytest.mark.parametrize("lesson", lessons_of(own_course()))
+def test_no_name_is_cut_at_any_width(lesson: str, lang: str, width: int) -> None:
+    text = read_lesson(lesson_file(own_course() / lesson, lang), distro="jazzy")
+    for step in text.steps:
+        file = io.StringIO()
+        console = GatedConsole(file, width=width, force_terminal=True, color_system=None)
+        show_step(console, step, text, Translator(lang))
+        shown = file.getvalue()
+        prose = re.sub(r"```.*?```", "", step.text, flags=re.DOTALL)
+        names = {name for code in re.findall(r"`([^`\n]+)`", prose) for name in code.split()}
+        cut = {name for name in names if name.replace("\\|", "|") not in shown}
+        assert {name for name in cut if len(name) < 0.45 * width} == set()
+        assert "…" not in shown or "…" in step.text
