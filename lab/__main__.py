@@ -1,7 +1,6 @@
 """Runs the lab: `python -m lab`, or `python3 lab` in a checkout, which is set up first if it is not."""
 
 import os
-import subprocess
 import sys
 
 # as in grader/__main__.py: nothing is imported from a student's folder
@@ -19,6 +18,8 @@ except ModuleNotFoundError as error:
     if __package__ or sys.executable == own:
         raise
     # another Python than that of the checkout's environment
+    import subprocess  # as above: not before the path is safe
+
     made = subprocess.run(
         [sys.executable, os.path.join(OURS, "grader", "bootstrap.py")], check=False
     )
