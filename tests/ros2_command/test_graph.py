@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -122,6 +123,18 @@ Subscribed topics:
 
 """
     )
+
+
+def test_the_udp_sockets_of_a_process_get_larger_buffers() -> None:
+    size = 64 << 10  # bytes, of which the kernel makes twice as many, for its own data
+    ours = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    other = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    with ours, other:
+        before = other.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF)
+        assert ours.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) != 2 * size
+        discovery.enlarge_buffers(size)
+        assert ours.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) == 2 * size
+        assert other.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) == before
 
 
 def test_a_missing_number_is_an_endpoint_that_was_not_announced() -> None:

@@ -14,6 +14,10 @@ highest one is an endpoint that was not announced yet, or one that was removed: 
 
 As long as somebody is missing, `knock` makes them announce themselves again.
 
+All participants answer at once, and each sends a packet for each of its endpoints. A hundred of
+them are more than a socket holds by default (208 KiB on Linux, kernel's overhead included), and
+Fast DDS takes up to a second until it asks for those that were dropped: hence `BUFFER`.
+
 Participants of other machines have no port here. They can exist unless discovery is limited to this
 machine (ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, the lab's default); for them there is ros2cli's
 half second.
@@ -22,6 +26,7 @@ half second.
 from __future__ import annotations
 
 import os
+import socket
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -36,9 +41,11 @@ SETTLED = 0.06  # seconds without a change; the parts of one announcement come w
 REMOTE = 0.5  # seconds for nodes on other machines, ros2cli's default
 GAP_PATIENCE = 1.0  # seconds for an endpoint whose number is missing
 POLL = 0.01  # seconds
+BUFFER = 4 << 20  # bytes for each UDP socket; the kernel gives what `net.core.rmem_max` allows
 KNOCK_AGAIN = 0.1  # seconds; the endpoints of who answers come within 80 ms
 PORTS = Path("/proc/net/udp")
 LOAD = Path("/proc/loadavg")
+DESCRIPTORS = Path("/proc/self/fd")
 FIRST_PORT, PORTS_OF_DOMAIN, FIRST_OFFSET = 7400, 250, 10
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for an endpoint whose node is not known yet
 PARTICIPANT = 12  # leading bytes of a GID; the rest is the endpoint
@@ -56,6 +63,7 @@ def discover(node: Any) -> None:
     """Wait until the node knows the graph, at most `PATIENCE` seconds; see the module's text."""
     if _range() == "OFF":
         return
+    enlarge_buffers()
     start = time.monotonic()
     least = start + (0 if _is_local() else REMOTE)
     domain = node.context.get_domain_id()
@@ -134,17 +142,33 @@ def participants_here(domain: int, table: Path = PORTS) -> dict[int, str] | None
     return {port: bound[port] for port in places if port in bound and port + 1 in bound}
 
 
+def enlarge_buffers(size: int = BUFFER) -> None:
+    """Let the UDP sockets of this process hold that many bytes that were not read yet."""
+    for descriptor in _own_sockets().values():
+        with socket.socket(fileno=os.dup(descriptor)) as own:
+            if own.type == socket.SOCK_DGRAM:
+                own.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, size)
+
+
 def knock_at_others(ports: dict[int, str]) -> None:
     """Make the participants at these ports announce themselves to the one of this process."""
-    sockets = set()
-    for descriptor in Path("/proc/self/fd").iterdir():
-        try:
-            sockets.add(str(descriptor.readlink()))
-        except OSError:  # closed meanwhile
-            continue
-    own = [port for port, inode in ports.items() if f"socket:[{inode}]" in sockets]
+    sockets = _own_sockets()
+    own = [port for port, inode in ports.items() if inode in sockets]
     if own:
         knock(own[0], [port for port in ports if port not in own])
+
+
+def _own_sockets() -> dict[str, int]:
+    """Return the inodes of this process' sockets with their descriptors."""
+    sockets = {}
+    for descriptor in DESCRIPTORS.iterdir() if DESCRIPTORS.is_dir() else ():
+        try:
+            kind, _, inode = str(descriptor.readlink()).partition(":")
+        except OSError:  # closed meanwhile
+            continue
+        if kind == "socket":
+            sockets[inode.strip("[]")] = int(descriptor.name)
+    return sockets
 
 
 def _range() -> str:
