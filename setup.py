@@ -24,7 +24,7 @@ setup(
         "grader.base.i18n": ["*/LC_MESSAGES/*.mo"],
         "grader.publish.pages": ["templates/*"],
         "grader.ros": ["locks/*", "*.cmake", "turtlesim/*/*"],
-        "grader.ros.ros2_command": ["licenses/*"],
+        "grader.ros.ros2_command": ["licenses/*", "*.xml"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),

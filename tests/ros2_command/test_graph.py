@@ -125,6 +125,30 @@ Subscribed topics:
     )
 
 
+@pytest.mark.full
+def test_a_question_creates_no_shared_memory(graph: Graph, tmp_path: Path) -> None:
+    own = tmp_path / "own.xml"
+    own.write_text(
+        '<profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">'
+        '<participant profile_name="own" is_default_profile="true"><rtps/></participant></profiles>'
+    )
+    start(graph, "talker")
+    code = (
+        "import os, sys; from argparse import Namespace; from wheels_ros2 import graph\n"
+        "options = Namespace(spin_time=None, use_sim_time=False)\n"
+        "with graph.graph(options, carries_data=sys.argv[1] == 'data') as node:\n"
+        "    maps = open('/proc/self/maps').read()\n"
+        "    print(graph.node_names(node)[1:], '/dev/shm/fast' in maps)\n"
+        "    print(os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'])"
+    )
+    asked = graph.run("python3", "-c", code, "question")
+    assert asked == (0, "['/talker'] False\nLOCALHOST\n", "")
+    assert graph.run("python3", "-c", code, "data").stdout == "['/talker'] True\nLOCALHOST\n"
+    for setting in (f"FASTRTPS_DEFAULT_PROFILES_FILE={own}", "ROS_STATIC_PEERS=192.0.2.1"):
+        kept = graph.run("env", setting, "python3", "-c", code, "question")
+        assert kept.stdout == "['/talker'] True\nLOCALHOST\n", kept.stderr
+
+
 def test_the_udp_sockets_of_a_process_get_larger_buffers() -> None:
     size = 64 << 10  # bytes, of which the kernel makes twice as many, for its own data
     ours = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

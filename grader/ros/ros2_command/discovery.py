@@ -32,6 +32,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .knock import knock
+from .transport import discovery_range, is_local
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -61,11 +62,11 @@ class View(NamedTuple):
 
 def discover(node: Any) -> None:
     """Wait until the node knows the graph, at most `PATIENCE` seconds; see the module's text."""
-    if _range() == "OFF":
+    if discovery_range() == "OFF":
         return
     enlarge_buffers()
     start = time.monotonic()
-    least = start + (0 if _is_local() else REMOTE)
+    least = start + (0 if is_local() else REMOTE)
     domain = node.context.get_domain_id()
     knocked = start - KNOCK_AGAIN
     last, since = view(node), start
@@ -169,14 +170,3 @@ def _own_sockets() -> dict[str, int]:
         if kind == "socket":
             sockets[inode.strip("[]")] = int(descriptor.name)
     return sockets
-
-
-def _range() -> str:
-    if os.environ.get("ROS_LOCALHOST_ONLY") == "1":
-        return "LOCALHOST"
-    return os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET").upper()
-
-
-def _is_local() -> bool:
-    """Whether all nodes that can be discovered are on this machine."""
-    return _range() == "LOCALHOST" and not os.environ.get("ROS_STATIC_PEERS")

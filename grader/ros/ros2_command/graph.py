@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import os
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any
 
 from .discovery import discover
+from .transport import udp_only
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -59,12 +60,14 @@ def services(node: Any, *, hidden: bool) -> list[tuple[str, list[str]]]:
 
 
 @contextmanager
-def graph(args: Namespace, *, name: str | None = None) -> Iterator[Any]:
+def graph(args: Namespace, *, name: str | None = None, carries_data: bool = False) -> Iterator[Any]:
     """Yield an rclpy node that has had time to discover the others (`args.spin_time` in seconds).
+
+    `carries_data` as in `own_node`.
 
     Raises KeyboardInterrupt if Ctrl+C ends the wait, ModuleNotFoundError without rclpy.
     """
-    with own_node(use_sim_time=args.use_sim_time, name=name) as node:
+    with own_node(use_sim_time=args.use_sim_time, name=name, carries_data=carries_data) as node:
         if args.spin_time is None:
             discover(node)
         else:
@@ -74,9 +77,15 @@ def graph(args: Namespace, *, name: str | None = None) -> Iterator[Any]:
 
 @contextmanager
 def own_node(
-    *, use_sim_time: bool = False, name: str | None = None, own_interrupts: bool = False
+    *,
+    use_sim_time: bool = False,
+    name: str | None = None,
+    own_interrupts: bool = False,
+    carries_data: bool = False,
 ) -> Iterator[Any]:
     """Yield an rclpy node, by default hidden; it does not know the graph yet.
+
+    With `carries_data` its messages may be large: they go through shared memory where possible.
 
     With `own_interrupts` Ctrl+C leaves the node alive, for what is to be done after it.
 
@@ -88,17 +97,18 @@ def own_node(
     from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
     handlers = SignalHandlerOptions.NO if own_interrupts else SignalHandlerOptions.ALL
-    rclpy.init(args=[], signal_handler_options=handlers)
     try:
-        node = rclpy.create_node(
-            name or f"{HIDDEN_PREFIX}ros2cli_{os.getpid()}",
-            start_parameter_services=False,
-            parameter_overrides=[
-                Parameter("use_sim_time", value=use_sim_time),
-                # its interfaces import NumPy, 0.1 s
-                Parameter("start_type_description_service", value=False),
-            ],
-        )
+        with nullcontext() if carries_data else udp_only():
+            rclpy.init(args=[], signal_handler_options=handlers)
+            node = rclpy.create_node(
+                name or f"{HIDDEN_PREFIX}ros2cli_{os.getpid()}",
+                start_parameter_services=False,
+                parameter_overrides=[
+                    Parameter("use_sim_time", value=use_sim_time),
+                    # its interfaces import NumPy, 0.1 s
+                    Parameter("start_type_description_service", value=False),
+                ],
+            )
         try:
             yield node
         except ExternalShutdownException:

@@ -39,7 +39,7 @@ def main(args: Namespace) -> None:
     from rclpy.clock import Clock, ClockType  # noqa: PLC0415 (slow to import)
     from rclpy.qos import qos_profile_sensor_data  # noqa: PLC0415
 
-    with graph.graph(args) as node:
+    with graph.graph(args, carries_data=True) as node:
         kind = topics.message_class(node, args.topic_name, patient=True)
         seen: deque[tuple[float, int]] = deque(maxlen=args.window)
 

@@ -41,7 +41,7 @@ def main(args: Namespace) -> None:
     from rclpy.qos import qos_profile_sensor_data  # noqa: PLC0415
     from rclpy.time import Time  # noqa: PLC0415
 
-    with graph.graph(args) as node:
+    with graph.graph(args, carries_data=True) as node:
         kind = topics.message_class(node, args.topic_name, patient=True)
         if "header" not in kind.get_fields_and_field_types():
             raise CommandError("msg does not have header")

@@ -63,7 +63,7 @@ def main(args: Namespace) -> None:
 
     Raises CommandError if the type cannot be found out, or a field does not exist.
     """
-    with graph.graph(args) as node:
+    with graph.graph(args, carries_data=True) as node:
         if args.message_type is None:
             kind = topics.message_class(node, args.topic_name, patient=False)
         else:

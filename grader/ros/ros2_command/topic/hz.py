@@ -47,7 +47,7 @@ def main(args: Namespace) -> None:
     from rclpy.qos import qos_profile_sensor_data  # noqa: PLC0415
 
     accepts = topics.message_filter(args.filter)
-    with graph.graph(args) as node:
+    with graph.graph(args, carries_data=True) as node:
         kind = topics.message_class(node, args.topic_name, patient=True)
         clock = Clock(clock_type=ClockType.SYSTEM_TIME) if args.wall_time else node.get_clock()
         rate = Rate(args.window_size)

@@ -69,7 +69,7 @@ def main(args: Namespace) -> str | None:
     times = 1 if args.once else args.times
     kind = load(args.message_type, "msg")
     values = message_fields.parse(args.values)
-    with graph.graph(args, name=args.node_name) as node:
+    with graph.graph(args, name=args.node_name, carries_data=True) as node:
         message = kind()
         try:
             stamps = message_fields.fill(message, values, lambda: node.get_clock().now().to_msg())
