@@ -194,8 +194,11 @@ FORMS = (
             ("'/reset'", "'/rest'"),
             ("'/go'", "'/Go'"),
             ("f'got {message.data}'", "f'Got {message.data}'"),
+            ("'/turn'", "'/Turn'"),
         ),
         {
+            "readme": "files.missing",
+            "turn": "action.wrong_name",
             "beat": "topic.wrong_name",
             "hears": "topic.wrong_name",
             "factor": "parameter.not_declared",
@@ -211,7 +214,10 @@ FORMS = (
             "factor.set",
             "answers",
             "says",
+            "readme.text",
+            *TURNS,
         ),
+        ("Readme.md", "A node that doubles."),
     ),
     Form(
         "types",
@@ -227,13 +233,18 @@ FORMS = (
             ("create_client(SetBool", "create_client(Trigger"),
         ),
         {
+            "readme": "files.missing",
             "beat": "topic.wrong_type",
             "hears": "topic.wrong_type",
             "factor": "parameter.wrong_type",
             "offers": "service.wrong_type",
             "calls": "service.wrong_type",
         },
-        ("beat.period", "beat.values", "eight", "fifteen", "factor.set", "answers", "says"),
+        (
+            *("beat.period", "beat.values", "eight", "fifteen", "factor.set", "answers", "says"),
+            "readme.text",
+        ),
+        ("docs/README.md", "A node that doubles."),
     ),
     Form(
         "missing",
@@ -246,6 +257,7 @@ FORMS = (
             ("reliability=ReliabilityPolicy.BEST_EFFORT", "reliability=ReliabilityPolicy.RELIABLE"),
         ),
         {
+            "readme.text": "files.no_match",
             "beat": "topic.never_published",
             "beat.qos": "topic.wrong_qos",
             "hears": "topic.no_subscription",
@@ -254,11 +266,20 @@ FORMS = (
             "calls": "service.no_client",
         },
         ("beat.period", "beat.values", "eight", "fifteen", "factor.set", "answers", "says"),
+        ("README.md", "A node that Doubles."),
     ),
     Form(
         "values",
         (
             ("create_timer(0.2", "create_timer(0.4"),
+            (
+                "QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)",
+                "QoSProfile(depth=10)",
+            ),
+            (
+                "super().__init__('doubler')",
+                "super().__init__('doubler')\n        self.helper = Node('doubler_helper')",
+            ),
             ("Bool(data=True)", "Bool(data=False)"),
             ("message.data * factor", "message.data + factor"),
             ("response.success = True", "response.success = False"),
@@ -268,6 +289,9 @@ FORMS = (
             ),
         ),
         {
+            "readme.text": "files.no_match",
+            "nodes": "graph.node_unexpected",
+            "beat.qos": "topic.wrong_qos",
             "beat.period": "topic.wrong_period",
             "beat.values": "topic.wrong_value",
             "eight": "topic.wrong_value",
@@ -277,6 +301,7 @@ FORMS = (
             "turn.cancel": "action.not_cancelled",
         },
         ("fifteen",),
+        ("README.md", ""),
     ),
     Form(
         "more",
@@ -303,6 +328,10 @@ FORMS = (
             ),
             ("        response.message = 'reset'\n", ""),
             (
+                "super().__init__('doubler')",
+                "super().__init__('doubler')\n        self.other = Node('doubler', namespace='/lab')",
+            ),
+            (
                 "f'got {message.data}')",
                 "f'got {message.data}')\n        self.get_logger().info(f'got {message.data}')\n        self.get_logger().error('all lost')",
             ),
@@ -315,6 +344,7 @@ FORMS = (
             "factor.set": "parameter.refused",
             "answers": "service.wrong_answer",
             "says": "log.too_often",
+            "nodes": "graph.node_unexpected",
             "silent": "log.forbidden",
         },
     ),
@@ -434,8 +464,25 @@ FORMS = (
             ),
             ("Result(delta=-theta)", "Result(delta=theta)"),
             ("CancelResponse.ACCEPT)", "CancelResponse.REJECT)"),
+            (
+                "        self.declare_parameter('factor', 2)\n",
+                "        self.declare_parameter('factor', 2)\n        self.add_on_set_parameters_callback(self.on_set)\n",
+            ),
+            (
+                "    def on_timer",
+                "    def on_set(self, new):\n        even = all(one.value % 2 == 0 for one in new)\n        return SetParametersResult(successful=even, reason='odd')\n\n    def on_timer",
+            ),
+            (
+                "import rclpy\n",
+                "import rclpy\nfrom rcl_interfaces.msg import SetParametersResult\n",
+            ),
+            ("response.message = 'reset'", "response.message = 'done'"),
         ),
         {
+            "factor": "parameter.wrong_value",
+            "factor.set": "parameter.refused",
+            "fifteen": "topic.wrong_value",
+            "answers": "service.wrong_answer",
             "turn.excessive": "action.accepted",
             "turn.feedback": "action.no_feedback",
             "turn.result": "action.wrong_result",
@@ -449,8 +496,18 @@ FORMS = (
             ("remaining=part * theta", "remaining=-part * theta"),
             ("            handle.canceled()\n", "            handle.succeed()\n"),
             ("goal.theta < 10", "goal.theta < 30"),
+            ("'factor', 2)", "'factor', 2, ParameterDescriptor(read_only=True))"),
+            (
+                "import rclpy\n",
+                "import rclpy\nfrom rcl_interfaces.msg import ParameterDescriptor\n",
+            ),
+            ("info(f'got", "warn(f'got"),
         ),
         {
+            "factor": "parameter.wrong_value",
+            "factor.set": "parameter.refused",
+            "fifteen": "topic.wrong_value",
+            "says": "log.missing",
             "turn.excessive": "action.accepted",
             "turn.feedback": "action.wrong_feedback",
             "turn.result": "action.wrong_status",
@@ -463,8 +520,17 @@ FORMS = (
             ("        if theta > 5:", "        if theta > 0:"),
             ("for part in (1.0, 0.5)", "for part in (1.0,)"),
             ("if self.waiting and self.goal.is_cancel_requested", "if False"),
+            ("create_publisher(Bool, '/beat', best)", "create_publisher(Bool, '/beat', 10)"),
+            ("f'got {message.data}'", "f'got: {message.data}'"),
+            ("Bool(data=True)", "Bool(data=self.beats % 2 == 0)"),
+            ("create_timer(0.2", "create_timer(0.1"),
         ),
         {
+            "beat.qos": "topic.wrong_qos",
+            "beat.values": "topic.wrong_value",
+            "beat.period": "topic.wrong_period",
+            "count": "log.wrong_period",
+            "says": "log.missing",
             "turn.feedback": "action.no_feedback",
             "turn.result": "action.no_result",
             "turn.cancel": "action.not_cancelled",
@@ -489,7 +555,9 @@ def write_package(form: Form, folder: Path) -> Path:
         assert node.count(old) == 1, (form.name, old)
         node = node.replace(old, new)
     write_files(root, node)
-    (root / form.readme[0]).write_text(form.readme[1], encoding="utf-8")
+    readme = root / form.readme[0]
+    readme.parent.mkdir(exist_ok=True)
+    readme.write_text(form.readme[1], encoding="utf-8")
     return root
 
 
