@@ -10,6 +10,7 @@ import sys
 
 import click
 import pytest
+from rich.cells import cell_len
 
 from grader.base.i18n.translator import LANGUAGES, translated
 from grader.cli.localized import language_of, translated_help
@@ -46,6 +47,19 @@ def test_the_help_of_a_students_command_is_in_their_language(words: tuple[str, .
     assert options.findall(korean) == options.findall(english)
     assert run(*words, "--lang", "ko", "--help", env=ENGLISH) == (0, korean)
     assert run(*words, "--lang=en", "--help", env=KOREAN) == (0, english)
+
+
+@pytest.mark.parametrize("width", [60, 80])
+@pytest.mark.parametrize("words", HELPS, ids=" ".join)
+def test_korean_lines_end_between_words(words: tuple[str, ...], width: int) -> None:
+    """A character of Korean takes two columns; click counts one."""
+    status, korean = run(*words, "--help", env={**KOREAN, "COLUMNS": str(width)})
+    assert status == 0
+    lines = [line for line in korean.splitlines() if HANGUL.search(line)]
+    assert lines
+    assert max(map(cell_len, lines)) <= width
+    assert max(map(cell_len, lines)) > 0.8 * width - 10  # the width is used
+    assert "\0" not in korean
 
 
 @pytest.mark.parametrize(

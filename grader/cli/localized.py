@@ -9,7 +9,8 @@ from __future__ import annotations
 import gettext
 import inspect
 import os
-from collections.abc import Iterator, Sequence
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import click
@@ -24,6 +25,8 @@ from grader.base.i18n.translator import (
     translated,
 )
 
+FILLER = "\x00"  # in no text
+WIDE = ("W", "F")  # two columns (Unicode, UAX #11)
 NO_DOMAIN = "messages"  # gettext's default, which has no catalogue
 VARIABLE = "LANGUAGE"  # the environment variable that gettext reads first
 CLICK = (  # click's own texts that a student may see
@@ -65,6 +68,7 @@ def translated_help(lang: str, command: click.Command) -> Iterator[None]:
         yield
         return
     domain, languages = gettext.textdomain(), os.environ.get(VARIABLE)
+    formatter, click.Context.formatter_class = click.Context.formatter_class, _Formatter
     os.environ[VARIABLE] = lang
     gettext.bindtextdomain(DOMAIN, str(FOLDER))
     gettext.textdomain(DOMAIN)
@@ -72,10 +76,32 @@ def translated_help(lang: str, command: click.Command) -> Iterator[None]:
         with translated_texts(command, lang):
             yield
     finally:
+        click.Context.formatter_class = formatter
         gettext.textdomain(domain)
         os.environ.pop(VARIABLE)
         if languages is not None:
             os.environ[VARIABLE] = languages
+
+
+class _Formatter(click.HelpFormatter):
+    """click's own, which counts characters, for characters that take two columns."""
+
+    def write_text(self, text: str) -> None:
+        super().write_text(_filled(text))
+
+    def write_dl(
+        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
+    ) -> None:
+        filled = [(_filled(first), _filled(second)) for first, second in rows]
+        super().write_dl(filled, col_max, col_spacing)
+
+    def getvalue(self) -> str:
+        return super().getvalue().replace(FILLER, "")
+
+
+def _filled(text: str) -> str:
+    """Return a text with a filler behind each wide character, so that it has as many as columns."""
+    return "".join(c + FILLER * (unicodedata.east_asian_width(c) in WIDE) for c in text)
 
 
 @contextmanager
