@@ -93,6 +93,13 @@ KINDS = (
         msg("Add find_package(rosidl_default_generators REQUIRED) to CMakeLists.txt."),
     ),
     _interface(
+        "cmake_error",
+        "build",
+        msg("CMake stops at a line of CMakeLists.txt"),
+        msg("CMake reads CMakeLists.txt line by line, and ends the build at the first error."),
+        msg("Correct line {line} of CMakeLists.txt: see what CMake says above. Then build again."),
+    ),
+    _interface(
         "line_unknown",
         "file",
         msg("A line of the message declares nothing"),
