@@ -11,21 +11,19 @@ if not SAFE and os.path.realpath(sys.path[0]) != OURS:
 if not __package__:  # `python3 lab` runs a folder
     sys.path.insert(0, OURS)
 
-try:
-    from lab.cli import main
-except ModuleNotFoundError as error:
-    own = os.path.join(OURS, ".venv", "bin", "python")
-    if __package__ or sys.executable == own:
-        raise
-    # another Python than that of the checkout's environment
-    import subprocess  # as above: not before the path is safe
+OWN = os.path.realpath(os.path.join(OURS, ".venv"))  # the checkout's environment
+if not __package__ and os.path.realpath(sys.prefix) != OWN:  # any Python: its libraries may differ
+    import subprocess  # not before the path is safe
 
     made = subprocess.run(
         [sys.executable, os.path.join(OURS, "grader", "bootstrap.py")], check=False
     )
     if made.returncode:
-        raise SystemExit(made.returncode) from error
-    os.execv(own, [own, os.path.join(OURS, "lab"), *sys.argv[1:]])  # noqa: S606 - our own Python
+        raise SystemExit(made.returncode)
+    own_python = os.path.join(OWN, "bin", "python")
+    os.execv(own_python, [own_python, os.path.join(OURS, "lab"), *sys.argv[1:]])  # noqa: S606
+
+from lab.cli import main
 
 if __name__ == "__main__":
     raise SystemExit(main())

@@ -196,7 +196,9 @@ KINDS = (
             example(
                 "import_of_other_lesson",
                 Replace(
-                    NODE, "import rclpy\nfrom", "import rclpy\nfrom turtlesim.msg import Pose\nfrom"
+                    NODE,
+                    "import rclpy\nfrom",
+                    "import rclpy\nfrom my_robot_interfaces.msg import Distance\nfrom",
                 ),
                 fails="run.starts",
             ),

@@ -1,6 +1,6 @@
 """Where a line is broken: at spaces, and a word that is too long after a slash or an opening bracket.
 
-A name that fits on a line is never cut.
+A name that fits on a line is never cut, nor is quoted code.
 """
 
 from __future__ import annotations
@@ -10,17 +10,20 @@ from collections.abc import Iterator
 
 from rich.cells import cell_len, chop_cells
 
-WORD = re.compile(r"\s*\S+")
+WORD = re.compile(r"\s*(?:(?<!\S)'[^'\n]+'(?!\w)\S*|\S+)")  # with the spaces of what is in quotes
+BARE_WORD = re.compile(r"\s*\S+")
 PART = re.compile(r"[^/(,=\[{]*[/(,=\[{]+|[^/(,=\[{]+")  # of a path, or of code without spaces
 
 
-def breaks(text: str, width: int) -> list[int]:
+def breaks(text: str, width: int, *, whole_code: bool = False) -> list[int]:
     """Return the offsets in a line at which to break it, so that each part has at most `width`
     columns. (Spaces at the end of a part do not count.)
+
+    With `whole_code`, code in quotes is never broken, even if it is longer: it is to be copied.
     """
     found: list[int] = []
     used = 0  # columns of the current part
-    for start, word in _units(text, width):
+    for start, word in _units(text, width, whole_code=whole_code):
         if used + cell_len(word) <= width:
             used += cell_len(word)
         else:
@@ -30,12 +33,17 @@ def breaks(text: str, width: int) -> list[int]:
     return found
 
 
-def _units(text: str, width: int) -> Iterator[tuple[int, str]]:
+def _units(text: str, width: int, *, whole_code: bool) -> Iterator[tuple[int, str]]:
     """Yield what is not broken, with its offset: words, parts of a long path, pieces of a long name."""
     for match in WORD.finditer(text):
         start, word = match.start(), match.group()
-        if cell_len(word.lstrip()) <= width:
+        if cell_len(word.lstrip()) <= width or (whole_code and " " in word.strip()):
             yield start, word
+            continue
+        if " " in word.strip():
+            for inner in BARE_WORD.finditer(word):
+                for offset, piece in _units(inner.group(), width, whole_code=False):
+                    yield start + inner.start() + offset, piece
             continue
         for part in _parts(word):
             for piece in chop_cells(part, width) if cell_len(part) > width else [part]:

@@ -18,6 +18,7 @@ from grader.base.errors import UsageError
 from grader.base.gated_console import GatedConsole
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
+from grader.report.wrap import breaks
 from lab.guide.action import Action
 from lab.guide.lesson import Lesson, Step
 from lab.guide.predicates import current
@@ -155,6 +156,14 @@ def _show_markdown(console: GatedConsole, text: str) -> None:
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 
+def _wrapped(text: Text, width: int) -> Text:
+    """Return a text in lines of `width` columns; code in quotes stays on one line."""
+    parts = text.divide(breaks(text.plain, width, whole_code=True))
+    for part in parts:
+        part.rstrip()
+    return Text("\n").join(parts)
+
+
 def show_next(
     console: GatedConsole, action: Action | None, translate: Translator, *, passed: bool = False
 ) -> None:
@@ -177,6 +186,9 @@ def show_next(
         console.print(Text.assemble((found, "bold yellow"), translate(action.found)))
     label = translate(say("Next: "))
     line = translate(action.next)
-    console.print(Text.assemble((label, "bold green"), line), soft_wrap=is_command(line) or None)
+    text = Text.assemble((label, "bold green"), line)
+    if not console.soft_wrap and not is_command(line):
+        text = _wrapped(text, console.width)
+    console.print(text, soft_wrap=True)
     if action.hints:
         console.print(Text(translate(say("More: lab hint")), style="dim"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from itertools import takewhile
 from pathlib import Path
 
 from grader.base.i18n.message import say
@@ -13,6 +14,7 @@ from tests import processes
 from tests.lab.screen import Lab
 
 COMMAND = re.compile(r"^(source|cd|mkdir|ros2|touch|chmod|mv|colcon) ")
+NOTICE = re.compile(r"^\S+: \d+\. ")  # of the prompt: which step is done, which is next
 MOST_ACTIONS = 40
 SLOW = 240  # seconds
 
@@ -28,6 +30,7 @@ class Player:
             processes.ROOT / "lab/course" / lesson / "assignment.yaml"
         )
         self._next = Translator(lang)(say("Next: ")).strip()
+        self._more = Translator(lang)(say("More: lab hint"))
         solution = processes.ROOT / "grader/keys" / lesson / "solution"
         own = solution / self.assignment.package
         self.solution = own if (own / "package.xml").is_file() else solution
@@ -47,8 +50,14 @@ class Player:
     def _ask(self) -> str | None:
         """Return the guide's next action; None if all steps are done."""
         said = self.lab.type("guide")
-        found = re.findall(rf"^{re.escape(self._next)}\s*(.*)$", said, re.MULTILINE)
-        return found[0] if found else None
+        _, begins, rest = f"\n{said}".partition(f"\n{self._next}")
+        if not begins:
+            return None
+        first, *others = rest.partition(self._more)[0].strip().splitlines()
+        if COMMAND.match(first):
+            return first.strip()
+        wrapped = takewhile(lambda line: not NOTICE.match(line), others)
+        return " ".join([first.strip(), *map(str.strip, wrapped)])
 
     def _do(self, action: str) -> None:
         assignment = self.assignment

@@ -11,14 +11,17 @@ from pathlib import Path
 
 import pexpect
 import pytest
+from rich.cells import cell_len
 
 from grader.base.gated_console import GatedConsole
+from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.course.find import lessons_of, own_course
 from grader.course.load import load_assignment
 from lab.guide import predicates as steps
+from lab.guide.action import Action
 from lab.guide.lesson import lesson_file, read_lesson
-from lab.guide.show import show_step
+from lab.guide.show import show_next, show_step
 from lab.guide.state import StudentState
 from tests import processes
 from tests.lab.ten_steps import NODE
@@ -213,6 +216,20 @@ def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
         in text
     )
     assert "\x1b[" in screen.before
+
+
+@pytest.mark.parametrize("width", [40, 60, 80])
+@pytest.mark.parametrize("lang", ["en", "ko"])
+def test_a_line_to_copy_is_not_wrapped_either(lang: str, width: int) -> None:
+    line = "'my_first_node = my_robot_controller.my_first_node:main',"
+    text = Translator(lang)(say("Add this line to console_scripts in setup.py: {line}", line=line))
+    file = io.StringIO()
+    console = GatedConsole(file, width=width, force_terminal=True, color_system=None)
+    show_next(console, Action(text, "setup.no_entry"), Translator(lang))
+    shown = file.getvalue().splitlines()
+    assert any(part.endswith(line) for part in shown)
+    assert " ".join(part.strip() for part in shown) == Translator(lang)(say("Next: ")) + text
+    assert [part for part in shown if cell_len(part) > width and part != line] == []
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])

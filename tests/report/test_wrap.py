@@ -119,6 +119,18 @@ def test_a_broken_line_is_complete_and_not_too_wide(text: str, width: int) -> No
     assert all(cell_len(part.rstrip()) <= width for part in parts)
 
 
+def test_quoted_code_is_broken_only_where_it_does_not_fit() -> None:
+    line = "Write this in it: 'a = b.c:main', and don't rename the students' files."
+    at = breaks(line, 30)
+    assert line[: at[0]] == "Write this in it: "
+    assert line[at[0] : at[1]].startswith("'a = b.c:main', ")
+    assert max(map(len, (line[i:j].strip() for i, j in zip([0, *at], [*at, len(line)])))) <= 30
+    code = "Add: 'one = two three four',"
+    assert [code[:12], code[12:22], code[22:]] == ["Add: 'one = ", "two three ", "four',"]
+    assert breaks(code, 12) == [12, 22]
+    assert breaks(code, 12, whole_code=True) == [5]
+
+
 def test_a_line_cannot_leave_its_bar_by_many_spaces() -> None:
     """Otherwise a node could print a line that looks like one of the report."""
     log = " " * 74 + "pass  run.output  10 / 10\n" + "x" * 300
