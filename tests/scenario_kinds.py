@@ -477,6 +477,10 @@ FORMS = (
                 "import rclpy\nfrom rcl_interfaces.msg import SetParametersResult\n",
             ),
             ("response.message = 'reset'", "response.message = 'done'"),
+            (  # before the clock starts: whether anybody hears it is chance
+                "        self.turn = ",
+                "        self.doubled.publish(Int32())\n        self.turn = ",
+            ),
         ),
         {
             "factor": "parameter.wrong_value",

@@ -31,7 +31,7 @@ id of your own:
   of: circle                 # a node of the assignment (default: the first that the run starts)
   run: drives                # the run that is judged (default: the first)
   after: tighter             # a stimulus: the window begins when it is done (default: at 0 s)
-  during: [0.5, 3.0]         # the window in seconds of ROS time (default: the whole run)
+  during: [0.5, 3.0]         # seconds of ROS time after that, both ends included (default: all)
   points: 10
   with: {topic: /turtle1/cmd_vel, each: {linear.x: 2.0, angular.z: {about: 2.0, within: 0.01}}}
 ```
@@ -87,6 +87,8 @@ def _type(annotation: Any) -> str:
     if annotation in named:
         return named[annotation]
     arguments = get_args(annotation)
+    if get_origin(annotation) is tuple and Ellipsis in arguments:
+        return f"list of {_type(arguments[0])}"
     if get_origin(annotation) is dict:
         return "fields and their forms"
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import node_order
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
@@ -187,8 +187,7 @@ KINDS = (
                     "    node = MyFirstNode()\n",
                     "    node = MyFirstNode()\n    node.destroy_node()\n",
                 ),
-                fails="run.spins",
-                blocks=("run.output", *SILENT),
+                fails="run.starts",
             ),
         ),
     ),

@@ -228,6 +228,10 @@ class VirtualClock:
                 on_event(event)
             lines += events
             fresh = [event.virtual for event in _ticks(lines, counts=counts)]
+        if len({*seen, *fresh}) == 1:
+            again = self._as_long_again(round({*seen, *fresh}.pop() * SECOND), step)
+            watch.events += again
+            fresh += [event.virtual for event in _ticks(again, counts=counts)]
         instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))
         if len(instants) > 1:
             gaps = [b - a for a, b in zip(instants, instants[1:])]
@@ -235,6 +239,14 @@ class VirtualClock:
             tolerance = step / SECOND * 1.01
             if all(abs(gap - self._output.period) <= tolerance for gap in gaps) and len(fresh) > 2:
                 self._verify_phase(watch, round(instants[-1] * SECOND), step, on_event)
+
+    def _as_long_again(self, only: int, step: int) -> list[Event]:
+        """Go on until the timer that made the only line would make another one; return what came."""
+        events: list[Event] = []
+        for at in (2 * only - step, 2 * only, 2 * only + step, 2 * only + self._period):
+            if at > self._at and not events and not self._over():
+                events += self._step(at)
+        return events
 
     def _verify_phase(
         self, watch: Watch, last: int, step: int, on_event: Callable[[Event], None]

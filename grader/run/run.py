@@ -23,6 +23,7 @@ from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
 COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
 OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
+GONE_SECONDS = 0.1  # wall time for one more look at the graph
 FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
 TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
 SETTLE_SECONDS = 0.1  # wall time in which lines come that were logged before the time stood still
@@ -139,6 +140,9 @@ def observe(
                 run.erased += len(seen) - len(kept)
                 seen[:] = kept
         counted = watch.counted
+        if run.nodes and not counted and not watch.settled and not observer.over:
+            # one that was destroyed at once may have been seen or not
+            run.nodes = observer.probe.ask("wait", seconds=GONE_SECONDS).nodes
         if counted:
             run.first_line_seconds = counted[0].wall - terminal.started
         run.ended_by_itself, run.flooded = terminal.ended, observer.flooded

@@ -21,6 +21,7 @@ from grader.validate.named import MUTANTS, MutantsFile, read_mutants
 from grader.verdict.order import Order
 from grader.verdict.own_checks import checks_of
 
+ALL = "*"
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"
 
@@ -40,7 +41,7 @@ class ValidationOptions:
     starter: Path | None = None
     static: bool = False
     workers: int = 0
-    only: str = "*"
+    only: str = ALL
     named: bool = False
 
 
@@ -55,7 +56,7 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
     mutants = collect(options, original)
     wanted = [m for m in mutants if m.mistake or m.named] if options.named else mutants
     chosen = [m for m in wanted if fnmatch.fnmatchcase(m.name, options.only)]
-    if not chosen:
+    if not chosen and options.only != ALL:
         raise UsageError(f"no mutant's name matches '{options.only}'")
     marked, waiting = _by_files(chosen, original, options.order)
     if not options.static:

@@ -8,7 +8,6 @@ from grader.base.i18n.message import joined, say, say_plural
 from grader.base.nearest import compared
 from grader.package.source.remarks import remarks_on
 from grader.report.model import Where
-from grader.run.clock import MEASURED
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
 from grader.verdict.node_files import source_of_node
@@ -210,13 +209,12 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
 def _is_silent(evidence: Evidence) -> bool:
     """Whether no line came after a due instant at which one was missing.
 
-    After a single line, another one would have come in as much time again, if a timer made it.
+    A single line is the last one: the clock went on until its timer would have made another one.
     """
-    watch, period = evidence.run.watch, evidence.assignment.output.period
+    watch = evidence.run.watch
     events, missing = watch.counted, watch.dues[watch.missing[0]]
     last = max(event.virtual for event in events)
-    single = len(events) == 1 and watch.period is None
-    return last < missing or (single and 2 * last < missing + (MEASURED - 1) * period)
+    return last < missing or (len(events) == 1 and watch.period is None)
 
 
 def _only_when_marked(evidence: Evidence, expected: str) -> Failed:
