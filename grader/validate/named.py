@@ -70,17 +70,21 @@ class MutantsFile:
     equivalent: tuple[Explained, ...] = ()
 
     def explained(self, automatic: Iterable[str]) -> dict[str, str]:
-        """Return the reasons by mutant; AssignmentError for an unknown or duplicate name."""
+        """Return the reasons by mutant; one AssignmentError for all unknown or duplicate names."""
         names = tuple(automatic)
-        for entry in self.equivalent:
-            if entry.mutant not in names:
-                hint = _hint(entry.mutant, names)
-                raise AssignmentError(
-                    f"{entry.where}: there is no automatic mutant '{entry.mutant}'{hint}"
-                )
-        for mutant in self.mutants:
-            if mutant.name in names:
-                raise AssignmentError(f"{mutant.where}: an automatic mutant has the same name")
+        faults = [
+            f"{entry.where}: there is no automatic mutant '{entry.mutant}'"
+            f"{_hint(entry.mutant, names)}"
+            for entry in self.equivalent
+            if entry.mutant not in names
+        ]
+        faults += [
+            f"{mutant.where}: an automatic mutant has the same name"
+            for mutant in self.mutants
+            if mutant.name in names
+        ]
+        if faults:
+            raise AssignmentError("\n".join(faults))
         return {entry.mutant: entry.why for entry in self.equivalent}
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import fnmatch
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.base.errors import UsageError
+from grader.base.errors import AssignmentError, UsageError
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.tree import Nest, Tree, digest, read_tree
@@ -87,7 +87,7 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     if path.is_file():
         beside = bool(assignment.others)
         written = read_mutants(path, checks=ids, kinds=CATALOGUE, beside=beside)
-    seen = {digest(original), *(digest(mutant.of(original)) for mutant in written.mutants)}
+    seen = {digest(original), *_digests(written.mutants, original)}
     made = []
     for mutant in automatic:
         key = digest(mutant.of(original))
@@ -97,6 +97,19 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     whys = written.explained(mutant.name for mutant in made)
     explained = [replace(mutant, equivalent=whys.get(mutant.name, "")) for mutant in made]
     return [*written.mutants, *explained]
+
+
+def _digests(mutants: Iterable[Mutant], original: Tree) -> list[str]:
+    """Return the digest of each mutant; one AssignmentError for all whose edits do not fit."""
+    digests, faults = [], []
+    for mutant in mutants:
+        try:
+            digests.append(digest(mutant.of(original)))
+        except AssignmentError as error:
+            faults.append(str(error))
+    if faults:
+        raise AssignmentError("\n".join(faults))
+    return digests
 
 
 def _of_scenarios(mutant: Mutant, assignment: Assignment) -> Mutant:

@@ -88,6 +88,14 @@ def test_unknown_names_of_automatic_mutants_are_reported_with_their_line(
     assert says in str(caught.value)
 
 
+def test_all_unknown_names_are_reported_at_once(tmp_path: Path) -> None:
+    more = "equivalent:\n  - {mutant: drop x, why: a}\n  - {mutant: drop y, why: b}\n"
+    with pytest.raises(AssignmentError) as caught:
+        read(tmp_path, GOOD + more).explained(["no_bit"])
+    places = [line.partition(": ")[0] for line in str(caught.value).splitlines()]
+    assert places == [f"{tmp_path}/mutants.yaml:{line}" for line in (9, 10, 3)]
+
+
 @pytest.mark.parametrize(
     ("text", "line", "says"),
     [
