@@ -47,6 +47,8 @@ BARE_COUNTER: Mapping[str, Value] = {"name": "counter"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package"},
     "topic.wrong_name": {"name": "/chater"},
+    "topic.wrong_end": {"call": "create_subscription"},
+    "interface.cmake_error": {"line": "9"},
     "topic.wrong_type": {"wanted": "std_msgs/msg/String"},
     "topic.wrong_period": {"wanted": "0.5"},
     "topic.wrong_value": {"wanted": "2", "field": "linear.x"},

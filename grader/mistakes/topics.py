@@ -174,6 +174,16 @@ KINDS = (
         ),
     ),
     _topic(
+        "wrong_end",
+        "topic",
+        msg("The node has the other end of the topic"),
+        msg(
+            "create_publisher is for a topic on which the node sends messages, create_subscription "
+            "for one on which it receives them."
+        ),
+        msg("Use {call} for '{topic}'. Are two topics swapped?"),
+    ),
+    _topic(
         "wrong_name",
         "topic",
         msg("The topic has a different name"),

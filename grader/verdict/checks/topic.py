@@ -170,6 +170,17 @@ def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expecte
             params={"name": close},
             words={"topic": topic},
         )
+    other: Role = "subscription" if role == "publisher" else "publisher"
+    if any(end.name == topic for end in use.ends(other)):
+        raise Failed(
+            "topic.wrong_end",
+            expected=expected,
+            actual=say(
+                "{node} has a {end} on {topic} instead", node=use.node, end=other, topic=topic
+            ),
+            where=use.call(CALLS[other], mentions=topic),
+            words={"topic": topic, "call": CALLS[role]},
+        )
     missing = "topic.no_publisher" if role == "publisher" else "topic.no_subscription"
     raise Failed(
         missing,
