@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from grader.run.in_probe.robot import BEAMS, BOX, DT, RADIUS, SIZE, STEP, Drive, distance, is_free
-from tests.scenario_kinds import write_files
-from tests.test_scenarios import marked
+from tests.test_scenarios import judged
 
 ASSIGNMENT = """\
 schema: 2
@@ -133,12 +132,7 @@ def test_where_the_robot_fits() -> None:
 def test_a_package_is_judged_in_it(
     old: str, new: str, fails: dict[str, str], tmp_path: Path
 ) -> None:
-    file = tmp_path / "halt" / "assignment.yaml"
-    root = tmp_path / "ana" / "doubling"
-    file.parent.mkdir()
-    file.write_text(ASSIGNMENT, encoding="utf-8")
-    write_files(root, NODE.replace(old, new) if old else NODE)
-    report = marked(root, file, [])
+    report = judged(ASSIGNMENT, NODE.replace(old, new) if old else NODE, tmp_path)
     failed = {c.id: c.mistakes[0].id for c in report.checks if c.status == "failed"}
     assert failed == fails
     assert {c.id for c in report.checks if c.status == "inconclusive"} == set()

@@ -18,7 +18,7 @@ from grader.verdict.order import Order, load_visible
 from grader.verdict.recording import Recording
 from tests.marking import LIMITS
 from tests.processes import ROOT
-from tests.scenario_kinds import FORMS, Form, write_course, write_package
+from tests.scenario_kinds import FORMS, Form, write_course, write_files, write_package
 
 pytestmark = [pytest.mark.prefix, pytest.mark.full]
 SOLUTION = ROOT / "grader" / "keys" / "draw_circle" / "solution"
@@ -37,6 +37,15 @@ def marked(path: Path, file: Path, kept: list[Judged], *, distro: str = "jazzy")
         limits=LIMITS.override(assignment.limits),
     )
     return grade(order, unheard, keep=kept.append)
+
+
+def judged(assignment: str, node: str, folder: Path) -> Report:
+    """Return the report of the package `doubling` with this node, of an assignment's text."""
+    file = folder / "lesson" / "assignment.yaml"
+    file.parent.mkdir()
+    file.write_text(assignment, encoding="utf-8")
+    write_files(folder / "doubling", node)
+    return marked(folder / "doubling", file, [])
 
 
 @pytest.mark.parametrize(

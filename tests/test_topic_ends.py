@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.scenario_kinds import write_files
-from tests.test_scenarios import marked
+from tests.test_scenarios import judged
 
 pytestmark = [pytest.mark.prefix, pytest.mark.full]
 
@@ -76,10 +75,6 @@ SWAPPED = (
     ],
 )
 def test_the_end_of_a_topic(node: str, fails: dict[str, str], tmp_path: Path) -> None:
-    course = tmp_path / "course" / "twice" / "assignment.yaml"
-    course.parent.mkdir(parents=True)
-    course.write_text(ASSIGNMENT, encoding="utf-8")
-    write_files(tmp_path / "doubling", node)
-    report = marked(tmp_path / "doubling", course, [])
+    report = judged(ASSIGNMENT, node, tmp_path)
     failed = {c.id: c.mistakes[0].id for c in report.checks if c.status == "failed"}
     assert failed == fails

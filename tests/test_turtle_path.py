@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.scenario_kinds import write_files
-from tests.test_scenarios import marked
+from tests.test_scenarios import judged
 
 pytestmark = [pytest.mark.prefix, pytest.mark.full]
 
@@ -75,12 +74,8 @@ def main():
     ],
 )
 def test_a_turtle_on_a_circle(old: str, new: str, mistake: str, tmp_path: Path) -> None:
-    course = tmp_path / "course" / "ring" / "assignment.yaml"
-    course.parent.mkdir(parents=True)
-    course.write_text(ASSIGNMENT, encoding="utf-8")
     assert not old or NODE.count(old) == 1
-    write_files(tmp_path / "doubling", NODE.replace(old, new) if old else NODE)
-    report = marked(tmp_path / "doubling", course, [])
+    report = judged(ASSIGNMENT, NODE.replace(old, new) if old else NODE, tmp_path)
     found = {check.id: check for check in report.checks}
     assert found["run.spins"].status == "passed"
     circle = found["circle"]

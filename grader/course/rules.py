@@ -30,8 +30,8 @@ from grader.course.scenario import (
 )
 from grader.report.detail import FeedbackRules
 
-# REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
 ARCHIVE = r"(?!\.)(?:[\w.-]|\{student\}){1,100}\.zip"
+# REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
 NAMES = {  # key: its pattern, and the pattern in words
     "id": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
     "package": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),

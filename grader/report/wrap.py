@@ -37,10 +37,11 @@ def _units(text: str, width: int, *, whole_code: bool) -> Iterator[tuple[int, st
     """Yield what is not broken, with its offset: words, parts of a long path, pieces of a long name."""
     for match in WORD.finditer(text):
         start, word = match.start(), match.group()
-        if cell_len(word.lstrip()) <= width or (whole_code and " " in word.strip()):
+        has_spaces = " " in word.strip()  # quoted code
+        if cell_len(word.lstrip()) <= width or (whole_code and has_spaces):
             yield start, word
             continue
-        if " " in word.strip():
+        if has_spaces:
             for inner in BARE_WORD.finditer(word):
                 for offset, piece in _units(inner.group(), width, whole_code=False):
                     yield start + inner.start() + offset, piece

@@ -228,8 +228,9 @@ class VirtualClock:
                 on_event(event)
             lines += events
             fresh = [event.virtual for event in _ticks(lines, counts=counts)]
-        if len({*seen, *fresh}) == 1:
-            again = self._as_long_again(round({*seen, *fresh}.pop() * SECOND), step)
+        different = {*seen, *fresh}
+        if len(different) == 1:
+            again = self._as_long_again(round(different.pop() * SECOND), step)
             watch.events += again
             fresh += [event.virtual for event in _ticks(again, counts=counts)]
         instants = sorted(set(fresh if len(fresh) > 2 else seen + fresh))

@@ -26,16 +26,14 @@ STUCK = re.compile(r"^\*[^*\n]{1,40}\?\* +(.+?)(?:\n\n|\Z)", re.MULTILINE | re.D
 @options.lang
 def hint(lang: str | None) -> None:
     """Print the hints so far and the next one, and count it."""
-    from rich.text import Text  # noqa: PLC0415 - keeps --help fast
-
-    from lab.guide.opened import opened_lab  # noqa: PLC0415
-    from lab.guide.show import console_for, is_command  # noqa: PLC0415
+    from lab.guide.opened import opened_lab  # noqa: PLC0415 - keeps --help fast
+    from lab.guide.show import console_for, show_line  # noqa: PLC0415
 
     with errors_in(lang):
         lab = opened_lab(lang)
         console = console_for(sys.stdout)
         for line in next_hint(lab, lab.task(os.environ, look=True)):
-            console.print(Text(line), soft_wrap=is_command(line) or None)
+            show_line(console, line)
 
 
 def next_hint(lab: OpenedLab, task: Task) -> list[str]:

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from grader.base.i18n.message import say
 from lab.guide.opened import OpenedLab, Task
-from lab.guide.show import console_for, is_command, show_list, show_next, show_step
+from lab.guide.show import console_for, show_line, show_list, show_next, show_step
 
 BETWEEN = "   "  # two keys of the last line, which is broken only there
 PLAIN = "LAB_PLAIN"  # set to anything: nothing is cleared, for screen readers
@@ -44,7 +44,7 @@ class Screen:
         if not ahead:
             show_next(console, task.action, translate, passed=self._lab.progress().passed)
         for line in more:
-            console.print(Text(line), soft_wrap=is_command(line) or None)
+            show_line(console, line)
         self._keys()
 
     def steps(self, task: Task) -> None:

@@ -67,7 +67,8 @@ def submit(name: str | None, lang: str | None) -> None:
 def write_archive(lab: OpenedLab, student: str = "") -> Path:
     """Write the archive of the lab's lesson; return its path.
 
-    UsageError if there is no package, or the student's name is needed and is none. SurroundingsError if the archive, read back, is not what is in the workspace.
+    UsageError if there is no package, or the student's name is needed and is none.
+    SurroundingsError if the archive, read back, is not what is in the workspace.
     """
     from grader.base.errors import SurroundingsError  # noqa: PLC0415
     from grader.base.folder import Folder  # noqa: PLC0415

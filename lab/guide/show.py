@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Sequence
-from typing import ClassVar, TextIO
+from typing import TYPE_CHECKING, ClassVar, TextIO
 
 from rich.cells import cell_len
-from rich.console import Console, ConsoleOptions, RenderResult
 from rich.markdown import Markdown, MarkdownElement, TableElement
 from rich.rule import Rule
 from rich.table import Table
@@ -22,6 +21,9 @@ from grader.report.wrap import breaks
 from lab.guide.action import Action
 from lab.guide.lesson import Lesson, Step
 from lab.guide.predicates import current
+
+if TYPE_CHECKING:
+    from rich.console import Console, ConsoleOptions, RenderResult
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"(?:cd|source|ros2|touch|mkdir|chmod|colcon) ")
@@ -156,12 +158,15 @@ def _show_markdown(console: GatedConsole, text: str) -> None:
             console.print(Text(code, style="bold cyan"), soft_wrap=True)
 
 
-def _wrapped(text: Text, width: int) -> Text:
-    """Return a text in lines of `width` columns; code in quotes stays on one line."""
-    parts = text.divide(breaks(text.plain, width, whole_code=True))
-    for part in parts:
-        part.rstrip()
-    return Text("\n").join(parts)
+def show_line(console: GatedConsole, line: str, *, lead: tuple[str, str] = ("", "")) -> None:
+    """Print a line behind a text in a style; a command, and code in quotes, is not wrapped."""
+    text = Text.assemble(lead, line)
+    if not console.soft_wrap and not is_command(line):
+        parts = text.divide(breaks(text.plain, console.width, whole_code=True))
+        for part in parts:
+            part.rstrip()
+        text = Text("\n").join(parts)
+    console.print(text, soft_wrap=True)
 
 
 def show_next(
@@ -182,13 +187,7 @@ def show_next(
         console.print(Text(translate(hand_in)))
         return
     if action.found:
-        found = translate(say("Found: "))
-        console.print(Text.assemble((found, "bold yellow"), translate(action.found)))
-    label = translate(say("Next: "))
-    line = translate(action.next)
-    text = Text.assemble((label, "bold green"), line)
-    if not console.soft_wrap and not is_command(line):
-        text = _wrapped(text, console.width)
-    console.print(text, soft_wrap=True)
+        show_line(console, translate(action.found), lead=(translate(say("Found: ")), "bold yellow"))
+    show_line(console, translate(action.next), lead=(translate(say("Next: ")), "bold green"))
     if action.hints:
         console.print(Text(translate(say("More: lab hint")), style="dim"))

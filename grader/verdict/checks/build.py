@@ -18,8 +18,7 @@ from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
-from grader.verdict.checks.cmake import FILE as CMAKE
-from grader.verdict.checks.cmake import cmake_error
+from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.parsed import node_path
 from grader.verdict.outcome import Blocked, Failed, Passed
@@ -175,14 +174,14 @@ def _broken(evidence: Evidence) -> Failed:
             actual=_summary(build.log),
             where=Where(file=IGNORE),
         )
-    error_of_cmake = cmake_error(build.log)
-    if error_of_cmake is not None and _is_submitted(evidence, error_of_cmake.package):
+    stop = cmake_error(build.log)
+    if stop is not None and evidence.submission.package(stop.package) is not None:
         return Failed(
             "interface.cmake_error",
             expected=expected,
-            actual=error_of_cmake.text,
-            where=Where(file=f"{error_of_cmake.package}/{CMAKE}", line=error_of_cmake.line),
-            params={"line": error_of_cmake.line},
+            actual=stop.text,
+            where=Where(file=f"{stop.package}/{CMAKE}", line=stop.line),
+            params={"line": stop.line},
         )
     ended = say("colcon ended with status {status}", status=str(build.status))
     return Failed(
@@ -191,11 +190,6 @@ def _broken(evidence: Evidence) -> Failed:
         actual=_summary(build.log) or ended,
         params={"status": -1 if build.status is None else build.status},
     )
-
-
-def _is_submitted(evidence: Evidence, package: str) -> bool:
-    """Whether a package is one of those that were submitted beside the node's."""
-    return any(one.name == package for one in evidence.submission.packages)
 
 
 def _line_of(found: bytes, text: str) -> int | None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-FILE = "CMakeLists.txt"
+CMAKE = "CMakeLists.txt"
 BEGIN = re.compile(r"^CMake Error at (\S+?):(\d+)\b.*:\n", re.MULTILINE)
 PACKAGE = re.compile(r"^--- stderr: (\S+)$", re.MULTILINE)
-CALLED_AT = re.compile(rf"^  {re.escape(FILE)}:(\d+) ", re.MULTILINE)
+CALLED_AT = re.compile(rf"^  {re.escape(CMAKE)}:(\d+) ", re.MULTILINE)
 STACK = "Call Stack (most recent call first):"
 MOST = 300  # characters
 
@@ -32,7 +32,7 @@ def cmake_error(log: str) -> CMakeError | None:
     packages = PACKAGE.findall(log, 0, begin.start())
     text, _, stack = log[begin.end() :].partition("\n\n\n")[0].partition(STACK)
     called = CALLED_AT.search(stack)
-    line = begin[2] if begin[1] == FILE else called[1] if called else ""
+    line = begin[2] if begin[1] == CMAKE else called[1] if called else ""
     if not packages or not line:
         return None
     return CMakeError(packages[-1], int(line), " ".join(text.split())[:MOST])

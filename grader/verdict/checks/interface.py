@@ -12,6 +12,7 @@ from grader.base.nearest import nearest, with_difference
 from grader.package.source.interface import FIELD_NAME, message_text
 from grader.package.source.manifest import ManifestError, read_manifest
 from grader.report.model import Where
+from grader.verdict.checks.cmake import CMAKE
 from grader.verdict.checks.declare import INTAKE, Parameters, kind
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 GROUP = "rosidl_interface_packages"
 GENERATE = re.compile(r"rosidl_generate_interfaces\s*\((?P<words>[^)]*)\)")
 COMMENT = re.compile(r"#[^\n]*")
-CMAKE = "CMakeLists.txt"
 MANIFEST = "package.xml"
 
 
