@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rich.console import Console, ConsoleOptions, RenderResult
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
-COMMAND = re.compile(r"(?:cd|source|ros2|touch|mkdir|chmod|colcon) ")
+COMMAND = re.compile(r"(?:cd|source|ros2|touch|mkdir|chmod|mv|colcon) ")
 FIRST_COLUMN = 0.45  # of a line: a table's first column, if no word in it is longer
 WIDEST_NAME = 0.7  # of a line: the longest word for which it gets more
 MAX_WIDTH = 96  # columns; longer lines are hard to read

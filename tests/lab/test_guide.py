@@ -232,6 +232,14 @@ def test_a_line_to_copy_is_not_wrapped_either(lang: str, width: int) -> None:
     assert [part for part in shown if cell_len(part) > width and part != line] == []
 
 
+def test_a_command_that_moves_a_file_is_not_wrapped() -> None:
+    command = f"mv ~/ros2_ws/src/{PACKAGE}/my_first_node.py ~/ros2_ws/{FILE}"
+    file = io.StringIO()
+    console = GatedConsole(file, width=40, force_terminal=True, color_system=None)
+    show_next(console, Action(command, "source.node_elsewhere"), Translator("en"))
+    assert file.getvalue() == f"Next: {command}\n"
+
+
 @pytest.mark.parametrize("width", [60, 80, 120])
 @pytest.mark.parametrize("lang", ["en", "ko"])
 @pytest.mark.parametrize("lesson", lessons_of(own_course()))
