@@ -8,7 +8,6 @@ from grader.base.plain_text import first_lines, one_line
 from grader.batch.points import Mark
 from grader.report.blocks import UNSEEN, WORDS, all_of, block, roots
 from grader.report.model import Report
-from grader.report.page import Page
 
 WIDTH = 100  # columns
 LINES = 12  # of one text
@@ -22,6 +21,8 @@ def check_text(mark: Mark, report: Report, *, lines: int = LINES) -> str:
     elif check.status == "skipped":
         text = [translate(_skipped(mark, report))]
     else:
+        from grader.report.page import Page  # noqa: PLC0415 - slow, and rarely needed
+
         page = Page(width=WIDTH, styled=False, translate=translate)
         block(page, check, lines=lines)
         text = str(page).rstrip("\n").split("\n")

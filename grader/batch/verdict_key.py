@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
+import os
 from dataclasses import asdict
 from pathlib import Path
 
@@ -22,16 +23,27 @@ NOT_MARKING = ("batch", "publish", "keys")  # folders that do not affect a verdi
 SOURCES = (".py", ".toml", ".json", ".yaml", ".txt", ".bash", ".in", ".j2", ".css", ".js", ".mo")
 
 
-@functools.cache
 def source_digest(folder: Path = PACKAGE, leave_out: tuple[str, ...] = ()) -> str:
     """Return the hash of a folder's sources, without the subfolders in `leave_out`."""
-    digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*")):
-        place = path.relative_to(folder)
-        if path.suffix in SOURCES and place.parts[0] not in leave_out and path.is_file():
-            content = path.read_bytes()
-            digest.update(f"{place.as_posix()}\0{len(content)}\0".encode() + content)
-    return digest.hexdigest()
+    kept = [line for place, line in _source_lines(folder) if place.split("/")[0] not in leave_out]
+    return hashlib.sha256("".join(kept).encode()).hexdigest()
+
+
+@functools.cache
+def _source_lines(folder: Path) -> tuple[tuple[str, str], ...]:
+    """Return the path of each source below a folder, with a line that has its path and its hash.
+
+    A run without anything to mark mostly waits for this, so each file is read once.
+    """
+    found = []
+    for at, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        found += [Path(at, name) for name in names if name.endswith(SOURCES)]
+    lines = []
+    for path in sorted(path for path in found if path.is_file()):
+        place = path.relative_to(folder).as_posix()
+        lines.append((place, f"{place}\0{hashlib.sha256(path.read_bytes()).hexdigest()}\n"))
+    return tuple(lines)
 
 
 def surroundings_key(assignment: Assignment, ros: Ros, limits: Limits, *, lang: str) -> str:

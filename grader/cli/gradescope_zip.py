@@ -36,7 +36,7 @@ def gradescope_zip(
     """
     from grader.batch.systems.gradescope import archive  # noqa: PLC0415 - keeps --help fast
     from grader.ros.distro import find_distro  # noqa: PLC0415
-    from grader.sandbox.choose import check_name  # noqa: PLC0415
+    from grader.sandbox.names import check_name  # noqa: PLC0415
 
     check_name(sandbox)
     name = find_distro(distro).name

@@ -7,15 +7,14 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.entry_function import SLEEPS
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted
-from grader.package.source.node import NodeSource
+from grader.package.source.names import dotted
+from grader.package.source.sleeps import longest_sleep
 
 DECORATORS = ("staticmethod", "classmethod", "property")
 ONLY_SELF = msg("The timer passes no argument to your callback except self.")
@@ -49,20 +48,6 @@ def _decorated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         if found is not None and name in names:
             return raised.finding("callback_decorated", at=found, name=dotted(found))
     return None
-
-
-def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
-    """Return the callback's longest sleep of those with a literal number of seconds."""
-    calls = calls_in(source.callback) if source.callback is not None else ()
-    found = [
-        (call, float(call.args[0].value))
-        for call, name in calls
-        if name in SLEEPS
-        and call.args
-        and isinstance(call.args[0], ast.Constant)
-        and isinstance(call.args[0].value, int | float)
-    ]
-    return max(found, key=lambda sleep: sleep[1], default=None)
 
 
 def _sleeps(suspect: Suspect) -> RecognisedMistake | None:

@@ -13,13 +13,13 @@ from grader.mistakes.fixes import lines, node_count, node_log, node_words
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, starts_of, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
-from grader.package.source.place import function_at
+from grader.package.source.place import function_at, place_of
 from grader.report.model import Where
 
 COUNTER = msg(

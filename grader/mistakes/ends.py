@@ -14,12 +14,12 @@ from dataclasses import dataclass
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.callback import never_ends_in
-from grader.mistakes.entry_function import SLEEPS
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
+from grader.package.source.sleeps import SLEEPS
 
 ENDS = {"create_subscription": "callback", "create_service": "callback"}
 BARE = r"^TypeError:?\s*$"  # rclpy raises it without a text

@@ -13,8 +13,8 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.names import calls_in
+from grader.package.source.sleeps import SLEEPS
 
-SLEEPS = ("time.sleep", "sleep")
 WAITS = ("input", *SLEEPS)
 NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
 LOOKED_FOR = msg(

@@ -6,7 +6,6 @@ import ast
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import compared, nearest
-from grader.mistakes.catalogue import CATALOGUE
 from grader.package.source.names import dotted
 
 GUARD = "__main__"
@@ -32,6 +31,8 @@ def _guard(node: ast.Compare) -> list[str]:
 
 
 def _advice(mistake: str, line: int) -> Message:
+    from grader.mistakes.catalogue import CATALOGUE  # noqa: PLC0415 - slow, rarely needed
+
     kind = CATALOGUE[mistake]
     title = say("line {line}: {code}", line=line, code=Message(kind.title))
     return joined(joined(title, kind.rationale({}), by=". "), kind.fix_text({}))

@@ -12,6 +12,7 @@ from grader.course.assignment import Assignment, Output
 from grader.mistakes.placeholders import placeholder_values
 from grader.package.source.module import Function, Module
 from grader.package.source.node import NodeSource
+from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
 
 
@@ -138,13 +139,6 @@ class Suspect:
         }
         where = at if isinstance(at, Where) else place_of(self.source, at)
         return RecognisedMistake(kind=f"node.{slug}", params=params, words=words, where=where)
-
-
-def place_of(source: NodeSource, node: ast.stmt | ast.expr | None) -> Where:
-    """Return the file and the line of a piece of syntax; the class's file for None."""
-    if node is None:
-        return Where(file=source.module.path)
-    return Where(file=source.module_of(node).path, line=node.lineno)
 
 
 FromError = Callable[[Raised, re.Match[str]], "RecognisedMistake | None"]

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from grader.base.plain_text import one_line, points
 from grader.batch.ledger import Ledger, Regrade
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
 from grader.report.model import Report
-from grader.report.page import Page
+
+if TYPE_CHECKING:
+    from grader.report.page import Page
 
 STYLES = {
     "graded": "",
@@ -42,7 +45,7 @@ class Change:
 
 def class_page(result: ClassResult, *, width: int, styled: bool) -> str:
     """Return the page of a class: each student's points, and the first failed checks."""
-    page = Page(width=width, styled=styled)
+    page = _new_page(width, styled=styled)
     page.line((one_line(result.title), "bold"))
     page.gap()
     rows = [_row(entry) for entry in result.entries]
@@ -58,7 +61,7 @@ def class_page(result: ClassResult, *, width: int, styled: bool) -> str:
 
 def regrade_page(changes: Sequence[Change], *, width: int, styled: bool) -> str:
     """Return the page of a regrade: points before and after, checks lost and won."""
-    page = Page(width=width, styled=styled)
+    page = _new_page(width, styled=styled)
     changed = [change for change in changes if change.is_one]
     same = len(changes) - len(changed)
     page.line((f"Marked again: {len(changes)}, {same} of them with the same result.", "bold"))
@@ -76,6 +79,12 @@ def regrade_page(changes: Sequence[Change], *, width: int, styled: bool) -> str:
         page.grid(["student", "before", "after", "fails now", "passes now"], rows)
     page.gap()
     return str(page)
+
+
+def _new_page(width: int, *, styled: bool) -> Page:
+    from grader.report.page import Page  # noqa: PLC0415 - slow, and --quiet needs none
+
+    return Page(width=width, styled=styled)
 
 
 def changes_of(ledger: Ledger, regrades: Sequence[Regrade]) -> list[Change]:

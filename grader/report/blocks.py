@@ -1,4 +1,4 @@
-"""The parts of a page about checks: a table row, the block of a failed check, causes of skips."""
+"""The parts of a page about checks: the words, the block of a failed check, causes of skips."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import joined, say
-from grader.base.plain_text import first_lines, last_lines, one_line, points
-from grader.report.page import CheckRow
+from grader.base.plain_text import first_lines, last_lines, one_line
 from grader.report.shown_patch import shown_patch
 from grader.report.tracebacks import folded
 
@@ -31,19 +30,6 @@ WORDS = {
     "error": say("could not be checked"),
 }
 UNSEEN = say("a hidden check")
-
-
-def row(check: CheckResult) -> CheckRow:
-    """Return the check's row of the table; unknown points are a dash."""
-    mark, style = MARKS[check.status]
-    open_ = check.status in ("inconclusive", "error")
-    return CheckRow(
-        mark=mark,
-        style=style,
-        name=one_line(check.id, most=60),
-        text=one_line(check.title),
-        score=f"{'-' if open_ else points(check.score)} / {points(check.max_score)}",
-    )
 
 
 def all_of(names: Sequence[str]) -> str:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, one_line, points
-from grader.report.blocks import UNSEEN, WORDS, block, evidence_of, quotation, roots, row
+from grader.report.blocks import MARKS, UNSEEN, WORDS, block, evidence_of, quotation, roots
 from grader.report.feedback import most_stopping
-from grader.report.page import Page
+from grader.report.page import CheckRow, Page
 from grader.report.sketch import path_sketch, value_sketch
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
         page.line(say("This is a fault of the grader or its machine, not of the submission."))
         page.gap()
     if checks:
-        page.table([row(check) for check in checks])
+        page.table([_row(check) for check in checks])
         page.gap()
     total = say("Score {score} / {most}", score=points(report.score), most=points(report.max_score))
     open_ = say(", {points} inconclusive", points=points(report.inconclusive))
@@ -252,3 +252,16 @@ def _foot(
         page.code(say("report"), [one_line(str(path), most=4_000)])
     if more:
         page.field(say("hint"), more, style="bold")
+
+
+def _row(check: CheckResult) -> CheckRow:
+    """Return the check's row of the table; unknown points are a dash."""
+    mark, style = MARKS[check.status]
+    open_ = check.status in ("inconclusive", "error")
+    return CheckRow(
+        mark=mark,
+        style=style,
+        name=one_line(check.id, most=60),
+        text=one_line(check.title),
+        score=f"{'-' if open_ else points(check.score)} / {points(check.max_score)}",
+    )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 from grader.ros.distro import HERE
 
@@ -60,7 +59,7 @@ def interface_package(
     return {
         **texts,
         "CMakeLists.txt": cmake,
-        "package.xml": MANIFEST.format(name=escape(name)),
+        "package.xml": MANIFEST.format(name=name),
     }
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import json
 import os
 import platform
@@ -129,9 +128,9 @@ def _install_command(distro: Distro, site: Path, script: Path, interpreter: Path
 
 
 def _versions(site: Path) -> dict[str, str]:
-    found = {
-        d.metadata["Name"]: d.version for d in importlib.metadata.distributions(path=[str(site)])
-    }
+    from importlib.metadata import distributions  # noqa: PLC0415 - slow, and rarely needed
+
+    found = {d.metadata["Name"]: d.version for d in distributions(path=[str(site)])}
     wanted = {
         "rclpy": found.get("ros-rclpy", ""),
         "rmw": f"rmw_fastrtps_cpp {found.get('ros-rmw-fastrtps-cpp', '')}",

@@ -7,31 +7,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from grader.base.cache import Notify
-from grader.base.errors import SurroundingsError, UsageError
+from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import joined, say
-from grader.base.nearest import did_you_mean
 from grader.ros import image_build, images
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError, Ros, instead_of_docker
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
+from grader.sandbox.names import check_name
 from grader.sandbox.plain import AccountSandbox, NoSandbox
 from grader.sandbox.proof import proven_ros
 
-NAMES = ("auto", "docker", "bubblewrap", "account", "none")
 DISPOSABLE = "GRADER_DISPOSABLE"
 DOCKER_SOCKET = Path("/var/run/docker.sock")
-
-
-def check_name(name: str) -> None:
-    """Raise UsageError (with a "did you mean") if no sandbox has that name."""
-    if name not in NAMES:
-        known = say("Sandboxes: {names}.", names=", ".join(NAMES))
-        raise UsageError(
-            say("there is no sandbox '{name}'", name=name),
-            remedy=joined(did_you_mean(name, NAMES), known),
-        )
 
 
 def open_sandbox(

@@ -13,7 +13,8 @@ from grader.base.shown import shown
 from grader.course.assignment import OWN
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, place_of
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import raised_in
 from grader.verdict.checks.parsed import names_in

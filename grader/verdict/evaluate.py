@@ -14,7 +14,6 @@ from grader.course.assignment import Assignment, CheckUse
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
-from grader.verdict.diagnose import diagnose
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
@@ -151,6 +150,8 @@ def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
         return _skipped(assigned, outcome.by, evidence)
     if not outcome.blocks:
         evidence.not_blocking.add(assigned.use.id)
+    from grader.verdict.diagnose import diagnose  # noqa: PLC0415 - it imports all mistakes
+
     diagnosis = diagnose(outcome, evidence)
     return _Result(
         status="failed",

@@ -25,7 +25,6 @@ from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence
-from grader.verdict.fix import patch_for
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
 
@@ -201,6 +200,10 @@ class _Stages:
 
 
 def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:
+    if result.status != "failed":
+        return ""
+    from grader.verdict.fix import patch_for  # noqa: PLC0415 - it imports all mistakes
+
     try:
         return patch_for(result, evidence.submission, evidence.assignment)
     except Exception as fault:  # a bug of ours must not lose the verdict, which has no fix then

@@ -14,8 +14,8 @@ from grader.course.assignment import Assignment
 from grader.course.find import assignment_file, own_keys
 from grader.course.load import load_assignment
 from grader.ros.distro import Distro, find_distro
-from grader.sandbox.choose import check_name
 from grader.sandbox.limits import UNITS, Limits
+from grader.sandbox.names import check_name
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.own_checks import all_checks, read_own_checks
 

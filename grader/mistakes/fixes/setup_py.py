@@ -10,8 +10,8 @@ from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, read_source
-from grader.package.source.python import PythonFault, can_parse, parse_python
-from grader.package.source.setup_py import INDEX
+from grader.package.source.python import can_parse
+from grader.package.source.setup_py import INDEX, called_value
 
 IMPORTS = ast.Import | ast.ImportFrom
 UNKNOWN = re.compile(
@@ -30,17 +30,6 @@ def name(case: Case) -> Files | None:
     if setup is None or literal is None or literal.value == case.package:
         return None
     return case.with_data(FILE, setup.source.spliced([setup.text(literal, case.package)]))
-
-
-def called_value(found: bytes) -> ast.expr | None:
-    """Return the first tuple, list or string of a file that is called: a comma is missing."""
-    try:
-        tree = parse_python(found).tree
-    except PythonFault:
-        return None
-    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call)]
-    values = [c.func for c in calls if isinstance(c.func, ast.Tuple | ast.List | ast.Constant)]
-    return min(values, key=lambda n: (n.lineno, n.col_offset), default=None)
 
 
 def comma(case: Case) -> Files | None:

@@ -6,6 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from grader.package.source.module import Function, Module
+from grader.package.source.node import NodeSource
+from grader.report.model import Where
+
+
+def place_of(source: NodeSource, node: ast.stmt | ast.expr | None) -> Where:
+    """Return the file and the line of a piece of syntax; the class's file for None."""
+    if node is None:
+        return Where(file=source.module.path)
+    return Where(file=source.module_of(node).path, line=node.lineno)
 
 
 def function_at(module: Module, line: int | None) -> Function | None:

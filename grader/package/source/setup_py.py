@@ -123,3 +123,14 @@ def _defines_setup(tree: ast.Module) -> bool:
 
 def _is_read(node: ast.Name) -> bool:
     return isinstance(node.ctx, ast.Load)
+
+
+def called_value(found: bytes) -> ast.expr | None:
+    """Return the first tuple, list or string of a file that is called: a comma is missing."""
+    try:
+        tree = parse_python(found).tree
+    except PythonFault:
+        return None
+    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call)]
+    values = [c.func for c in calls if isinstance(c.func, ast.Tuple | ast.List | ast.Constant)]
+    return min(values, key=lambda n: (n.lineno, n.col_offset), default=None)

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
-from grader.mistakes.fixes.setup_py import called_value
 from grader.mistakes.slips import description, words_of
 from grader.package.intake.choose import IGNORE
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
+from grader.package.source.setup_py import called_value
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE, cmake_error

@@ -8,8 +8,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.mistakes.callback import longest_sleep
-from grader.mistakes.recognised import place_of
+from grader.package.source.place import place_of
+from grader.package.source.sleeps import longest_sleep
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.checks.spinning import timer_of_other_clock
