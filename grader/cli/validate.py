@@ -21,6 +21,11 @@ from grader.cli import options
 @click.option("--only", default="*", metavar="GLOB", help="Only the mutants whose names match.")
 @click.option("--named", is_flag=True, help="Only the mutants of mutants.yaml, no automatic ones.")
 @click.option(
+    "--keep",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Also write the mutants to this new folder, to mark one with `grader grade`.",
+)
+@click.option(
     "--json",
     "json_file",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -36,6 +41,7 @@ def validate(
     workers: int | None,
     only: str,
     named: bool,
+    keep: Path | None,
     json_file: Path | None,
     keys: Path | None,
     distro: str,
@@ -70,6 +76,7 @@ def validate(
         workers=workers or 0,
         only=only,
         named=named,
+        keep=keep,
     )
     found = validation.validate(options, notify=lambda text: click.echo(text, err=True))
     click.echo(matrix.table(found))

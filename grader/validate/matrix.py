@@ -79,6 +79,7 @@ class Matrix:
         if self.starter and self.starter.score >= self.max_score:
             found.append("the starter gets full marks")
         found += [f"{row.mutant.name}: {row.fault}" for row in self.rows if row.fault]
+        found += [f"no mutant fails {check}" for check in self.never_failed]
         return tuple(found)
 
     @property
@@ -144,8 +145,6 @@ def summary(matrix: Matrix) -> str:
     ]
     if matrix.left_out:
         lines.append(f"{'not marked':<24}{matrix.left_out}")
-    if matrix.never_failed:
-        lines.append(f"{'no mutant fails':<24}{', '.join(matrix.never_failed)}")
     lines.append(f"{'time':<24}{matrix.seconds:.0f} s")
     if matrix.faults:
         lines += ["", f"Not as expected ({len(matrix.faults)}):"]

@@ -14,6 +14,7 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.tree import Nest, Tree, digest, read_tree
 from grader.package.submission import Submission
 from grader.validate.automatic import generate
+from grader.validate.kept import keep
 from grader.validate.marking import Marked, mark_all, mark_files, submit, submit_path
 from grader.validate.matrix import Matrix, MutantResult, as_json
 from grader.validate.mutant import Mutant
@@ -33,7 +34,7 @@ class ValidationOptions:
     `keys` holds the solution and mutants.yaml, `starter` what students begin with (None: nothing).
     `static`: only mutants that their files decide; `only`: only names that match the pattern;
     `named`: only those of mutants.yaml; `workers`: how many are marked at once (0: as a class is
-    marked).
+    marked); `keep`: a folder to which the mutants are written as packages.
     """
 
     order: Order
@@ -43,6 +44,7 @@ class ValidationOptions:
     workers: int = 0
     only: str = ALL
     named: bool = False
+    keep: Path | None = None
 
 
 def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matrix:
@@ -58,6 +60,9 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
     chosen = [m for m in wanted if fnmatch.fnmatchcase(m.name, options.only)]
     if not chosen and options.only != ALL:
         raise UsageError(f"no mutant's name matches '{options.only}'")
+    if options.keep is not None:
+        keep(chosen, original, assignment, options.keep)
+        notify(f"{len(chosen)} mutants written to {options.keep}")
     marked, waiting = _by_files(chosen, original, options.order)
     if not options.static:
         notify(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")

@@ -13,6 +13,9 @@ import pytest
 
 from grader.course.find import KEYS
 from grader.sandbox.processes import adopt_orphans
+from grader.validate.marking import Marked
+from grader.validate.matrix import Matrix, MutantResult
+from grader.validate.mutant import Mutant
 from tests import processes
 
 HELLO = KEYS / "hello_time"
@@ -173,3 +176,27 @@ def test_each_mutant_of_the_node_fails_or_is_explained(tmp_path: Path) -> None:
     figures = json.loads(file.read_text())["figures"]
     assert figures["failed_where_they_must"] == figures["that_must_fail"] > 5
     assert figures["equivalent"] > 0
+
+
+def test_kept_mutants_are_packages_that_can_be_marked(tmp_path: Path) -> None:
+    """Each one has a folder of its own; a second run does not write over the first."""
+    kept = tmp_path / "kept"
+    words = ("hello_time", "--static", "--only", "marker_*", "--keep", kept)
+    status, _, errors = validate(*words)
+    assert (status, f"written to {kept}" in errors) == (0, True)
+    names = sorted(path.name for path in kept.iterdir())
+    assert "marker_missing" in names
+    package = kept / "marker_missing" / "my_robot_controller"
+    assert (package / "setup.py").is_file()
+    assert not (package / "resource" / "my_robot_controller").exists()
+    status, _, errors = validate(*words)
+    assert status == 2
+    assert f"{kept} is not empty" in errors
+
+
+def test_a_check_that_no_mutant_fails_is_not_as_expected() -> None:
+    mutant = Mutant(name="one", edits=(), families=("build.colcon",))
+    row = MutantResult(mutant, Marked({"build.colcon": "failed", "run.starts": "skipped"}))
+    checks = ("build.colcon", "run.starts")
+    matrix = Matrix(assignment="a", checks=checks, max_score=2, rows=(row,), left_out=0)
+    assert matrix.faults == ("no mutant fails run.starts",)
