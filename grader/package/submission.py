@@ -19,7 +19,7 @@ from grader.package.intake.model import Candidate, Package, SourceFile, Submissi
 from grader.package.intake.naming import sanitise, submission_name
 from grader.package.intake.problems import Problem, too_large
 from grader.package.intake.recorded import with_modes
-from grader.package.intake.tree import Tree, ancestors
+from grader.package.intake.tree import Tree, ancestors, join, parent
 from grader.report.model import Modes, Origin
 
 __all__ = ["Candidate", "Package", "SourceFile", "Submission", "take_in"]
@@ -66,7 +66,7 @@ def take_in(
     packages: tuple[Package, ...] = ()
     if root is not None:
         try:
-            packages = tuple(_others(tree, candidates, others))
+            packages = tuple(_others(tree, root, candidates, others))
         except TooLargeError as error:
             choice = Choice(None, problem=too_large(error.reason, root))
             root, files = None, ()
@@ -97,12 +97,20 @@ def take_in(
     )
 
 
-def _others(tree: Tree, candidates: Iterable[Candidate], names: Iterable[str]) -> Iterator[Package]:
-    """Yield the other packages with these names, the outermost of each; raises TooLargeError."""
+def _others(
+    tree: Tree, root: str, candidates: Iterable[Candidate], names: Iterable[str]
+) -> Iterator[Package]:
+    """Yield the other packages with these names, the outermost of each; raises TooLargeError.
+
+    A folder of that name beside the package at `root` is one too, if its package.xml is missing.
+    """
     for name in names:
-        found = next((one for one in candidates if one.name == name), None)
-        if found is not None:
-            yield Package(name, found.path, read_package(tree, found.path))
+        beside = join(parent(root), name)
+        paths = [one.path for one in candidates if one.name == name]
+        if not paths and any(path.startswith(f"{beside}/") for path in tree.entries):
+            paths = [beside]
+        if paths:
+            yield Package(name, paths[0], read_package(tree, paths[0]))
 
 
 def _without_ending(path: Path) -> Path:
