@@ -19,6 +19,8 @@ NAMES: Mapping[str, Value] = {
     "key": "script_dir",
     "line": "Count: 0",
     "name": "MyNode",
+    "needed": "geometry_msgs",
+    "found": "geometry_msg",
     "node": "node",
     "node_name": "my_node",
     "package": "my_package",

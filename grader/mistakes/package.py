@@ -241,6 +241,24 @@ KINDS = (
         },
         fixed_by=(manifest.version, manifest.three_numbers),
     ),
+    _manifest(
+        "depend_missing",
+        msg("package.xml does not name a package that your code imports"),
+        msg("Add <depend>{needed}</depend> to package.xml, below the other dependencies."),
+        why=msg(
+            "package.xml tells colcon which packages must be built before yours, and tells rosdep "
+            "what to install on another machine. Without that line your package runs only where "
+            "the other one happens to be."
+        ),
+        fixes={
+            "misspelt": msg("Write <depend>{needed}</depend> instead of '{found}'."),
+            "other_tag": msg(
+                "Add <exec_depend>{needed}</exec_depend> too: the tag that names it is not for "
+                "running."
+            ),
+        },
+        fixed_by=(manifest.depend_name, manifest.depend),
+    ),
     Kind(
         id="package.name_mismatch",
         stage="manifest",

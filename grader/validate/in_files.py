@@ -72,11 +72,16 @@ def _layout(tree: Tree, assignment: Assignment) -> Iterator[Made]:
 
 
 def _manifest(text: str, assignment: Assignment) -> Iterator[Made]:
+    checks = ("package.manifest", "package.depends")
+    named = "package.depends" in {use.kind for use in assignment.checks}
+
     def made(name: str, new: str) -> Made:
-        return f"package.xml {name}", (Write(MANIFEST, new.encode()),), ("package.manifest",)
+        return f"package.xml {name}", (Write(MANIFEST, new.encode()),), checks
 
     for found in re.finditer(r"[ ]*<(\w+)([^<>]*)>([^<>]*)</\1>\n", text):
         element, tag, attributes, content = found[0], found[1], found[2], found[3]
+        if named and tag == "depend":
+            yield made(f"without {tag} {content}", text.replace(element, ""))
         if "depend" not in tag:
             yield made(f"without {tag}", text.replace(element, ""))
             empty = element.replace(f">{content}<", "><")

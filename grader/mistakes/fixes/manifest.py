@@ -10,7 +10,8 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.source.broken_xml import xml_fault
-from grader.package.source.manifest import DEPENDS, MOST_BYTES, meant_package
+from grader.package.source.manifest import DEPENDS, MOST_BYTES, RUNTIME, meant_package
+from grader.package.source.ros_imports import CLIENT
 
 FILE = "package.xml"
 TYPE = b"<build_type>ament_python</build_type>"
@@ -158,18 +159,21 @@ def build_type(case: Case) -> Files | None:
 
 
 def depend(case: Case) -> Files | None:
-    """Add a dependency on rclpy."""
+    """Add a dependency: the one that is missing, or rclpy."""
+    name = str(case.finding.params.get("needed", CLIENT)).encode()
     places = _places(case.files.data(FILE))
     licence = [t for t in places.closed if t.name == "license"] if places else []
     if places is None or not licence:
         return None
     found = places.found
     depends = [t for t in places.closed if DEPENDS.fullmatch(t.name) and t.within == "package"]
-    if any(found[slice(*t.inside)].strip() == b"rclpy" for t in depends):
+    named = [t.name for t in depends if found[slice(*t.inside)].strip() == name]
+    if {*named} & {*RUNTIME}:
         return None
+    tag = b"exec_depend" if named else b"depend"  # catkin_pkg refuses both depend and build_depend
     last = [t for t in depends if t.name == "depend"] or licence
     indent = _indent(found, last[-1].start)
-    new = _newline(found) + indent + b"<depend>rclpy</depend>"
+    new = _newline(found) + indent + b"<" + tag + b">" + name + b"</" + tag + b">"
     return _put(case, last[-1].end, last[-1].end, new)
 
 
@@ -219,6 +223,17 @@ def tag_name(case: Case) -> Files | None:
     start = places.found[wrong.start : head].replace(close.encode(), tag.encode(), 1)
     end = places.found[foot : wrong.end].replace(close.encode(), tag.encode(), 1)
     return _put(case, wrong.start, wrong.end, start + places.found[head:foot] + end)
+
+
+def depend_name(case: Case) -> Files | None:
+    """Correct the name of a dependency that is nearly that of a package which the code imports."""
+    places = _places(case.files.data(FILE))
+    wanted, written = (str(case.finding.params.get(key, "")) for key in ("needed", "found"))
+    for tag in places.closed if places is not None and written else ():
+        inside = (case.files.data(FILE) or b"")[slice(*tag.inside)]
+        if DEPENDS.fullmatch(tag.name) and inside.strip() == written.encode():
+            return _put(case, *tag.inside, wanted.encode())
+    return None
 
 
 def dependencies(case: Case) -> Files | None:

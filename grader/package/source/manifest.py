@@ -20,6 +20,8 @@ MOST_ELEMENTS = 500
 """catkin_pkg compares each dependency with every other."""
 REQUIRED = ("name", "version", "description", "maintainer", "license")
 DEPENDS = re.compile(r"(?:\w+_)?depend")
+RUNTIME = ("depend", "exec_depend", "run_depend")
+"""The tags of what a package needs when it runs (`run_depend` in format 1)."""
 KNOWN_PACKAGES = (
     *("rclpy", "rclcpp", "std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "nav_msgs"),
     *("visualization_msgs", "trajectory_msgs", "action_msgs", "builtin_interfaces"),

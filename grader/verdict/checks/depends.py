@@ -1,0 +1,70 @@
+"""The check `package.depends`: does package.xml name the packages that the code imports?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grader.base.i18n.message import say
+from grader.base.nearest import nearest, with_difference
+from grader.course.assignment import TURTLESIM
+from grader.package.source.manifest import RUNTIME, ManifestError, read_manifest
+from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.ros_imports import ros_packages
+from grader.report.model import Where
+from grader.verdict.checks.declare import INTAKE, check
+from grader.verdict.checks.parsed import data_of
+from grader.verdict.outcome import Blocked, Failed, Passed
+
+if TYPE_CHECKING:
+    from grader.verdict.evidence import Evidence
+
+FILE = "package.xml"
+
+
+@check("package.depends", stage=INTAKE, depends=["package.manifest", "source.node_file"])
+def depends(evidence: Evidence) -> Passed:
+    """package.xml names the packages that the code imports."""
+    try:
+        manifest = read_manifest(data_of(evidence, FILE) or b"")
+    except ManifestError:
+        raise Blocked(by="package.manifest") from None
+    named = {element.text: element for tag in RUNTIME for element in manifest.effective(tag)}
+    elsewhere = {element.text for element in manifest.depends}
+    imported = _imported(evidence)
+    for name, place in imported.items():
+        if not named.keys() & {name, *(TURTLESIM if name in TURTLESIM else ())}:
+            free = [text for text in named if text not in imported]
+            close = "" if name in elsewhere else nearest(name, free, cutoff=0.8) or ""
+            tag = "exec_depend" if name in elsewhere else "depend"
+            actual = say(
+                "{path}, line {line}, imports {package}; package.xml does not say so",
+                path=place.file,
+                line=place.line or 1,
+                package=name,
+            )
+            raise Failed(
+                "package.depend_missing",
+                expected=f"<{tag}>{name}</{tag}>",
+                actual=with_difference(actual, close, name) if close else actual,
+                where=Where(file=FILE, line=named[close].line if close else None),
+                variant="misspelt" if close else "other_tag" if name in elsewhere else "",
+                params={"needed": name, "found": close},
+            )
+    return Passed(actual=", ".join(imported))
+
+
+def _imported(evidence: Evidence) -> dict[str, Where]:
+    """Return the packages that the package's modules import from, and the first place of each."""
+    folder, found = evidence.assignment.folder, dict[str, Where]()
+    for file in evidence.submission.files:
+        inside = file.path.startswith(f"{folder}/") and file.path.endswith(".py")
+        if not inside or file.kind != "file" or file.unreadable:
+            continue
+        try:
+            tree = parse_python(file.data).tree
+        except PythonFault:
+            continue
+        for name, line in ros_packages(tree).items():
+            if name != evidence.assignment.package:
+                found.setdefault(name, Where(file=file.path, line=line))
+    return found
