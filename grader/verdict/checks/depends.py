@@ -21,9 +21,17 @@ if TYPE_CHECKING:
 FILE = "package.xml"
 
 
-@check("package.depends", stage=INTAKE, depends=["package.manifest", "source.node_file"])
+@check(
+    "package.depends",
+    stage=INTAKE,
+    depends=["package.found"],
+    after=["package.manifest", "source.node_file"],
+)
 def depends(evidence: Evidence) -> Passed:
     """package.xml names the packages that the code imports."""
+    for cause in ("package.manifest", "source.node_file"):
+        if evidence.has_failed(cause):
+            raise Blocked(by=cause)
     try:
         manifest = read_manifest(data_of(evidence, FILE) or b"")
     except ManifestError:
