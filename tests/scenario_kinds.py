@@ -45,7 +45,7 @@ checks:
   - {id: beat.values, check: topic.values, points: 1, with: {topic: /beat, each: {data: true}}}
   - {id: beat.qos, check: topic.qos, points: 1, with: {topic: /beat, reliability: best_effort}}
   - {id: hears, check: topic.subscribes, points: 1, with: {topic: /number, type: std_msgs/msg/Int32}}
-  - {id: eight, check: topic.reacts, points: 1, after: four, with: {topic: /doubled, within: 0.1, each: {data: 8}}}
+  - {id: eight, check: topic.reacts, points: 1, after: four, with: {topic: /doubled, within: 0.1, at_most: 1, each: {data: 8}}}
   - {id: fifteen, check: topic.reacts, points: 1, after: five, with: {topic: /doubled, within: 0.1, each: {data: 15}}}
   - {id: factor, check: parameter.declared, points: 1, with: {name: factor, type: integer, value: 3}}
   - {id: factor.set, check: parameter.accepts, points: 1, after: thrice, with: {name: factor}}
@@ -304,6 +304,16 @@ FORMS = (
         ("README.md", ""),
     ),
     Form(
+        "twice",
+        (
+            (
+                "self.doubled.publish(Int32(data=message.data * factor))",
+                "[self.doubled.publish(Int32(data=message.data * factor)) for _ in (0, 1)]",
+            ),
+        ),
+        {"eight": "topic.reacts_too_often"},
+    ),
+    Form(
         "more",
         (
             (
@@ -448,6 +458,7 @@ FORMS = (
             "count": "log.wrong_count",
             "itself": "graph.not_connected",
             "quiet": "topic.not_silent",
+            "eight": "topic.reacts_too_often",
         },
         ("turn.feedback", "turn.result", "turn.cancel"),
     ),

@@ -293,6 +293,16 @@ KINDS = (
         msg("Publish on {topic} in the callback of the subscription."),
     ),
     _topic(
+        "reacts_too_often",
+        "topic",
+        msg("The node reacts more than once to one message"),
+        msg(
+            "Each call of publish sends a message: two calls, a loop, or a second subscription with "
+            "the same callback send two."
+        ),
+        msg("Publish on {topic} once for each message that the callback gets."),
+    ),
+    _topic(
         "qos_mismatch",
         "topic",
         msg("The QoS of publisher and subscription do not fit"),

@@ -60,11 +60,12 @@ class Silent(Parameters):
 
 
 class Reacts(Parameters):
-    """A message within a time of a stimulus, with fields of a form."""
+    """A message within a time of a stimulus, with fields of a form; at most so many in that time."""
 
     topic: str
     within: float = Field(ge=0)
     each: dict[str, Form] = Field(default_factory=dict)
+    at_most: int | None = Field(default=None, ge=1)
 
 
 class Quality(Parameters):
@@ -412,6 +413,14 @@ def reacts(use: Use[Reacts]) -> Passed:
     fits = [message for message in found if first_misfit(message.values, given.each) is None]
     if not fits:
         _must_fit(found[0], given.each, use)
+    if given.at_most is not None and len(found) > given.at_most:
+        raise Failed(
+            "topic.reacts_too_often",
+            expected=joined(expected, f"{given.at_most}×", by=": "),
+            actual=say_plural("{count} message", "{count} messages", len(found)),
+            where=use.call("publish"),
+            words={"topic": given.topic},
+        )
     return Passed(actual=say("it came at {at} s", at=f"{(fits or found)[0].at:g}"))
 
 
