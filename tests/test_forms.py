@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from grader.course.values import Form, at_path
+from grader.course.values import Form, at_path, first_misfit
 
 
 @pytest.mark.parametrize(
@@ -23,6 +23,7 @@ from grader.course.values import Form, at_path
         ({"one_of": (1, "a")}, [1, "a"], [2, "b"]),
         ({"matches": "^Turn(ed|ing)$"}, ["Turned"], ["turned", 3]),
         ({"contains": "wall"}, ["the wall!"], ["Wall", 3]),
+        ({"from": 3, "step": 2}, [3, 3.0], [5, "3", True]),
     ],
 )
 def test_a_form_fits_what_it_says(form: Any, fitting: list[Any], other: list[Any]) -> None:
@@ -39,11 +40,38 @@ def test_a_form_fits_what_it_says(form: Any, fitting: list[Any], other: list[Any
         ({"about": 1.0, "within": 0.1, "equal": 1.0}, "exactly one"),
         ({}, "exactly one"),
         ({"matches": "("}, "regular expression"),
+        ({"step": 1.0}, "from"),
+        ({"from": 1.0, "equal": 1.0}, "exactly one"),
     ],
 )
 def test_a_form_that_says_nothing_or_two_things_is_refused(form: Any, word: str) -> None:
     with pytest.raises(ValidationError, match=word):
         Form.model_validate(form)
+
+
+@pytest.mark.parametrize(
+    ("form", "values", "wrong"),
+    [
+        ({"from": 0, "step": 1}, [0, 1, 2, 3], None),
+        ({"from": 0}, [0, 1, 2], None),
+        ({"from": 0.5, "step": -0.25}, [0.5, 0.25, 0.0], None),
+        ({"from": 0, "step": 1}, [0, 1, 1], 2),
+        ({"from": 0, "step": 1}, [1, 2, 3], 0),
+        ({"from": 0, "step": 2}, [0, 1, 2], 1),
+        ({"between": (0, 2)}, [0, 1, 3], 2),
+    ],
+)
+def test_messages_that_count_are_compared_one_by_one(
+    form: Any, values: list[float], wrong: int | None
+) -> None:
+    each = {"data": Form.model_validate(form)}
+    misfits = [n for n, value in enumerate(values) if first_misfit({"data": value}, each, n)]
+    assert misfits[:1] == ([] if wrong is None else [wrong])
+
+
+def test_a_form_that_counts_is_shown_as_its_first_values() -> None:
+    form = Form.model_validate({"from": 5, "step": 5})
+    assert (str(form), str(form.at(3))) == ("5, 10, 15, …", "20")
 
 
 def test_a_path_leads_to_a_field() -> None:

@@ -37,7 +37,7 @@ checks:
   - {{id: run.stays, points: 5}}
   - {{id: counts.publishes, check: topic.publishes, points: 15, with: {{topic: /count, type: std_msgs/msg/Int32}}}}
   - {{id: counts.period, check: topic.period, points: 15, with: {{topic: /count, period: 0.5}}}}
-  - {{id: counts.values, check: topic.values, points: 5, with: {{topic: /count, each: {{data: {{between: [0, 19]}}}}}}}}
+  - {{id: counts.values, check: topic.values, points: 5, with: {{topic: /count, each: {{data: {{from: 0, step: 1}}}}}}}}
   - {{id: run.interrupt, points: 5}}
 """
 
@@ -101,11 +101,70 @@ mutants:
     mistake: topic.wrong_period
     edits:
       - {{replace: {package}/{lesson}.py, old: "create_timer(0.5", new: "create_timer(0.25"}}
-  - name: "counts in twenties"
+  - name: "counts in twos"
     check: counts.values
     mistake: topic.wrong_value
     edits:
-      - {{replace: {package}/{lesson}.py, old: "self.number_ += 1", new: "self.number_ += 20"}}
+      - {{replace: {package}/{lesson}.py, old: "self.number_ += 1", new: "self.number_ += 2"}}
+equivalent:                       # automatic mutants that are right: the name, and why
+  - mutant: "package.xml dependency that nobody has"
+    why: "nothing is missing where rclpy is installed; package.depends asks for the line"
+  - mutant: "setup.py without name"
+    why: "setuptools takes the name of the only package"
+  - mutant: "setup.py misspells name"
+    why: "setuptools warns of the option and takes the name of the only package"
+  - mutant: "setup.py list without 'test'"
+    why: "there is no folder test that could be taken for a package"
+  - mutant: "setup.py list without ('share/' + package_name, ['package.xml'])"
+    why: "colcon-ros installs package.xml itself, with a warning"
+  - mutant: "setup.py list without 'package.xml'"
+    why: "colcon-ros installs package.xml itself, with a warning"
+  - mutant: "setup.py misspells 'test'"
+    why: "there is no folder test that could be taken for a package"
+  - mutant: "setup.py misspells 'share/'"
+    why: "package.xml is installed elsewhere, and by colcon-ros where it belongs"
+  - mutant: "drop main()"
+    why: "ros2 run calls main through the entry point: the guard is for running the file itself"
+  - mutant: "twice main()"
+    why: "ros2 run calls main through the entry point: the guard is for running the file itself"
+  - mutant: "misspell main"
+    why: "ros2 run calls main through the entry point: the guard is for running the file itself"
+  - mutant: "no brackets main()"
+    why: "ros2 run calls main through the entry point: the guard is for running the file itself"
+  - mutant: "guard misspelt"
+    why: "ros2 run calls main through the entry point: the guard is for running the file itself"
+  - mutant: "drop node.destroy_node()"
+    why: "the process ends here anyway, and with it the node and the context"
+  - mutant: "no brackets node.destroy_node()"
+    why: "the process ends here anyway, and with it the node and the context"
+  - mutant: "drop rclpy.try_shutdown()"
+    why: "the process ends here anyway, and with it the node and the context"
+  - mutant: "no brackets rclpy.try_shutdown()"
+    why: "the process ends here anyway, and with it the node and the context"
+  - mutant: "twice rclpy.spin(node)"
+    why: "the second is never reached: Ctrl+C leaves the try"
+  - mutant: "twice node.destroy_node()"
+    why: "a node that is destroyed already is left alone"
+  - mutant: "twice rclpy.try_shutdown()"
+    why: "it does nothing where the context is shut down already"
+  - mutant: "except KeyboardInterrupt lost"
+    why: "the node ends with KeyboardInterrupt's traceback, as the tutorial's readers see it: accepted"
+  - mutant: "number 10 is 11"
+    why: "the depth of a publisher's queue does not matter on one machine"
+  - mutant: "number 10 is 9"
+    why: "the depth of a publisher's queue does not matter on one machine"
+  - mutant: "twice node = Counter()"
+    why: "only the node that is spun has its timer called"
+  - mutant: "twice super().__init__('{lesson}')"
+    why: "the second makes the node anew before anything is in it"
+  - mutant: "twice self.number_ = 0"
+    why: "it says the same twice"
+  - mutant: "twice self.publisher_ = self.create_publisher(Int32, '/count', 10)"
+    why: "only the second publisher is used, and the first one is silent"
+  - mutant: "swap self.number_ = 0 / self.publisher_ = self.create_publisher(Int32, '/count', 10)"
+    why: "neither needs the other"
+  - mutant: "swap self.publisher_ = self.create_publisher(Int32, '/count', 10) / self.create_timer(0.5, self.on_timer)"
+    why: "the timer's first call comes a period later, when the publisher is there"
 """
 
 LESSON = """\

@@ -43,8 +43,13 @@ A value is matched by a form: a plain value (equal to it; a floating-point numbe
 def page() -> str:
     """Return the text of docs/checks.md."""
     forms = "`{about: 1.0, within: 0.01}`, `{between: [0, 2]}`, `{one_of: [1, 2]}`,\n"
-    forms += "`{matches: 'a regular expression'}` or `{contains: 'a text'}`.\n"
-    assert set(KEYS) == {"equal", "about", "between", "one_of", "matches", "contains"}
+    forms += (
+        "`{matches: 'a regular expression'}` or `{contains: 'a text'}`. Messages that count have\n"
+    )
+    forms += (
+        "`{from: 0, step: 1}`: 0 in the first message of the window, 1 in the next, and so on.\n"
+    )
+    assert set(KEYS) == {"equal", "about", "between", "one_of", "matches", "contains", "from"}
     lines = [HEAD + forms, "## Kinds with parameters\n"]
     for check in CHECKS.values():
         if check.parameters is not None:

@@ -23,7 +23,7 @@ UNSIGNED = {"uint8": 8, "char": 8, "uint16": 16, "uint32": 32, "uint64": 64}
 SIGNED = {"int8": 8, "int16": 16, "int32": 32, "int64": 64}
 FLOATS = ("float32", "float64")
 TEXTS = ("string", "wstring")
-NUMERIC = ("about", "between")
+NUMERIC = ("about", "between", "from")
 TEXTUAL = ("matches", "contains")
 
 

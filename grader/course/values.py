@@ -1,7 +1,8 @@
 """The forms that a value of a message, a parameter or an answer can have.
 
 A form is data: a plain value (equal to it), or one of `{about, within}`, `{between: [a, b]}`,
-`{one_of: […]}`, `{matches: pattern}` and `{contains: text}`. Nothing of it is evaluated.
+`{one_of: […]}`, `{matches: pattern}`, `{contains: text}` and, for one message after the other,
+`{from: 0, step: 1}`. Nothing of it is evaluated.
 """
 
 from __future__ import annotations
@@ -11,17 +12,17 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from grader.base.part import Part
 from grader.base.yaml_model import broken
 
 FLOAT32 = 1e-6  # the relative error of a value that went through a float32 field
-KEYS = ("equal", "about", "between", "one_of", "matches", "contains")
+KEYS = ("equal", "about", "between", "one_of", "matches", "contains", "from")
 
 
 class Form(Part):
-    """A form; exactly one of its keys is set (`within` belongs to `about`)."""
+    """A form; exactly one of its keys is set (`within` belongs to `about`, `step` to `from`)."""
 
     equal: Any = None
     about: float | None = None
@@ -30,6 +31,8 @@ class Form(Part):
     one_of: tuple[Any, ...] | None = None
     matches: str | None = None
     contains: str | None = None
+    from_: float | None = Field(default=None, alias="from")
+    step: float | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -38,11 +41,15 @@ class Form(Part):
 
     @model_validator(mode="after")
     def _one(self) -> Form:
-        given = [key for key in KEYS if getattr(self, key) is not None]
+        given = [
+            key for key in KEYS if getattr(self, "from_" if key == "from" else key) is not None
+        ]
         if len(given) != 1:
             raise broken(f"a value is plain or has exactly one of {', '.join(KEYS)}")
         if (self.within is None) != (self.about is None):
             raise broken("about and within belong together: {about: 1.0, within: 0.01}")
+        if self.step is not None and self.from_ is None:
+            raise broken("step belongs to from: {from: 0, step: 1}")
         if self.matches is not None:
             try:
                 re.compile(self.matches)
@@ -50,8 +57,16 @@ class Form(Part):
                 raise broken(f"matches is not a regular expression: {error}") from None
         return self
 
+    def at(self, index: int) -> Form:
+        """Return the form of the value in a row of values; `index` is counted from 0."""
+        if self.from_ is None:
+            return self
+        return Form(equal=self.from_ + index * (1 if self.step is None else self.step))
+
     def fits(self, value: Any) -> bool:
-        """Whether a value has this form."""
+        """Whether a value has this form; one that counts has that of the first value."""
+        if self.from_ is not None:
+            return self.at(0).fits(value)
         if self.about is not None and self.within is not None:
             return _is_number(value) and abs(value - self.about) <= self.within * (1 + FLOAT32)
         if self.between is not None:
@@ -76,6 +91,8 @@ class Form(Part):
             return f"/{self.matches}/"
         if self.contains is not None:
             return f"…{self.contains}…"
+        if self.from_ is not None:
+            return ", ".join([*(str(self.at(index)) for index in range(3)), "…"])
         return shown_value(self.equal)
 
 
@@ -111,10 +128,15 @@ def value_at(values: Any, path: str) -> Any:
         return None
 
 
-def first_misfit(values: Any, each: Mapping[str, Form]) -> tuple[str, Form, Any] | None:
-    """Return the first field that does not have its form: its path, the form and the value."""
-    for path, form in each.items():
-        value = value_at(values, path)
+def first_misfit(
+    values: Any, each: Mapping[str, Form], index: int = 0
+) -> tuple[str, Form, Any] | None:
+    """Return the first field that does not have its form: its path, the form and the value.
+
+    `index` is the place of the message among those that are judged, counted from 0.
+    """
+    for path, every in each.items():
+        form, value = every.at(index), value_at(values, path)
         if not form.fits(value):
             return path, form, value
     return None

@@ -119,8 +119,8 @@ def feedback(use: Use[Feedback]) -> Passed:
             where=where,
             words={"service": given.action},
         )
-    for at, values in goal.feedback:
-        wrong = first_misfit(values, given.each)
+    for index, (at, values) in enumerate(goal.feedback):
+        wrong = first_misfit(values, given.each, index)
         if wrong is not None:
             path, form, value = wrong
             raise Failed(

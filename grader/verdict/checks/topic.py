@@ -317,8 +317,8 @@ def values(use: Use[Each]) -> Passed:
             )
         raise _nothing(use)
     use.require_window()
-    for message in found:
-        _must_fit(message, given.each, use)
+    for index, message in enumerate(found):
+        _must_fit(message, given.each, use, index)
     return Passed(actual=say_plural("{count} message fits", "{count} messages fit", len(found)))
 
 
@@ -341,9 +341,11 @@ def silent(use: Use[Silent]) -> Passed:
     return Passed()
 
 
-def _must_fit(message: Message, each: dict[str, Form], use: Use[Parameters]) -> None:
-    """Raise Failed if a field of a message does not have its form."""
-    wrong = first_misfit(message.values, each)
+def _must_fit(
+    message: Message, each: dict[str, Form], use: Use[Parameters], index: int = 0
+) -> None:
+    """Raise Failed if a field of a message does not have its form; `index` is the message's."""
+    wrong = first_misfit(message.values, each, index)
     if wrong is None:
         return
     path, form, value = wrong
