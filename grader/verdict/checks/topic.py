@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
@@ -14,6 +13,7 @@ from grader.base.nearest import nearest, with_difference
 from grader.course.values import Form, first_misfit, shown_value
 from grader.verdict.checks.declare import EDGE, Parameters, kind
 from grader.verdict.checks.fields import is_integer_bits
+from grader.verdict.checks.instants import stops_before, usual_gap, wrong_gaps
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -243,11 +243,10 @@ def period(use: Use[Period]) -> Passed:
             params={"count": most},
             words={"topic": given.topic},
         )
-    tolerance = _tolerance(use, given.period)
-    gaps = [after - before for before, after in pairwise(sorted(instants))]
-    wrong = [gap for gap in gaps if abs(gap - given.period) > tolerance]
+    clock = use.plan.clock.period
+    wrong = wrong_gaps(sorted(instants), given.period, clock)
     due = int((last - max(first, given.period)) / given.period + 1e-6) + 1
-    late = last - max(instants) > given.period + tolerance
+    late = stops_before(last, list(instants), given.period, clock)
     if not wrong and not late and len(instants) >= min(2, due):
         each = say_plural(
             "{count} message, at its instant", "{count} messages, each at its instant", len(found)
@@ -261,7 +260,7 @@ def period(use: Use[Period]) -> Passed:
             where=use.call("publish", mentions=given.topic),
             words={"topic": given.topic},
         )
-    seconds = _usual_gap(sorted(instants), use.plan.clock.period)
+    seconds = usual_gap(sorted(instants), clock)
     raise Failed(
         "topic.wrong_period",
         expected=expected,
@@ -270,27 +269,6 @@ def period(use: Use[Period]) -> Passed:
         params={"period": seconds},
         words={"topic": given.topic, "wanted": every},
     )
-
-
-def _usual_gap(instants: list[float], clock: float) -> float:
-    """Return about how many seconds lie between messages.
-
-    A timer that is faster than the clock comes between its instants too, where these are watched.
-    """
-    if len(instants) < 2:
-        return instants[0]
-    between = [at for at in instants if abs(at / clock - round(at / clock)) > 1e-6]
-    if between:
-        watched = [at for at in instants if at <= between[-1] + clock]
-        return round((watched[-1] - watched[0]) / max(1, len(watched) - 1), 3)
-    gaps = Counter(round(after - before, 3) for before, after in pairwise(instants))
-    return gaps.most_common(1)[0][0]
-
-
-def _tolerance(use: Use[Parameters], wanted: float) -> float:
-    """Return by how much a gap may differ (s): 0 if the clock's period divides the wanted one."""
-    steps = wanted / use.plan.clock.period
-    return 1e-6 if abs(steps - round(steps)) < 1e-6 else use.plan.clock.period
 
 
 def _nothing(use: Use[Parameters]) -> Blocked:
