@@ -38,7 +38,7 @@ checks:
   - {id: readme.text, check: files.matches, points: 1, with: {path: README.md, text: {contains: doubles}}}
   - {id: run.starts, points: 1}
   - {id: run.spins, points: 1}
-  - {id: run.node_name, points: 1}
+  - {id: name, check: graph.node_name, points: 1, with: {name: doubler}}
   - {id: run.stays, points: 1}
   - {id: beat, check: topic.publishes, points: 1, with: {topic: /beat, type: std_msgs/msg/Bool, at_least: 10}}
   - {id: beat.period, check: topic.period, points: 1, with: {topic: /beat, period: 0.2}}
@@ -56,7 +56,9 @@ checks:
   - {id: nodes, check: graph.nodes, points: 1, with: {names: [/doubler], others: false}}
   - {id: itself, check: graph.connects, points: 1, with: {topic: /doubled, sender: /doubler, receiver: /doubler}}
   - {id: quiet, check: topic.silent, points: 1, during: [0, 0.9], with: {topic: /doubled}}
-  - {id: count, check: log.counts, points: 1, with: {text: "beat {n}", at_least: 10, period: 0.2}}
+  - {id: count, check: log.counts, points: 1, with: {text: "beat {n}", at_least: 10}}
+  - {id: count.period, check: log.period, points: 1, with: {text: "beat {n}", period: 0.2}}
+  - {id: count.logger, check: log.logger, points: 1, with: {text: "beat {n}"}}
   - {id: turn, check: action.offers, points: 1, with: {action: /turn, type: turtlesim/action/RotateAbsolute}}
   - {id: turn.small, check: action.accepts, points: 1, after: small, with: {action: /turn}}
   - {id: turn.excessive, check: action.accepts, points: 1, after: excessive, with: {action: /turn, accepted: false}}
@@ -182,6 +184,11 @@ class Form:
 
 
 TURNS = ("turn.small", "turn.excessive", "turn.feedback", "turn.result", "turn.cancel")
+OTHER_NAME = {
+    "name": "run.wrong_node_name",
+    "nodes": "graph.node_missing",
+    "itself": "graph.not_connected",
+}
 FORMS = (
     Form("right", (), {}),
     Form(
@@ -195,8 +202,10 @@ FORMS = (
             ("'/go'", "'/Go'"),
             ("f'got {message.data}'", "f'Got {message.data}'"),
             ("'/turn'", "'/Turn'"),
+            ("super().__init__('doubler')", "super().__init__('Doubler')"),
         ),
         {
+            **OTHER_NAME,
             "readme": "files.missing",
             "turn": "action.wrong_name",
             "beat": "topic.wrong_name",
@@ -231,8 +240,16 @@ FORMS = (
             ("create_service(Trigger", "create_service(Empty"),
             ("response.success = True\n        response.message = 'reset'", "pass"),
             ("create_client(SetBool", "create_client(Trigger"),
+            ("super().__init__('doubler')", "super().__init__('doubling')"),
+            (
+                "self.get_logger().info(f'beat {self.beats}')",
+                "print(f'beat {self.beats}', flush=True)",
+            ),
         ),
         {
+            **OTHER_NAME,
+            "count": "node.prints_inside",
+            "count.logger": "node.print_used",
             "readme": "files.missing",
             "beat": "topic.wrong_type",
             "hears": "topic.wrong_type",
@@ -242,7 +259,7 @@ FORMS = (
         },
         (
             *("beat.period", "beat.values", "eight", "fifteen", "factor.set", "answers", "says"),
-            "readme.text",
+            *("readme.text", "count.period"),
         ),
         ("docs/README.md", "A node that doubles."),
     ),
@@ -250,6 +267,7 @@ FORMS = (
         "missing",
         (
             ("        self.beat.publish(Bool(data=True))", "        pass"),
+            ("create_timer(0.2", "create_timer(0.3"),
             ("        self.create_subscription(Int32, '/number', self.on_number, 10)\n", ""),
             ("        self.declare_parameter('factor', 2)\n", ""),
             ("        self.create_service(Trigger, '/reset', self.on_reset)\n", ""),
@@ -259,6 +277,7 @@ FORMS = (
         {
             "readme.text": "files.no_match",
             "beat": "topic.never_published",
+            "count.period": "log.wrong_period",
             "beat.qos": "topic.wrong_qos",
             "hears": "topic.no_subscription",
             "factor": "parameter.not_declared",
@@ -297,7 +316,7 @@ FORMS = (
             "eight": "topic.wrong_value",
             "answers": "service.wrong_answer",
             "silent": "log.forbidden",
-            "count": "log.wrong_period",
+            "count.period": "log.wrong_period",
             "turn.cancel": "action.not_cancelled",
         },
         ("fifteen",),
@@ -316,6 +335,7 @@ FORMS = (
     Form(
         "more",
         (
+            ("info(f'beat", "warn(f'beat"),
             (
                 "self.beat.publish(Bool(data=True))",
                 "[self.beat.publish(Bool(data=i == 0)) for i in (0, 1)]",
@@ -347,6 +367,7 @@ FORMS = (
             ),
         ),
         {
+            "count.logger": "run.wrong_level",
             "beat.period": "topic.several_at_once",
             "beat.values": "topic.wrong_value",
             "fifteen": "topic.no_reaction",
@@ -383,7 +404,7 @@ FORMS = (
         },
         (
             *("beat.period", "beat.values", "fifteen", "factor", "factor.set", "says"),
-            *("answers", "count", "run.interrupt", *TURNS),
+            *("answers", "count", "count.period", "count.logger", "run.interrupt", *TURNS),
         ),
     ),
     Form(
@@ -436,7 +457,7 @@ FORMS = (
             "quiet": "topic.not_silent",
             "readme": "files.missing",
         },
-        ("readme.text", *TURNS),
+        ("readme.text", "count.period", "count.logger", *TURNS),
         ("readme.txt", "A node that doubles."),
     ),
     Form(
@@ -474,6 +495,7 @@ FORMS = (
                 "",
             ),
             ("Result(delta=-theta)", "Result(delta=theta)"),
+            ("self.get_logger().info(f'beat", "rclpy.logging.get_logger('beats').info(f'beat"),
             ("CancelResponse.ACCEPT)", "CancelResponse.REJECT)"),
             (
                 "        self.declare_parameter('factor', 2)\n",
@@ -494,6 +516,8 @@ FORMS = (
             ),
         ),
         {
+            "count": "log.missing",
+            "count.logger": "run.other_logger",
             "factor": "parameter.wrong_value",
             "factor.set": "parameter.refused",
             "fifteen": "topic.wrong_value",
@@ -503,6 +527,7 @@ FORMS = (
             "turn.result": "action.wrong_result",
             "turn.cancel": "action.not_cancelled",
         },
+        ("count.period",),
     ),
     Form(
         "action_aborts",
@@ -539,12 +564,14 @@ FORMS = (
             ("f'got {message.data}'", "f'got: {message.data}'"),
             ("Bool(data=True)", "Bool(data=self.beats % 2 == 0)"),
             ("create_timer(0.2", "create_timer(0.1"),
+            ("super().__init__('doubler')", "super().__init__('doubler', namespace='/lab')"),
         ),
         {
+            **OTHER_NAME,
             "beat.qos": "topic.wrong_qos",
             "beat.values": "topic.wrong_value",
             "beat.period": "topic.wrong_period",
-            "count": "log.wrong_period",
+            "count.period": "log.wrong_period",
             "says": "log.missing",
             "turn.feedback": "action.no_feedback",
             "turn.result": "action.no_result",

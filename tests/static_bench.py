@@ -14,7 +14,7 @@ from grader.run.workspace import Build
 from grader.verdict.checks.declare import Check
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.diagnose import Diagnosis
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.outcome import Failed, Outcome, Passed
 from tests.marking import ASSIGNMENT
 
 if TYPE_CHECKING:
@@ -76,6 +76,15 @@ install_scripts=$base/lib/my_robot_controller
     f"{NAME}/__init__.py": "",
     NODE: "#!/usr/bin/env python3\n\n\ndef main(args=None):\n    pass\n",
 }
+
+
+def asked(check: Check, evidence: Evidence) -> Passed:
+    """Return that a check passes, as the assignment uses it; raises any other outcome."""
+    uses = [use for use in evidence.assignment.checks if use.kind == check.id]
+    found = check.evaluate(evidence, uses[0])
+    if isinstance(found, Outcome):
+        raise found
+    return found
 
 
 @dataclass

@@ -10,6 +10,7 @@ import pytest
 from grader.base.errors import AssignmentError
 from grader.course.assignment import Assignment
 from grader.course.load import load_assignment
+from grader.course.shorthands import SHORTHANDS
 from grader.verdict.checks.all import CHECKS
 
 REAL = Path(__file__).resolve().parent.parent / "lab/course/hello_time/assignment.yaml"
@@ -60,8 +61,24 @@ def changed(old: str, new: str) -> str:
 def test_the_course_assignment_loads_and_is_worth_100_points() -> None:
     assignment = load_assignment(REAL)
     assert assignment.max_score == 100
-    assert {use.id for use in assignment.checks} <= set(CHECKS)
+    assert {use.kind for use in assignment.checks} <= set(CHECKS)
     assert assignment.output.line(3) == "Hello time: 3"
+
+
+def test_checks_without_a_kind_get_it_and_their_parameters_from_the_file() -> None:
+    uses = {use.id: use for use in load_assignment(REAL).checks}
+    text = "Hello time: {n}"
+    assert {name: (uses[name].kind, uses[name].with_) for name in SHORTHANDS} == {
+        "run.node_name": ("graph.node_name", {"name": "my_first_node"}),
+        "run.output": ("log.counts", {"text": text, "start": 0, "step": 1}),
+        "run.logger": ("log.logger", {"text": text}),
+        "run.period": ("log.period", {"text": text, "period": 1.0}),
+    }
+    assert uses["run.interrupt"].with_ == {}
+    for name, short in SHORTHANDS.items():
+        model = CHECKS[short.kind].parameters
+        assert model is not None
+        model.model_validate(uses[name].with_, strict=True)
 
 
 def test_defaults_are_filled_in(tmp_path: Path) -> None:
@@ -117,6 +134,8 @@ def test_all_errors_are_reported_at_once_in_line_order(tmp_path: Path) -> None:
         ("period: 1.0", "ticks: 2.5", 11, "whole number"),
         ("period: 1.0", "step: 0", 11, "step must not be 0"),
         ("points: 10", "points: -1", 16, "at least 0"),
+        ("points: 10", "points: 10, with: {start: 1}", 16, "'run.output' takes no parameters"),
+        ("run.output", "a, check: log.counts, with: {text: '{n}'}", 16, "use run.output"),
         ("points: 10", "points: 10, visibility: hiden", 16, "did you mean 'hidden'?"),
         ("schema: 1", "schema: 3", 1, "schema must be 1 or 2"),
         ("run_seconds: 20", "run_secs: 20", 13, "did you mean 'run_seconds'?"),

@@ -33,7 +33,7 @@ def test_the_main_node_gives_the_names_of_schema_1(tmp_path: Path) -> None:
         "doubler",
     )
     assert (found.executable, found.target) == ("doubler", "doubling.doubler:main")
-    assert found.max_score == 32
+    assert found.max_score == 34
 
 
 def test_the_topics_and_periods_of_the_checks_are_recorded(tmp_path: Path) -> None:
@@ -78,6 +78,19 @@ def test_the_topics_and_periods_of_the_checks_are_recorded(tmp_path: Path) -> No
             "  - {id: run.starts, points: 1}",
             "  - {id: run.starts, points: 1, with: {a: 1}}",
             "takes no parameters",
+        ),
+        (
+            'check: log.counts, points: 1, with: {text: "beat {n}", at_least: 10}',
+            "check: log.counts, points: 1, with: {text: beat, at_least: 10}",
+            "exactly once",
+        ),
+        ('{text: "beat {n}", period: 0.2}', "{period: 0.2}", "missing key 'text'"),
+        ('{text: "beat {n}"}}', '{text: "beat {n}", level: wran}}', "did you mean 'warn'"),
+        ("with: {name: doubler}", "with: {name: 3}", "must be text"),
+        (
+            "id: run.stays",
+            "id: run.output",
+            "'run.output' needs output: of schema 1: use log.counts",
         ),
         ("executable: doubler,", "executible: doubler,", "did you mean 'executable'"),
         ("data: 4}}}", "data: 4}}, set: {}}", "exactly one of publish, call, set"),

@@ -27,14 +27,14 @@ def test_the_checks_are_found_and_each_is_after_those_that_it_needs() -> None:
             assert CHECKS[other].stage.rank <= one.stage.rank
     ranks = [one.stage.rank for one in CHECKS.values()]
     assert ranks == sorted(ranks)
-    assert {"package.found", "build.colcon", "run.period"} <= set(CHECKS)
+    assert {"package.found", "build.colcon", "log.period"} <= set(CHECKS)
 
 
 def test_the_mapping_is_judged_before_the_build_since_a_broken_build_can_come_from_it() -> None:
     ids = list(CHECKS)
     assert ids.index("entry_point.mapping") < ids.index("build.colcon")
     # the text explains what the other checks of a run find: it comes first among them
-    assert ids.index("run.output") < min(map(ids.index, ("run.logger", "run.period")))
+    assert ids.index("log.counts") < min(map(ids.index, ("log.logger", "log.period")))
 
 
 OF_FILES = ("package.", "source.", "files.", "interface.")

@@ -10,11 +10,11 @@ from grader.course.load import load_assignment
 from grader.package.submission import take_in
 from grader.run.observer import Event, Source, Watch
 from grader.run.run import Run
-from grader.verdict.checks.counting import logger
+from grader.verdict.checks.logger import logger
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Failed
 from tests.conftest import ROOT
-from tests.static_bench import BUILT
+from tests.static_bench import BUILT, asked
 
 SOLUTION = ROOT / "grader" / "keys" / "hello_time" / "solution" / "my_robot_controller"
 COURSE = ROOT / "lab" / "course" / "hello_time" / "assignment.yaml"
@@ -47,16 +47,16 @@ def test_wrong_lines_before_a_traceback_count() -> None:
 
 def test_a_record_lost_with_its_node_is_not_a_forgery() -> None:
     last = event("Hello time: 2", due=2, source="faked", n=2)
-    assert logger.function(run_of(last, ended=True)) is not None
+    assert asked(logger, run_of(last, ended=True)) is not None
 
 
 def test_a_forged_record_of_a_running_node_is_a_forgery() -> None:
     with pytest.raises(Failed) as failed:
-        logger.function(run_of(event("Hello time: 2", due=2, source="faked", n=2), ended=False))
+        asked(logger, run_of(event("Hello time: 2", due=2, source="faked", n=2), ended=False))
     assert failed.value.mistake
 
 
 def test_a_forgery_long_before_the_end_is_detected() -> None:
     lines = [event(f"Hello time: {n}", due=n, source="faked", n=n) for n in (0, 5)]
     with pytest.raises(Failed):
-        logger.function(run_of(*lines, ended=True))
+        asked(logger, run_of(*lines, ended=True))

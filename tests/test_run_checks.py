@@ -12,8 +12,9 @@ import pytest
 from grader.run.observer import Event, Watch
 from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
-from grader.verdict.checks.counting import logger, output
+from grader.verdict.checks.counting import counts
 from grader.verdict.checks.declare import Check
+from grader.verdict.checks.logger import logger
 from grader.verdict.checks.spinning import spins
 from grader.verdict.checks.starting import interrupt
 from grader.verdict.checks.timing import period
@@ -21,7 +22,7 @@ from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from tests.corpus.build import SOLUTION
 from tests.report.samples import check as check_result
-from tests.static_bench import BUILT, NODE, Bench
+from tests.static_bench import BUILT, NODE, Bench, asked
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
 STEP = "self.counter_ += 1"
@@ -45,11 +46,11 @@ def bench(tmp_path: Path) -> Bench:
     return Bench(tmp_path / "my_robot_controller")
 
 
-def ask(check: Check, bench: Bench, run: Run, source: str = RIGHT) -> Passed | None:
+def ask(check: Check, bench: Bench, run: Run, source: str = RIGHT) -> Passed:
     bench.write(NODE, source)
     static = bench.evidence()
-    return check.function(
-        Evidence(static.assignment, static.submission, build=lambda: BUILT, run=lambda: run)
+    return asked(
+        check, Evidence(static.assignment, static.submission, build=lambda: BUILT, run=lambda: run)
     )
 
 
@@ -151,14 +152,14 @@ def counted(**more: object) -> Run:
     return replace(run, **more)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("asked", [output, logger, period, spins])
+@pytest.mark.parametrize("check", [counts, logger, period, spins])
 def test_a_node_that_does_not_count_in_a_plain_run_gets_no_point_for_its_lines(
-    bench: Bench, asked: Check
+    bench: Bench, check: Check
 ) -> None:
     for confirmed in (True, None):
-        ask(asked, bench, counted(confirmed=confirmed))
+        ask(check, bench, counted(confirmed=confirmed))
     with pytest.raises((Failed, Blocked)) as caught:
-        ask(asked, bench, counted(confirmed=False))
+        ask(check, bench, counted(confirmed=False))
     if isinstance(caught.value, Blocked):
         assert caught.value.by == "run.output"
     else:
@@ -169,7 +170,7 @@ def test_a_node_that_does_not_count_in_a_plain_run_gets_no_point_for_its_lines(
 def test_the_line_that_asks_where_it_runs_is_named(bench: Bench) -> None:
     source = RIGHT.replace("        self.counter_ = 0", "        self.counter_ = len(sys.argv) - 4")
     with pytest.raises(Failed) as caught:
-        ask(output, bench, counted(confirmed=False), source)
+        ask(counts, bench, counted(confirmed=False), source)
     where = caught.value.where
     assert where is not None
     assert where.line is not None
@@ -186,7 +187,7 @@ def test_records_of_a_node_with_two_publishers_on_rosout_prove_nothing(bench: Be
 def test_lines_that_were_erased_are_not_taken_for_a_silent_node(bench: Bench) -> None:
     silent = Run("ros2 run", Watch(clock="virtual"), started=True, erased=5)
     with pytest.raises(Failed) as caught:
-        ask(output, bench, silent)
+        ask(counts, bench, silent)
     assert caught.value.mistake.id == "run.erased"
 
 
@@ -222,7 +223,7 @@ def test_a_count_must_go_on_and_other_lines_do_not_stand_for_it(
     if clock == "wall":
         run.watch.events[:] = [replace(event, wall=event.virtual) for event in run.watch.events]
     with pytest.raises(Failed) as caught:
-        ask(output, bench, run)
+        ask(counts, bench, run)
     assert caught.value.mistake.id == mistake
 
 
@@ -230,7 +231,7 @@ def test_other_lines_beside_the_count_cost_nothing(bench: Bench) -> None:
     run = counted()
     beside = [replace(event, text="working", n=None) for event in run.watch.events]
     run.watch.events += beside
-    passed = ask(output, bench, run)
+    passed = ask(counts, bench, run)
     assert passed is not None
     assert passed.advice
 
@@ -242,7 +243,7 @@ def test_a_period_of_lines_that_are_no_count_is_not_blamed_on_the_machine(bench:
     static = bench.evidence()
     evidence = Evidence(static.assignment, static.submission, build=lambda: BUILT, run=lambda: run)
     with pytest.raises(Inconclusive):
-        period.function(evidence)
+        asked(period, evidence)
     evidence.results["run.output"] = check_result("run.output", "failed")
     with pytest.raises(Blocked):
-        period.function(evidence)
+        asked(period, evidence)

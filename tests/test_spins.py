@@ -8,13 +8,13 @@ from typing import Literal
 
 import pytest
 
-from grader.course.assignment import Assignment, CheckUse
+from grader.course.assignment import Assignment
 from grader.run.observer import Event, Watch
 from grader.run.probe_link import LogRecord, NodeSeen
 from grader.run.run import Run, counting_node
 from grader.verdict.checks.declare import Check
+from grader.verdict.checks.graph import node_name
 from grader.verdict.checks.spinning import spins
-from grader.verdict.checks.starting import node_name
 from grader.verdict.checks.timing import period
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
@@ -64,7 +64,7 @@ def outcome_of(
     asked: Assignment = bench.assignment.model_copy(update=assignment)
     submission = bench.evidence().submission
     evidence = Evidence(asked, submission, build=lambda: BUILT, run=lambda: run)
-    return check.evaluate(evidence, CheckUse(id=check.id, points=1))
+    return check.evaluate(evidence, next(use for use in asked.checks if use.kind == check.id))
 
 
 def mistake_of(outcome: Passed | Outcome) -> str:

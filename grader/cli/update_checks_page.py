@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
 from grader.base.project import CHECKOUT
+from grader.course.shorthands import SHORTHANDS
 from grader.course.values import KEYS, Form
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
@@ -55,6 +56,17 @@ def page() -> str:
         if check.parameters is not None:
             lines += list(_kind(check, check.parameters))
     lines += [
+        "## Kinds whose parameters are elsewhere in the file\n",
+        "These checks need no `check:` and no `with:`.\n",
+        "| id | kind | parameters |",
+        "|---|---|---|",
+    ]
+    for name, short in SHORTHANDS.items():
+        values = ", ".join(f"`{key}`: `{place}`" for key, place in short.values.items())
+        lines.append(f"| `{name}` | `{short.kind}` | {values} |")
+    lines += [
+        "\nIn schema 2 `node_name` is the `name` of the first node of the first run. Only schema 1 has "
+        "`output`, which\nalso drives the run: there its kinds are used in this form only.\n",
         "## Checks without parameters\n",
         "| id | what is checked | skipped unless |",
         "|---|---|---|",

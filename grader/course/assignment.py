@@ -20,18 +20,23 @@ TURTLESIM = ("turtlesim", "turtlesim_msgs")
 """The package of turtlesim's interfaces: `turtlesim` up to jazzy, `turtlesim_msgs` later."""
 
 
-class Output(Part):
-    """The lines that the node must print: `text` has `{n}` once; `period` is in s of ROS time."""
+class Count(Part):
+    """Lines that count: `text` has `{n}` once, the place of the number."""
 
     text: str
     start: int = 0
     step: int = 1
-    period: float = Field(default=1.0, gt=0, allow_inf_nan=False)
-    ticks: int = Field(default=10, ge=2)
 
     def line(self, k: int) -> str:
         """Return the text of the k-th line, counted from 0."""
         return self.text.replace("{n}", str(self.start + k * self.step))
+
+
+class Output(Count):
+    """The lines that the node must print; `period` is in s of ROS time."""
+
+    period: float = Field(default=1.0, gt=0, allow_inf_nan=False)
+    ticks: int = Field(default=10, ge=2)
 
 
 class CheckUse(Part):

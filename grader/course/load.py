@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict
 from grader.base.positioned_yaml import read_yaml
 from grader.course.assignment import OWN, Assignment
 from grader.course.rules import KnownChecks, check_content, merge_hidden
+from grader.course.shorthands import with_kinds
 
 AFTERWARDS = ("policy", "feedback", "archive")  # what changes no verdict
 BEFORE = ("id", "points", "visibility")  # of a check, in schema 1
@@ -50,7 +51,7 @@ def load_assignment(
             assignment, document, read_yaml(hidden), known_checks=known_checks
         )
     assignment = assignment.model_copy(update={"own_checks": own_checks})
-    return assignment.model_copy(update={"sha256": _digest(assignment)})
+    return with_kinds(assignment.model_copy(update={"sha256": _digest(assignment)}))
 
 
 class _Anything(BaseModel):

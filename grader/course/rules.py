@@ -28,6 +28,7 @@ from grader.course.scenario import (
     Start,
     Stimulus,
 )
+from grader.course.shorthands import SHORTHANDS
 from grader.report.detail import FeedbackRules
 
 ARCHIVE = r"(?!\.)(?:[\w.-]|\{student\}){1,100}\.zip"
@@ -91,7 +92,7 @@ def check_content(
         *_names(assignment),
         *_output(assignment.output),
         *_limits(assignment.limits, known_limits),
-        *_check_uses(assignment.checks, known_checks),
+        *_check_uses(assignment.checks, known_checks, assignment.schema_),
         *(
             (("policy", *place), f"policy.{text}")
             for place, text in policy_faults(assignment.policy)
@@ -116,7 +117,7 @@ def _lesson(
     found = [
         *_names(assignment),
         *_limits(assignment.limits, known_limits),
-        *_check_uses(assignment.checks, known_checks),
+        *_check_uses(assignment.checks, known_checks, assignment.schema_),
         *_uses_of_runs(lesson),
         *(
             (("policy", *place), f"policy.{text}")
@@ -290,7 +291,8 @@ def merge_hidden(
 ) -> Assignment:
     """Return the assignment with the hidden checks added after the visible ones."""
     extra = validated(hidden, HiddenChecks, _keys(HiddenChecks)).checks
-    found = list(_check_uses(extra, known_checks, taken=[use.id for use in assignment.checks]))
+    taken = [use.id for use in assignment.checks]
+    found = list(_check_uses(extra, known_checks, assignment.schema_, taken))
     if found:
         raise error_of(hidden, found)
     if len(extra) != assignment.hidden_checks:
@@ -369,8 +371,10 @@ def _limits(limits: dict[str, float], known: Sequence[str] | None) -> Iterator[F
 
 
 def _check_uses(
-    uses: Sequence[CheckUse], known: KnownChecks | None, taken: Sequence[str] = ()
+    uses: Sequence[CheckUse], known: KnownChecks | None, schema: int, taken: Sequence[str] = ()
 ) -> Iterator[Fault]:
+    if known is not None:
+        known = {**known, **{s: one for s, one in SHORTHANDS.items() if one.kind in known}}
     if not uses and not taken:
         yield ("checks",), "checks is empty: an assignment needs at least one check"
     seen = set(taken)
@@ -384,7 +388,17 @@ def _check_uses(
             yield ("checks", i, "id"), f"the check '{use.id}' is listed twice"
         elif known is not None:
             yield from _parameters(use, known[use.kind].parameters, ("checks", i, "with"))
+            yield from _of_schema(use, schema, ("checks", i, "check" if use.check else "id"))
         seen.add(use.id)
+
+
+def _of_schema(use: CheckUse, schema: int, place: Loc) -> Iterator[Fault]:
+    """Yield that a check needs `output:` but has none, or parameters of its own beside it."""
+    for name, short in SHORTHANDS.items():
+        if short.needs_output and schema == 1 and use.kind == short.kind:
+            yield place, f"the parameters of '{use.kind}' are in output: of schema 1: use {name}"
+        if short.needs_output and schema == 2 and use.kind == name:
+            yield place, f"'{name}' needs output: of schema 1: use {short.kind} with its parameters"
 
 
 def _parameters(use: CheckUse, model: type[BaseModel] | None, place: Loc) -> Iterator[Fault]:

@@ -83,6 +83,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_without_message": {"name": "on_message"},
     "source.misplaced_node_file": {"wanted": "my_package/my_node.py"},
     "run.wrong_node_name": {"wanted": "my_node"},
+    "log.wrong_level": {"level": "warn"},
     "lab.not_installed": {"package": "turtlesim"},
     "node.main_misspelt": {"name": "mian"},
     "node.waits_first": {"name": "input()"},

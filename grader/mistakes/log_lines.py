@@ -30,6 +30,13 @@ KINDS = (
         msg("Write create_timer({wanted}, …)."),
     ),
     _log(
+        "wrong_level",
+        "logger",
+        msg("The log records have another level"),
+        msg("The level says how urgent a record is, and whether it is shown."),
+        msg("Write self.get_logger().{level}(…) in the callback."),
+    ),
+    _log(
         "missing",
         "text",
         msg("A log line is missing"),

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from grader.base.errors import AssignmentError, UsageError
 from grader.course.assignment import Assignment
+from grader.course.shorthands import SHORTHANDS
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.tree import Nest, Tree, digest, read_tree
 from grader.package.submission import Submission
@@ -120,7 +121,11 @@ def _digests(mutants: Iterable[Mutant], original: Tree) -> list[str]:
 def _of_scenarios(mutant: Mutant, assignment: Assignment) -> Mutant:
     """Return a mutant that a check of a scenario may catch too, if one of a run is expected to."""
     known = checks_of(assignment)
-    own = tuple(use.id for use in assignment.checks if known[use.kind].parameters is not None)
+    own = tuple(
+        use.id
+        for use in assignment.checks
+        if known[use.kind].parameters is not None and use.id not in SHORTHANDS
+    )
     if not own or not any(family.startswith("run.") for family in mutant.families):
         return mutant
     return replace(mutant, families=(*mutant.families, "run.stays", *own))

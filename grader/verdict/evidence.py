@@ -116,6 +116,10 @@ class Evidence:
         uses = {use.id: use.visibility for use in self.assignment.checks}
         return uses.get(check_id, "visible") != "visible"
 
+    def id_of(self, kind: str) -> str:
+        """Return the id of the assignment's first check of a kind; the kind if there is none."""
+        return next((use.id for use in self.assignment.checks if use.kind == kind), kind)
+
     def has_failed(self, check_id: str) -> bool:
         """Whether a check was evaluated and failed."""
         result = self.results.get(check_id)

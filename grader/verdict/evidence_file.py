@@ -11,15 +11,16 @@ import hashlib
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import AfterValidator, Field, ValidationError
 
 from grader.base.canonical_json import canonical_json
 from grader.base.errors import UsageError
 from grader.base.part import Part
 from grader.base.shown import utf8_name
 from grader.course.assignment import Assignment
+from grader.course.shorthands import with_kinds
 from grader.package.submission import Submission
 from grader.package.submission_json import submission_from_json, submission_json
 from grader.report.files import report_json
@@ -67,7 +68,7 @@ class EvidenceFile(Part):
 
     schema_: Literal[1] = Field(default=1, alias="schema")
     kind: Literal["ros2_teaching_lab evidence"] = "ros2_teaching_lab evidence"
-    assignment: Assignment
+    assignment: Annotated[Assignment, AfterValidator(with_kinds)]
     files: dict[str, str] = Field(description="the SHA-256 of each file of the package")
     submission: str = Field(description="the submission with its contents, see submission_json")
     recording: Recording

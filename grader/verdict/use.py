@@ -40,11 +40,23 @@ class Use(Generic[P_co]):
         return self.evidence.assignment.plan(self.use.run)
 
     @property
-    def run(self) -> Run:
-        """The run that is judged. Raises Blocked if its nodes did not start."""
+    def in_scenario(self) -> bool:
+        """Whether a scenario's run is judged; the run of schema 1 is driven line by line."""
+        return bool(self.evidence.assignment.runs)
+
+    @property
+    def observed(self) -> Run:
+        """The run that is judged, also if its nodes did not start."""
+        if not self.in_scenario:
+            return self.evidence.run
         if self._other_package:
             self.blocked_by("package.beside", package=self._other_package)
-        run = self.evidence.run_of(self.plan.name)
+        return self.evidence.run_of(self.plan.name)
+
+    @property
+    def run(self) -> Run:
+        """A scenario's run that is judged. Raises Blocked if its nodes did not start."""
+        run = self.observed
         if not run.started:
             raise Blocked(by="run.starts")
         if not run.watch.settled and not run.ended_by_itself:
@@ -72,6 +84,8 @@ class Use(Generic[P_co]):
     @property
     def _judged(self) -> Node | None:
         """The node that is judged, as the assignment describes it."""
+        if not self.in_scenario:
+            return None
         begin = self.use.of or (self.plan.start[0].node if self.plan.start else "")
         return self.evidence.assignment.nodes.get(begin)
 

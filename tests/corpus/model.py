@@ -9,15 +9,13 @@ from pathlib import Path
 from grader.course.load import load_assignment
 from grader.mistakes.example import CFG, INIT, INNER, MANIFEST, MARKER, NODE, PACKAGE, SETUP
 from grader.package.edit.tree import Edit
-from grader.verdict.checks.all import CHECKS
+from grader.verdict.evaluate import assigned_checks
 
 __all__ = ["CFG", "INIT", "INNER", "MANIFEST", "MARKER", "NODE", "PACKAGE", "SETUP"]
 
 ROOT = Path(__file__).parents[2]
-POINTS = {
-    use.id: use.points
-    for use in load_assignment(ROOT / "lab/course/hello_time/assignment.yaml").checks
-}
+ASSIGNMENT = load_assignment(ROOT / "lab/course/hello_time/assignment.yaml")
+POINTS = {use.id: use.points for use in ASSIGNMENT.checks}
 
 STATIC = frozenset(
     {
@@ -65,9 +63,9 @@ class Package:
     def expect_skipped(self) -> frozenset[str]:
         """The checks that are skipped: the blocked ones, and all that depend on a lost check."""
         lost = {*self.expect_failed, *self.blocked}
-        for check in CHECKS.values():  # in the order of their dependencies
-            if check.id in POINTS and (lost - self.not_blocking) & set(check.depends):
-                lost.add(check.id)
+        for one in assigned_checks(ASSIGNMENT):  # in the order of their dependencies
+            if (lost - self.not_blocking) & set(one.depends):
+                lost.add(one.use.id)
         return frozenset(lost) - set(self.expect_failed) - self.undecided
 
     @property

@@ -11,6 +11,7 @@ import pytest
 
 from grader.base.i18n.message import Message
 from grader.base.i18n.translator import Translator
+from grader.course.shorthands import SHORTHANDS
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
@@ -53,7 +54,7 @@ def named_in_the_code() -> set[str]:
                     head, dot, slug = node.value.partition(".")
                     if head in prefixes and dot and slug.isidentifier():
                         named.add(node.value)
-    return named - files - set(CHECKS)
+    return named - files - {*CHECKS, *SHORTHANDS}
 
 
 def test_every_mistake_that_the_code_names_has_an_entry() -> None:

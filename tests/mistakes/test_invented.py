@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from grader.package.edit.tree import apply_all, digest, read_tree
-from grader.verdict.checks.all import CHECKS
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION
+from tests.corpus.model import POINTS
 from tests.mistakes.invented import INVENTED
 
 
@@ -28,6 +28,6 @@ def test_each_names_a_check_a_cause_and_a_place() -> None:
     names = [one.name for one in INVENTED]
     assert len(set(names)) == len(names)
     for one in INVENTED:
-        assert one.fails in CHECKS, one.name
+        assert one.fails in POINTS, one.name
         assert one.cause.endswith("."), one.name
         assert one.place, one.name

@@ -60,7 +60,7 @@ class Cancels(Parameters):
     within: float = Field(ge=0)
 
 
-@kind("action.offers", Action, after=["run.node_name"])
+@kind("action.offers", Action, after=["graph.node_name"])
 def offers(use: Use[Action]) -> Passed:
     """The node offers the action {action}, of the type {type}"""
     own = [

@@ -9,6 +9,7 @@ from graphlib import TopologicalSorter
 from importlib import import_module
 from types import MappingProxyType
 
+from grader.course.shorthands import SHORTHANDS
 from grader.report.model import Quote
 from grader.verdict import checks
 from grader.verdict.checks.declare import Check
@@ -56,9 +57,10 @@ def _declared() -> Iterator[Check]:
 CHECKS: Mapping[str, Check] = MappingProxyType(in_order(_declared()))
 STATIC = tuple(check.id for check in CHECKS.values() if check.needs == "files")
 """The checks that the package's files usually decide."""
+_NAMED = {**CHECKS, **{name: CHECKS[short.kind] for name, short in SHORTHANDS.items()}}
 QUOTES: Mapping[str, Quote] = MappingProxyType(
-    {check.id: check.quotes for check in CHECKS.values() if check.quotes is not None}
+    {name: check.quotes for name, check in _NAMED.items() if check.quotes is not None}
 )
-"""What of the evidence shows why a check failed."""
+"""What of the evidence shows why a check failed, by its kind or its shorthand."""
 FAMILIES = tuple(dict.fromkeys(f"{check.partition('.')[0]}." for check in CHECKS))
 """The beginnings of the ids, each with its dot."""

@@ -1,40 +1,77 @@
-"""The run stage, part 2: does the node count, with the right text and through its logger?"""
+"""The kind of check for a count: does the node write the right lines in the right order?"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pydantic import Field, field_validator
+
 from grader.base.i18n.message import joined, say, say_plural
-from grader.base.nearest import compared
+from grader.base.nearest import compared, with_difference
+from grader.base.yaml_model import broken
+from grader.course.assignment import Count
 from grader.package.source.remarks import remarks_on
 from grader.report.model import Where
-from grader.verdict.checks.declare import RUN, check
+from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
+from grader.verdict.checks.lines import CALLS, numbered, records, such_lines
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.observer import Event, Watch
+    from grader.run.run import Run
     from grader.verdict.evidence import Evidence
+    from grader.verdict.use import Use
 
-INFO = 20
 MISSED = 1.5  # periods after the last line, when the next one should have come
-LOST = 1.0  # seconds before a node ended, whose log records may be lost
-LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
-@check(
-    "run.output",
-    stage=RUN,
-    depends=["run.starts"],
-    after=["run.node_name"],
-    quotes="before_ctrl_c",
-)
-def output(evidence: Evidence) -> Passed:
+class Counts(Parameters, Count):
+    """A line that counts: `text` has {n} once; the numbers go up from `start` by `step`."""
+
+    at_least: int = Field(default=2, ge=2)
+
+    @field_validator("text")
+    @classmethod
+    def _has_number(cls, text: str) -> str:
+        if text.count("{n}") != 1:
+            raise broken("text must contain {n} exactly once")
+        return text
+
+
+@kind("log.counts", Counts, depends=["run.starts"], after=["graph.node_name"])
+def counts(use: Use[Counts]) -> Passed:
     """The node counts: the right text, in the right order, one line each time."""
-    run, wanted = evidence.run, evidence.assignment.output
-    events = run.watch.counted
+    wanted = use.given
     expected = f"{wanted.line(0)}, {wanted.line(1)}, {wanted.line(2)}, …"
+    if use.in_scenario:
+        return _in_scenario(use, expected)
+    return _line_by_line(use.evidence, wanted, expected)
+
+
+def _in_scenario(use: Use[Counts], expected: str) -> Passed:
+    use.require_window()
+    found = records(use, numbered(use.given.text))
+    if len(found) < use.given.at_least:
+        where = use.call(*CALLS)
+        actual = such_lines(len(found))
+        raise Failed("log.missing", expected=expected, actual=actual, where=where)
+    for k, event in enumerate(found):
+        due = use.given.line(k)
+        if event.text != due:
+            raise Failed(
+                "log.wrong_count",
+                expected=due,
+                actual=with_difference(event.text, event.text, due),
+                where=line_of(use.evidence, event.record),
+            )
+    return Passed(actual=such_lines(len(found)))
+
+
+def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
+    run = evidence.run
+    events = run.watch.counted
     if run.flooded:
         raise flood(evidence, expected)
     if run.erased:
@@ -61,7 +98,7 @@ def output(evidence: Evidence) -> Passed:
             params={"text": events[0].text[:200]},
             words=words(evidence),
         )
-    mistake, text = _count_fault(evidence, numbers)
+    mistake, text = _count_fault(run, wanted, numbers)
     if mistake:
         raise Failed(
             mistake,
@@ -70,7 +107,7 @@ def output(evidence: Evidence) -> Passed:
             where=line_of(evidence, events[0].record),
             words=words(evidence),
         )
-    _must_stay_a_count(evidence, expected)
+    _must_stay_a_count(evidence, wanted, expected)
     _must_go_on(evidence, expected)
     if run.confirmed is False:
         raise _only_when_marked(evidence, expected)
@@ -120,12 +157,11 @@ def _status(evidence: Evidence) -> str:
     return say("status {status}", status=str(evidence.run.status))
 
 
-def _count_fault(evidence: Evidence, numbers: list[int]) -> tuple[str, str]:
+def _count_fault(run: Run, wanted: Count, numbers: list[int]) -> tuple[str, str]:
     """Return the mistake and what was found if the numbers are not start, start + step, ….
 
     Both are empty if the numbers are right.
     """
-    wanted, run = evidence.assignment.output, evidence.run
     dues = [event.due for event in run.watch.counted if event.due is not None]
     if len(dues) != len(set(dues)):
         return "run.twice", say("several lines came at the same time")
@@ -142,14 +178,14 @@ def _count_fault(evidence: Evidence, numbers: list[int]) -> tuple[str, str]:
     return "", ""
 
 
-def _must_stay_a_count(evidence: Evidence, expected: str) -> None:
+def _must_stay_a_count(evidence: Evidence, wanted: Count, expected: str) -> None:
     """Raise Failed if other lines come in place of the count after some of its lines."""
     watch = evidence.run.watch
     other = _in_place_of_the_next(watch, evidence.assignment.output.period)
     if other is None:
         return
     count = sum(event.n is not None and event.wall < other.wall for event in watch.counted)
-    difference = compared(other.text, evidence.assignment.output.line(count))
+    difference = compared(other.text, wanted.line(count))
     if difference:
         raise Failed(
             "run.wrong_text",
@@ -236,79 +272,3 @@ def _only_when_marked(evidence: Evidence, expected: str) -> Failed:
 def _difference(wanted: str, found: str) -> str:
     """Return what was found, with the difference marked if it is similar to what was wanted."""
     return compared(found, wanted) or repr(found[:200])
-
-
-@check(
-    "run.logger",
-    stage=RUN,
-    depends=["run.starts"],
-    after=["run.output"],
-    quotes="before_ctrl_c",
-)
-def logger(evidence: Evidence) -> Passed:
-    """The lines go through the node's own logger."""
-    run = evidence.run
-    events = run.watch.counted
-    if not events or run.confirmed is False or run.flooded:
-        raise Blocked(by="run.output")
-    names = {node.logger for node in run.nodes}
-    expected = say("log records of the node on /rosout, level INFO")
-    if run.doubled:
-        raise Failed(
-            "run.faked_log",
-            expected=expected,
-            actual=say(
-                "{node} has a second publisher on /rosout: who made the records cannot be told",
-                node=run.doubled,
-            ),
-            where=line_of(evidence, events[0].record),
-        )
-    gone = run.ended_by_itself or bool(run.watch.missing)
-    for event in events:
-        if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
-            continue  # the last records of a node that ends or is destroyed may be lost
-        _judge_record(event, names, expected, line_of(evidence, event.record))
-    node = run.counting_node
-    name = node.logger if node is not None else min(names, default="")
-    said = say("{count} records of [{name}], INFO", count=len(events), name=name)
-    return Passed(actual=said)
-
-
-def _judge_record(event: Event, names: set[str], expected: str, where: Where) -> None:
-    """Raise Failed unless the line is an INFO record of the node's own logger."""
-    if event.source == "print":
-        text = event.text[:80]
-        raise Failed(
-            "run.print_not_logger",
-            expected=expected,
-            actual=say("a line that ROS never saw: '{text}' (print?)", text=text),
-            where=where,
-        )
-    if event.source == "faked" and event.logger not in names:
-        raise _other_logger(expected, event.logger)
-    if event.source == "faked":
-        raise Failed(
-            "run.faked_log",
-            expected=expected,
-            actual=say("a line that looks like a log record, but ROS never logged it"),
-            where=where,
-        )
-    if event.record is not None and event.record.name not in names:
-        raise _other_logger(expected, event.record.name)
-    if event.record is not None and event.record.level != INFO:
-        level = LEVELS.get(event.record.level, str(event.record.level))
-        raise Failed(
-            "run.wrong_level",
-            expected=expected,
-            actual=say("level {level}", level=level),
-            where=where,
-        )
-
-
-def _other_logger(expected: str, name: str) -> Failed:
-    return Failed(
-        "run.other_logger",
-        expected=expected,
-        actual=say("records of the logger [{name}], which is not the node's", name=name),
-        params={"name": name},
-    )

@@ -103,7 +103,7 @@ def words(evidence: Evidence) -> dict[str, Value]:
 
 def going_on(evidence: Evidence) -> str:
     """Return the check that says why a run did not go on to its end."""
-    return "run.stays" if evidence.assignment.runs else "run.output"
+    return "run.stays" if evidence.assignment.runs else evidence.id_of("log.counts")
 
 
 def flood(evidence: Evidence, expected: str) -> Failed:

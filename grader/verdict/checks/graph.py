@@ -1,4 +1,4 @@
-"""Kinds of check for the ROS graph: which nodes there are, and which of them are connected."""
+"""Kinds of check for the ROS graph: which nodes there are, their names and connections."""
 
 from __future__ import annotations
 
@@ -7,12 +7,19 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from grader.base.i18n.message import say
+from grader.base.nearest import nearest, with_difference
 from grader.verdict.checks.declare import Parameters, kind
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.outcome import Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
     from grader.run.observations import End
     from grader.verdict.use import Use
+
+
+class NodeName(Parameters):
+    """The name of the node, with its namespace if that is not /."""
+
+    name: str
 
 
 class Nodes(Parameters):
@@ -30,7 +37,43 @@ class Connection(Parameters):
     receiver: str
 
 
-@kind("graph.nodes", Nodes, after=["run.node_name"])
+@kind("graph.node_name", NodeName, depends=["run.starts"], after=["run.spins"])
+def node_name(use: Use[NodeName]) -> Passed:
+    """The node has the required name."""
+    run, wanted = use.observed, f"/{use.given.name.lstrip('/')}"
+    names = [run.counting] if run.counting else [node.name for node in run.nodes]
+    if wanted in names:
+        return Passed(actual=wanted)
+    if not names:
+        raise Inconclusive(say("the ROS graph could not be read"))
+    listed = ", ".join(names)
+    if any(node.name == wanted for node in run.nodes):
+        listed = say("the lines come from {name}", name=run.counting)
+    if wanted != f"/{use.evidence.assignment.node_name}":
+        raise _missing(wanted, wanted, listed, use)
+    close = nearest(wanted, names) or names[0]
+    raise Failed(
+        "run.wrong_node_name",
+        expected=wanted,
+        actual=with_difference(listed, close, wanted),
+        where=use.call(),
+        params={"name": names[0].lstrip("/")},
+        words={"wanted": wanted.lstrip("/")},
+    )
+
+
+def _missing(name: str, expected: str, actual: str, use: Use[Parameters]) -> Failed:
+    """Return the failure of a run without the node of a name."""
+    return Failed(
+        "graph.node_missing",
+        expected=expected,
+        actual=actual,
+        where=use.call("__init__", "create_node", "Node"),
+        params={"name": name},
+    )
+
+
+@kind("graph.nodes", Nodes, after=["graph.node_name"])
 def nodes(use: Use[Nodes]) -> Passed:
     """The ROS graph has the nodes {names}"""
     given = use.given
@@ -39,13 +82,7 @@ def nodes(use: Use[Nodes]) -> Passed:
     more = sorted(found - set(given.names))
     listed = ", ".join(sorted(found)) or "-"
     if missing:
-        raise Failed(
-            "graph.node_missing",
-            expected=", ".join(given.names),
-            actual=listed,
-            where=use.call("__init__", "create_node", "Node"),
-            params={"name": missing[0]},
-        )
+        raise _missing(missing[0], ", ".join(given.names), listed, use)
     if more and not given.others:
         raise Failed(
             "graph.node_unexpected",

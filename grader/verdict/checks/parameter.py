@@ -30,7 +30,7 @@ class Accepts(Parameters):
     name: str
 
 
-@kind("parameter.declared", Declared, after=["run.node_name"])
+@kind("parameter.declared", Declared, after=["graph.node_name"])
 def declared(use: Use[Declared]) -> Passed:
     """The node has the parameter {name}"""
     given = use.given

@@ -43,13 +43,13 @@ class Answers(Parameters):
     each: dict[str, Form] = Field(default_factory=dict)
 
 
-@kind("service.offers", Service, after=["run.node_name"])
+@kind("service.offers", Service, after=["graph.node_name"])
 def offers(use: Use[Service]) -> Passed:
     """The node offers the service {service}, of the type {type}"""
     return _must_have("service", use)
 
 
-@kind("service.calls", Service, after=["run.node_name"])
+@kind("service.calls", Service, after=["graph.node_name"])
 def calls(use: Use[Service]) -> Passed:
     """The node is a client of the service {service}, of the type {type}"""
     return _must_have("client", use)

@@ -29,7 +29,7 @@ def spins(evidence: Evidence) -> Passed:
         raise Blocked(by=going_on(evidence))
     if not _answers(run) and not _follows(run):
         raise _never(evidence)
-    # of a single line, the instant is chance; run.output says that no more came
+    # of a single line, the instant is chance; log.counts says that no more came
     if not run.watch.while_still or len(run.watch.counted) == 1:
         return Passed(actual=say("the node answers while it counts"))
     if timer_of_other_clock(evidence) is not None:

@@ -6,11 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
-from grader.base.nearest import nearest, with_difference
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, going_on, node_file, resource, traceback_of, words
 from grader.verdict.node_files import source_of_node
-from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
+from grader.verdict.outcome import Blocked, Failed, Outcome, Passed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -85,36 +84,6 @@ def _no_node(evidence: Evidence, actual: str) -> Failed:
     )
 
 
-@check(
-    "run.node_name",
-    stage=RUN,
-    depends=["run.starts"],
-    after=["run.spins"],
-    quotes="before_ctrl_c",
-)
-def node_name(evidence: Evidence) -> Passed:
-    """The node has the required name."""
-    wanted = evidence.assignment.node_name
-    counting = evidence.run.counting
-    names = [counting] if counting else [node.name for node in evidence.run.nodes]
-    if f"/{wanted}" in names:
-        return Passed(actual=f"/{wanted}")
-    if not names:
-        raise Inconclusive(say("the ROS graph could not be read"))
-    listed = ", ".join(names)
-    if any(node.name == f"/{wanted}" for node in evidence.run.nodes):
-        listed = say("the lines come from {name}", name=counting)
-    close = nearest(f"/{wanted}", names) or names[0]
-    raise Failed(
-        "run.wrong_node_name",
-        expected=f"/{wanted}",
-        actual=with_difference(listed, close, f"/{wanted}"),
-        where=node_file(evidence),
-        params={"name": names[0].lstrip("/")},
-        words={"wanted": wanted},
-    )
-
-
 def _handler_fails(last: str) -> bool:
     """Whether the last error came from the student's own handling of Ctrl+C."""
     _, handling, after = last.rpartition("During handling of the above exception")
@@ -125,7 +94,7 @@ def _handler_fails(last: str) -> bool:
     "run.interrupt",
     stage=RUN,
     depends=["run.starts"],
-    after=["run.period"],
+    after=["log.period"],
     quotes="transcript",
 )
 def interrupt(evidence: Evidence) -> Passed:

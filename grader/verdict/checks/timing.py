@@ -1,4 +1,4 @@
-"""The run stage, part 3: do the lines come at the right instants?"""
+"""The kind of check for the period of lines: do they come at the right instants?"""
 
 from __future__ import annotations
 
@@ -7,11 +7,15 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from pydantic import Field
+
 from grader.base.i18n.message import say
 from grader.package.source.place import place_of
 from grader.package.source.sleeps import longest_sleep
-from grader.verdict.checks.declare import RUN, check
+from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of, words
+from grader.verdict.checks.instants import stops_before, wrong_gaps
+from grader.verdict.checks.lines import CALLS, numbered, records, such_lines
 from grader.verdict.checks.spinning import timer_of_other_clock
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
@@ -19,28 +23,62 @@ from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 if TYPE_CHECKING:
     from grader.run.observer import Event
     from grader.verdict.evidence import Evidence
+    from grader.verdict.use import Use
 
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
 
 
-@check(
-    "run.period",
-    stage=RUN,
-    depends=["run.starts"],
-    after=["run.output", "run.logger"],
-    quotes="before_ctrl_c",
-)
-def period(evidence: Evidence) -> Passed:
+class LinePeriod(Parameters):
+    """The lines of a text, in which {n} stands for any number: one every `period` s of ROS time."""
+
+    text: str
+    period: float = Field(gt=0, allow_inf_nan=False)
+
+
+@kind("log.period", LinePeriod, depends=["run.starts"], after=["log.counts", "log.logger"])
+def period(use: Use[LinePeriod]) -> Passed:
     """A line comes once in each period, at the right instants."""
-    run, wanted = evidence.run, evidence.assignment.output
+    return _in_scenario(use) if use.in_scenario else _line_by_line(use.evidence, use.given.period)
+
+
+def _in_scenario(use: Use[LinePeriod]) -> Passed:
+    wanted, clock = use.given.period, use.plan.clock.period
+    _, last = use.require_window()
+    every = f"{wanted:g}"
+    expected = say("one line every {period} s", period=every)
+    found = records(use, numbered(use.given.text))
+    if len(found) < 2:
+        use.blocked_by("log.counts", text=use.given.text)
+        where = use.call(*CALLS)
+        actual = such_lines(len(found))
+        raise Failed("log.missing", expected=expected, actual=actual, where=where)
+    instants = [event.virtual for event in found]
+    wrong = wrong_gaps(instants, wanted, clock)
+    if not wrong and not stops_before(last, instants, wanted, clock):
+        return Passed(actual=such_lines(len(found)))
+    actual = say("the last line came at {at} s", at=f"{instants[-1]:g}")
+    if wrong:
+        actual = say("{gap} s between two lines", gap=f"{wrong[0]:g}")
+    raise Failed(
+        "log.wrong_period",
+        expected=expected,
+        actual=actual,
+        where=use.call("create_timer"),
+        words={"wanted": every},
+    )
+
+
+def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
+    run = evidence.run
     watch = run.watch
     events = watch.counted
+    count = evidence.id_of("log.counts")
     if not events or run.confirmed is False or run.flooded:
-        raise Blocked(by="run.output")
-    every = f"{wanted.period:g}"
+        raise Blocked(by=count)
+    every = f"{wanted:g}"
     expected = say("one line every {period} s, the first after {period} s", period=every)
     if watch.clock == "wall":
-        return _wall_period(evidence, expected)
+        return _wall_period(evidence, wanted, expected)
     if any(event.n is not None for event in watch.before_start):
         raise Failed(
             "run.by_hand",
@@ -50,9 +88,9 @@ def period(evidence: Evidence) -> Passed:
             words=words(evidence),
         )
     on_time = [event for event in events if event.due is not None]
-    stopped = len(on_time) > 1 and abs((watch.period or wanted.period) - wanted.period) < 0.001
-    if not watch.early and (not watch.missing or stopped):  # run.output reports a stop
-        slow = _kept_apart(evidence, on_time)
+    stopped = len(on_time) > 1 and abs((watch.period or wanted) - wanted) < 0.001
+    if not watch.early and (not watch.missing or stopped):  # log.counts reports a stop
+        slow = _kept_apart(evidence, on_time, wanted)
         if slow:
             actual = say("a line about every {period} s", period=f"{slow:.2f}")
             raise _wrong_period(evidence, expected, actual, seconds=slow)
@@ -63,8 +101,8 @@ def period(evidence: Evidence) -> Passed:
         return Passed(actual=each)
     late = events[0].virtual if watch.missing and events[0].due is None else 0.0
     single = watch.period is None and len(events) < 2
-    if single and (late <= wanted.period or evidence.has_mistake("run.output", "run.stops")):
-        raise Blocked(by="run.output")
+    if single and (late <= wanted or evidence.has_mistake(count, "run.stops")):
+        raise Blocked(by=count)
     seen = watch.period or (late if len(events) < 2 else 0.0)
     actual = say("lines came at other instants")
     if seen:
@@ -72,7 +110,7 @@ def period(evidence: Evidence) -> Passed:
     raise _wrong_period(evidence, expected, actual, seconds=seen)
 
 
-def _kept_apart(evidence: Evidence, on_time: Sequence[Event]) -> float:
+def _kept_apart(evidence: Evidence, on_time: Sequence[Event], wanted: float) -> float:
     """Return the wall time (s) between the lines of a callback that takes more than a period.
 
     ROS time waits for the callback, so the lines are on time, but on a terminal they come late.
@@ -80,29 +118,29 @@ def _kept_apart(evidence: Evidence, on_time: Sequence[Event]) -> float:
     other delay may be load. 0 if there is none.
     """
     held_up = evidence.run.held_up
-    if held_up > evidence.assignment.output.period * (1 + WALL_TOLERANCE):
+    if held_up > wanted * (1 + WALL_TOLERANCE):
         return held_up
     source = source_of_node(evidence)
     slept = longest_sleep(source) if source is not None else None
     gaps = [after.wall - before.wall for before, after in pairwise(on_time)]
-    if slept is None or slept[1] <= evidence.assignment.output.period or not gaps:
+    if slept is None or slept[1] <= wanted or not gaps:
         return 0.0
     gap = statistics.median(gaps)
     return gap if gap >= slept[1] * (1 - WALL_TOLERANCE) else 0.0
 
 
-def _wall_period(evidence: Evidence, expected: str) -> Passed:
-    watch, wanted = evidence.run.watch, evidence.assignment.output
+def _wall_period(evidence: Evidence, wanted: float, expected: str) -> Passed:
+    watch, count = evidence.run.watch, evidence.id_of("log.counts")
     if watch.period is None:
-        raise Blocked(by="run.output")
-    slack = wanted.period * WALL_TOLERANCE + WALL_SLACK
+        raise Blocked(by=count)
+    slack = wanted * WALL_TOLERANCE + WALL_SLACK
     median = f"{watch.period:.3f}"
     actual = say("a line every {period} s of wall time (median)", period=median)
-    if abs(watch.period - wanted.period) <= slack:
+    if abs(watch.period - wanted) <= slack:
         _must_use_ros_time(evidence)
         return Passed(actual=actual, advice=_advice(evidence))
-    if evidence.run.inconsistent and evidence.has_failed("run.output"):
-        raise Blocked(by="run.output")  # lines beside the count, whose gaps are chance
+    if evidence.run.inconsistent and evidence.has_failed(count):
+        raise Blocked(by=count)  # lines beside the count, whose gaps are chance
     if evidence.run.inconsistent:
         busy = say(
             "{actual}, but another run differed: the machine is too busy to tell", actual=actual

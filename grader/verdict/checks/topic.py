@@ -122,7 +122,7 @@ def _must_hear(use: Use[Parameters], topic: str) -> None:
         use.blocked_by_call(one.after)
 
 
-@kind("topic.subscribes", Subscribes, after=["run.node_name"])
+@kind("topic.subscribes", Subscribes, after=["graph.node_name"])
 def subscribes(use: Use[Subscribes]) -> Passed:
     """The node subscribes to {topic}, of the type {type}"""
     given = use.given
