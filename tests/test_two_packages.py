@@ -39,6 +39,8 @@ checks:
   - {id: relay.hears, check: topic.subscribes, of: relay, points: 1, with: {topic: /in, type: std_msgs/msg/Int32}}
   - {id: relay.says, check: topic.values, of: relay, points: 1, with: {topic: /out, each: {data: 2}}}
   - {id: relay.type, check: topic.publishes, of: relay, points: 1, with: {topic: /out, type: std_msgs/msg/Int32}}
+  - {id: relay.logs, check: log.matches, of: relay, points: 1, with: {text: got 1, at_least: 5}}
+  - {id: relay.logger, check: log.logger, of: relay, points: 1, with: {text: "got {n}"}}
 """
 NODE = """\
 #!/usr/bin/env python3
@@ -57,6 +59,7 @@ class {name}(Node):
         self.made.publish(Int32(data=1))
 
     def on_number(self, number):
+        self.get_logger().info(f'got {{number.data}}')
         self.made.publish(Int32(data=2 * number.data))
 
 
@@ -153,6 +156,11 @@ def test_two_packages_get_full_marks(tmp_path: Path) -> None:
             {"relay.says": "topic.wrong_value"},
             marks=pytest.mark.full,
         ),
+        pytest.param(
+            RELAY.replace("f'got", "f'Got"),
+            {"relay.logs": "log.wrong_text", "relay.logger": "log.missing"},
+            marks=pytest.mark.full,
+        ),
         pytest.param(None, {"relay.there": "beside.missing"}, marks=pytest.mark.long),
         pytest.param(
             RELAY.replace("'/out'", "'/uot'"),
@@ -169,6 +177,10 @@ def test_a_mistake_in_the_second_package_is_found(
     assert {c.id: c.mistakes[0].id for c in found.values()} == failed
     for check in found.values():
         assert check.where is None or check.where.file == "relaying/relaying/relay.py"
+    logged = found.get("relay.logs")
+    if logged is not None and logged.where is not None:
+        text = (relay or "").splitlines()[(logged.where.line or 1) - 1]
+        assert "get_logger" in text
 
 
 @pytest.mark.parametrize(

@@ -73,7 +73,7 @@ def conduct(
     terminals: list[Terminal] = []
     try:
         terminals += [start(sandbox, command, probe.pipe) for command in commands]
-        observer = Observer(terminals[0], probe, assignment.output)
+        observer = Observer(terminals[0], probe, assignment.output, terminals[1:])
         scene = _Scene(assignment, plan, probe, observer, terminals, run, on_event)
         scene.deadline = min(begin + limits.run_seconds, probe.until)
         scene.play(begin, limits.start_seconds)
@@ -177,7 +177,6 @@ class _Scene:
             events = self.observer.take(answer)
             self.run.watch.before_start += events
             self.run.watch.events += events
-            self._read_others()
             self.observer.linked(answer.nodes)
             now = time.monotonic()
             if answer.nodes:
@@ -307,13 +306,8 @@ class _Scene:
     def _take(self, answer: Answer) -> None:
         events = self.observer.take(answer) + self.observer.catch_up(answer.logs)
         self.run.watch.events += events
-        self._read_others()
         for event in events:
             self._on_event(event)
-
-    def _read_others(self) -> None:
-        for terminal in self.terminals[1:]:
-            terminal.read()
 
     def _look(self) -> None:
         """Read the graph and the parameters."""

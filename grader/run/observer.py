@@ -136,16 +136,26 @@ def number_reader(output: Output) -> Callable[[str], int | None]:
 
 
 class Observer:
-    """Merges the lines of the terminal with the log records of ROS."""
+    """Merges the lines of the terminal with the log records of ROS.
 
-    def __init__(self, terminal: Terminal, probe: ProbeLink, output: Output) -> None:
+    `others` are the terminals of more nodes: of them only the log lines count.
+    """
+
+    def __init__(
+        self,
+        terminal: Terminal,
+        probe: ProbeLink,
+        output: Output,
+        others: Sequence[Terminal] = (),
+    ) -> None:
         self.terminal = terminal
+        self.others = others
         self.probe = probe
         self.output = output
         self.number = number_reader(output)
         self._unmatched: list[Line] = []
         self.records: list[LogRecord] = []
-        self._shown: set[int] = set()  # the stamps of the records that the terminal showed
+        self._shown: set[int] = set()  # the stamps of the records that a terminal showed
         self.now = 0.0  # virtual seconds
         self._linked: float | None = None
         self._mirrored = True  # whether log records appear on the terminal
@@ -183,6 +193,9 @@ class Observer:
                     self._unmatched.append(part)
                 elif part.text.strip():
                     events.append(self._event(part.text, part.wall, "print", None))
+        for other in self.others:
+            parts = (part for line in other.read() for part in line.parts())
+            self._unmatched += [part for part in parts if part.log is not None]
         return events + self._match()
 
     def _of_record(self, record: LogRecord) -> Event:
@@ -212,7 +225,7 @@ class Observer:
         return faked
 
     def visible(self, events: Iterable[Event]) -> list[Event]:
-        """Return the events that the terminal showed."""
+        """Return the events that a terminal showed."""
         return [e for e in events if e.record is None or e.record.stamp in self._shown]
 
     def _is_overdue(self, line: Line) -> bool:

@@ -39,6 +39,10 @@ def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
     for path in (place.file, *(source.paths if source is not None else ())):
         if record.file.endswith(path):
             return Where(file=path, line=record.line)
+    for package in evidence.submission.packages:
+        for file in package.files:
+            if record.file.endswith(f"/{file.path}"):
+                return Where(file=f"{package.name}/{file.path}", line=record.line)
     return place
 
 
