@@ -74,6 +74,14 @@ class Interfaces:
         """The packages whose interfaces are known."""
         return frozenset(name.partition("/")[0] for name in self.types)
 
+    def has_type(self, name: str) -> bool:
+        """Whether there is a message, service or action of this name."""
+        return _known(name) in self.types
+
+    def has_package(self, name: str) -> bool:
+        """Whether there is a package of interfaces of this name."""
+        return _known(name) in self.packages
+
     def type_fault(self, name: str, kind: str) -> str:
         """Return what is wrong with the name of a type that must be a `msg`, `srv` or `action`.
 

@@ -21,6 +21,7 @@ from grader.package.edit.tree import (
     Write,
     text_of,
 )
+from grader.package.source.python import can_parse
 from grader.validate.spots import misspelt
 from grader.verdict.checks.all import FAMILIES
 
@@ -174,4 +175,13 @@ def _script(tree: Tree, path: str) -> Iterator[Made]:
     yield "node with tabs", (Write(path, data.replace(b"        ", b"\t", 1)),), encoding
     yield "node with a bracket lost", (Write(path, data.replace(b")", b"", 1)),), encoding
     yield "node with a colon lost", (Write(path, data.replace(b":\n", b"\n", 1)),), encoding
-    yield "node indented by one", (Write(path, data.replace(b"\n    ", b"\n     ", 1)),), encoding
+    yield "node indented by one", (Write(path, _indented(data)),), encoding
+
+
+def _indented(data: bytes) -> bytes:
+    """Return a source with one line indented too far: the first after which Python cannot read it."""
+    for found in re.finditer(rb"\n    ", data):
+        new = data[: found.end()] + b" " + data[found.end() :]
+        if not can_parse(new):
+            return new
+    return b" " + data

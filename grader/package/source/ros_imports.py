@@ -1,18 +1,29 @@
-"""The ROS packages that a file of Python imports from."""
+"""The ROS packages that a file of Python imports from, and what it takes from them."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 INTERFACES = ("msg", "srv", "action")
 """The modules by which a package of interfaces is known: geometry_msgs.msg."""
 
 CLIENT = "rclpy"
+TYPE_PARTS = 3  # of std_msgs/msg/Int32
 
 
-def ros_packages(tree: ast.Module) -> dict[str, int]:
-    """Return the ROS packages that a file imports from, each with the line of its first import.
+@dataclass(frozen=True)
+class RosImport:
+    """An import from a ROS package: `type` is such as std_msgs/msg/Int32, "" if it names none."""
+
+    package: str
+    line: int
+    type: str = ""
+
+
+def ros_imports(tree: ast.Module) -> list[RosImport]:
+    """Return what a file imports from ROS packages, in the order of the lines.
 
     An import in an `except` is the second choice, which a machine may not need: it is left out.
     """
@@ -22,13 +33,16 @@ def ros_packages(tree: ast.Module) -> dict[str, int]:
         if isinstance(node, ast.ExceptHandler)
         for inner in ast.walk(node)
     }
-    found: dict[str, int] = {}
+    found: list[RosImport] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom) and node not in fallbacks:
             for parts in _modules(node):
-                if parts[0] == CLIENT or (len(parts) > 1 and parts[1] in INTERFACES):
-                    found[parts[0]] = min(node.lineno, found.get(parts[0], node.lineno))
-    return found
+                if parts[0] == CLIENT:
+                    found.append(RosImport(CLIENT, node.lineno))
+                elif len(parts) > 1 and parts[1] in INTERFACES:
+                    name = "/".join(parts) if len(parts) == TYPE_PARTS and parts[2] != "*" else ""
+                    found.append(RosImport(parts[0], node.lineno, name))
+    return sorted(found, key=lambda one: one.line)
 
 
 def _modules(node: ast.Import | ast.ImportFrom) -> Iterator[list[str]]:

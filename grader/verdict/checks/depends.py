@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
 from grader.course.assignment import TURTLESIM
+from grader.course.interfaces import ros_interfaces
 from grader.package.source.manifest import RUNTIME, ManifestError, read_manifest
 from grader.package.source.python import PythonFault, parse_python
-from grader.package.source.ros_imports import ros_packages
+from grader.package.source.ros_imports import CLIENT, RosImport, ros_imports
 from grader.report.model import Where
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.parsed import data_of
@@ -62,7 +63,10 @@ def depends(evidence: Evidence) -> Passed:
 
 
 def _imported(evidence: Evidence) -> dict[str, Where]:
-    """Return the packages that the package's modules import from, and the first place of each."""
+    """Return the packages that the package's modules import from, and the first place of each.
+
+    A misspelt import is left out: the run tells it, and a line for it would be wrong.
+    """
     folder, found = evidence.assignment.folder, dict[str, Where]()
     for file in evidence.submission.files:
         inside = file.path.startswith(f"{folder}/") and file.path.endswith(".py")
@@ -72,7 +76,15 @@ def _imported(evidence: Evidence) -> dict[str, Where]:
             tree = parse_python(file.data).tree
         except PythonFault:
             continue
-        for name, line in ros_packages(tree).items():
-            if name != evidence.assignment.package:
-                found.setdefault(name, Where(file=file.path, line=line))
+        for one in ros_imports(tree):
+            if one.package != evidence.assignment.package and _is_there(one, evidence):
+                found.setdefault(one.package, Where(file=file.path, line=one.line))
     return found
+
+
+def _is_there(one: RosImport, evidence: Evidence) -> bool:
+    """Whether there is such a package, and such a type in it."""
+    if one.package == CLIENT or one.package in evidence.assignment.interface_packages:
+        return True
+    known = ros_interfaces()
+    return known.has_type(one.type) if one.type else known.has_package(one.package)

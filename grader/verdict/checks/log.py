@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from pydantic import Field
 
+from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
 from grader.course.values import Form
-from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.checks.declare import EDGE, Parameters, kind
 from grader.verdict.checks.faults import line_of
 from grader.verdict.checks.lines import CALLS, Level, records, such_lines
 from grader.verdict.outcome import Blocked, Failed, Passed
@@ -23,12 +25,16 @@ CLOSE = 0.6
 
 
 class Lines(Parameters):
-    """Lines of the node's log: their text, and how many there must be at least and at most."""
+    """Lines of the node's log: their text, and how many there must be at least and at most.
+
+    Two of them must be `apart` seconds of ROS time or more.
+    """
 
     text: Form
     level: Level = ""
     at_least: int = Field(default=1, ge=0)
     at_most: int | None = Field(default=None, ge=0)
+    apart: float | None = Field(default=None, gt=0)
 
 
 class Never(Parameters):
@@ -62,6 +68,15 @@ def matches(use: Use[Lines]) -> Passed:
             actual=such_lines(len(found)),
             where=use.call(*CALLS),
         )
+    for before, after in pairwise(found):
+        gap = after.virtual - before.virtual
+        if given.apart is not None and gap < given.apart - EDGE:
+            raise Failed(
+                "log.too_often",
+                expected=say("at least {gap} s between two lines", gap=f"{given.apart:g}"),
+                actual=say("{gap} s between two lines", gap=f"{gap:g}"),
+                where=line_of(use.evidence, after.record),
+            )
     if given.at_most is not None and len(found) > given.at_most:
         raise Failed(
             "log.too_often",
