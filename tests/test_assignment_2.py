@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import AssignmentError, UsageError
+from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
 from grader.course.find import COURSE, chosen, lessons_of
 from grader.course.load import load_assignment
@@ -141,3 +142,14 @@ def test_the_first_lesson_of_the_order_is_the_default(
 def test_our_own_course_begins_with_the_first_node() -> None:
     assert lessons_of(ROOT / "lab" / "course")[:2] == ["hello_time", "draw_circle"]
     assert load_assignment(CIRCLE, known_checks=CHECKS).max_score == 100
+
+
+def test_a_check_can_have_a_title_of_its_own(tmp_path: Path) -> None:
+    """Students read it instead of the kind's; without one the hash is that of before."""
+    plain = loaded(tmp_path)
+    titled = loaded(tmp_path, "id: eight, check:", 'id: eight, title: "Four {is} eight", check:')
+    kind = CHECKS["topic.reacts"]
+    before, after = (next(u for u in a.checks if u.id == "eight") for a in (plain, titled))
+    assert Translator("ko")(kind.title_of(after)) == "Four {is} eight"
+    assert "/doubled" in Translator("en")(kind.title_of(before))
+    assert plain.sha256 != titled.sha256

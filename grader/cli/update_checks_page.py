@@ -29,6 +29,7 @@ id of your own:
 ```yaml
 - id: drive.speed
   check: topic.values
+  title: The turtle is as fast as asked    # what students read (default: the kind's title)
   of: circle                 # a node of the assignment (default: the first that the run starts)
   run: drives                # the run that is judged (default: the first)
   after: tighter             # a stimulus: the window begins when it is done (default: at 0 s)

@@ -42,9 +42,10 @@ class Output(Count):
 class CheckUse(Part):
     """A check of the assignment: its points, and who sees it.
 
-    `check` is the kind of check, the same as `id` unless it is given. The rest is for kinds that
-    take it: `with_` their parameters, `of` a node, `run` the run that is judged, and `during` the
-    first and the last instant (s of ROS time) that count, from the stimulus `after` if it is given.
+    `check` is the kind of check, the same as `id` unless it is given; `title` is what students
+    read instead of the kind's title. The rest is for kinds that take it: `with_` their parameters,
+    `of` a node, `run` the run that is judged, and `during` the first and the last instant (s of ROS
+    time) that count, from the stimulus `after` if it is given.
     """
 
     model_config = ConfigDict(populate_by_name=True)
@@ -53,6 +54,7 @@ class CheckUse(Part):
     points: float = Field(ge=0, allow_inf_nan=False)
     visibility: Visibility = "visible"
     check: str = ""
+    title: str = Field(default="", max_length=100)
     of: str = ""
     run: str = ""
     after: str = ""

@@ -17,7 +17,7 @@ from grader.course.rules import KnownChecks, check_content, merge_hidden
 from grader.course.shorthands import with_kinds
 
 AFTERWARDS = ("policy", "feedback", "archive")  # what changes no verdict
-BEFORE = ("id", "points", "visibility")  # of a check, in schema 1
+BEFORE = ("id", "points", "visibility", "title")  # of a check, in schema 1
 
 
 def load_assignment(
@@ -91,8 +91,11 @@ def _digest(assignment: Assignment) -> str:
     content = assignment.model_dump(mode="json", by_alias=True, exclude={"sha256", *AFTERWARDS})
     if assignment.own_checks:
         content["own_checks"] = assignment.own_checks
+    for use in content["checks"]:
+        if not use["title"]:  # which assignments of before do not have
+            del use["title"]
     if assignment.schema_ == 1:  # what a later schema added does not change it
         del content["nodes"], content["runs"]
-        content["checks"] = [{name: use[name] for name in BEFORE} for use in content["checks"]]
+        content["checks"] = [{n: use[n] for n in BEFORE if n in use} for use in content["checks"]]
     canonical = json.dumps(content, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()

@@ -72,7 +72,9 @@ class Check:
     parameters: type[Parameters] | None = None
 
     def title_of(self, use: CheckUse) -> Message:
-        """Return the title of a use, with the values of its parameters."""
+        """Return the title of a use: its own, or the kind's with the values of its parameters."""
+        if use.title:
+            return Message("{title}", {"title": use.title})
         if self.parameters is None:
             return Message(self.title)
         given = self.parameters.model_validate(use.with_)
