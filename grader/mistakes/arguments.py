@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_arguments
+from grader.mistakes.fixes import node_arguments, node_log
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
-from grader.package.edit.tree import Replace
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace, Write
+from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part
 
 LOGGER_OPTION = (
@@ -37,6 +40,26 @@ ROS_1 = {
     "is_shutdown": "not rclpy.ok()",
 }
 """What ROS 2 has instead of the functions and classes of rospy."""
+OF_BOTH = ("init", "node", "ok", "create_node", "spin_once", "shutdown", "Node")
+"""Names that rclpy has: with these, rospy is a wrong name of rclpy."""
+
+OF_ROS_1 = """#!/usr/bin/env python3
+import rospy
+
+counter = 0
+
+
+def timer_callback(event):
+    global counter
+    rospy.loginfo('Hello time: ' + str(counter))
+    counter += 1
+
+
+def main():
+    rospy.init_node('my_first_node')
+    rospy.Timer(rospy.Duration(1.0), timer_callback)
+    rospy.spin()
+"""
 
 
 def _many(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -81,6 +104,32 @@ def _rospy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return replace(found, variant="rospy" if new else "rospy_other")
 
 
+def _used_of_rospy(module: Module) -> list[str]:
+    """Return what a file uses of rospy that rclpy does not have, in order."""
+    found: list[tuple[int, str]] = []
+    for node in module.nodes:
+        if isinstance(node, ast.Attribute) and dotted(node.value) == "rospy":
+            call = module.parents.get(node)
+            spins = node.attr == "spin" and isinstance(call, ast.Call) and bool(call.args)
+            found += [] if spins else [(node.lineno, node.attr)]
+        elif isinstance(node, ast.ImportFrom) and node.module == "rospy":
+            found += [(node.lineno, alias.name) for alias in node.names]
+    return [name for _, name in sorted(found) if name not in OF_BOTH]
+
+
+def _for_ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The file is written for rospy, or uses it beside rclpy."""
+    del match
+    used = _used_of_rospy(raised.module)
+    if not used:
+        return None
+    name = next((each for each in used if each in ROS_1), used[0])
+    found = raised.finding("for_ros_1", name=name, written=ROS_1.get(name, ""))
+    if not raised.source.uses_ros:
+        return found
+    return replace(found, variant="part" if name in ROS_1 else "part_other")
+
+
 def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A call gives more arguments than the function takes."""
     name = last_part(match["function"])
@@ -107,8 +156,70 @@ def _ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return raised.finding("ros_1", name=name, written=ROS_1[name])
 
 
+def _outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """What belongs to the text is behind the closing bracket of the logger or of print."""
+    del match
+    return _text_outside(Suspect(raised.source, raised.assignment), raised.module, raised.line)
+
+
+def _outside_unseen(suspect: Suspect) -> RecognisedMistake | None:
+    """The same, where Python can add to what the logger returns."""
+    for call in suspect.source.own_logs:
+        found = _text_outside(suspect, suspect.source.module_of(call), call.lineno)
+        if found is not None:
+            return found
+    return None
+
+
+def _text_outside(suspect: Suspect, module: Module, line: int | None) -> RecognisedMistake | None:
+    found = node_log.text_outside(suspect.source, module, line)
+    if found is None:
+        return None
+    call, after = found
+    written = node_log.text_inside(module, call, after) or ""
+    outside = module.text.code(after)[len(module.text.code(call)) :].strip()
+    params = {"name": last_part(dotted(call.func)), "outside": shown(outside)}
+    mistake = suspect.finding("text_outside", after, **params)
+    one_line = written and "\n" not in written
+    words = {**mistake.words, "written": written}
+    return replace(mistake, variant="written" if one_line else "", words=words)
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "for_ros_1",
+        "start",
+        msg("The file is written for ROS 1"),
+        msg(
+            "rospy is the Python library of ROS 1. ROS 2 does not have it: its library is rclpy, "
+            "which has other functions and classes. Another name in the import is not enough."
+        ),
+        msg(
+            "Write the node anew for ROS 2. Import it: import rclpy and from rclpy.node import "
+            "Node. Write a class that inherits from Node. In its __init__: "
+            "super().__init__('{node_name}') and self.create_timer({period}, self.{callback}). In "
+            "its method {callback}: self.get_logger().info(…). In {function}: rclpy.init(), an "
+            "object of your class, and rclpy.spin(node)."
+        ),
+        fixes={
+            "part": msg(
+                "Delete the import of rospy, and write {written} instead of rospy.{name}. Replace "
+                "all other uses of rospy too."
+            ),
+            "part_other": msg("Delete the import of rospy, and all lines that use it."),
+        },
+        raised={r"No module named 'rospy'": _for_ros_1},
+        examples=(
+            example("node_of_ros_1", Write(NODE, OF_ROS_1), fails="run.starts"),
+            example(
+                "loginfo_of_rospy",
+                Replace(NODE, "import rclpy\nfrom", "import rclpy\nimport rospy\nfrom"),
+                Replace(NODE, "self.get_logger().info", "rospy.loginfo"),
+                fails="run.starts",
+            ),
+        ),
+    ),
     _node(
         "ros_1",
         "callback",
@@ -180,6 +291,63 @@ KINDS = (
                 "third_argument_of_timer",
                 Replace(NODE, "self.timer_callback)", "self.timer_callback, self)"),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "text_outside",
+        "logger",
+        msg("A part of the text is behind the closing bracket"),
+        msg(
+            "Python calls {name} first, and then uses {outside} on what {name} returns, which is "
+            "no text."
+        ),
+        msg("Move {outside} into the brackets of {name}, directly behind the text."),
+        links.PYTHON_STRINGS,
+        fixes={"written": msg("Move {outside} into the brackets of {name}: {written}")},
+        seen=r"AttributeError: '(?:bool|NoneType)' object has no attribute 'format'",
+        raised={
+            r"'(?:bool|NoneType)' object has no attribute '\w{1,120}'": _outside,
+            r"unsupported operand type\(s\) for [+%]: '(?:bool|NoneType)' and": _outside,
+            r"ZeroDivisionError: ": _outside,
+        },
+        behind={"run.wrong_text": _outside_unseen},
+        fixed_by=(node_log.moved_inside,),
+        examples=(
+            example(
+                "format_outside",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_))",
+                    "'Hello time: {}').format(self.counter_)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "plus_outside",
+                Replace(NODE, "'Hello time: ' + str", "'Hello time: ') + (str"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "number_added_outside",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_))",
+                    "'Hello time: ') + self.counter_",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "percent_outside",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_))",
+                    "'Hello time: %d') % self.counter_",
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
         ),
     ),

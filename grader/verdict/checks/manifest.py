@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 FILE = "package.xml"
+OF_ROS_1 = {"rospy": "rclpy", "roscpp": "rclcpp"}
 BUILD_TYPE = "<export><build_type>ament_python</build_type></export>"
 XML_FAULTS = {  # expat's most frequent messages, so that they can be translated
     str(fault): fault
@@ -278,11 +279,25 @@ def _build_type(element: Element | None, actual: str) -> Failed:
     )
 
 
+def _of_ros_1(names: Mapping[str, int]) -> list[str]:
+    """Return advice on dependencies that only ROS 1 has."""
+    return [
+        say(
+            "package.xml, line {line}: '{name}' belongs to ROS 1. Write {wanted} instead.",
+            line=names[name],
+            name=name,
+            wanted=wanted,
+        )
+        for name, wanted in OF_ROS_1.items()
+        if name in names
+    ]
+
+
 def _advice(manifest: Manifest) -> list[str]:
     """Return advice that costs no points."""
     names = {element.text: element.line for element in manifest.depends}
-    advice: list[str] = []
-    if "rclpy" not in names:
+    advice = _of_ros_1(names)
+    if "rclpy" not in names and not advice:
         advice.append(
             say(
                 "package.xml does not say that the package needs rclpy: add "
