@@ -18,18 +18,11 @@ from grader.mistakes.fixes import lines, node_life, node_names, node_timer, rena
 from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
-from grader.mistakes.recognised import (
-    NAME_ERROR,
-    OWN_ATTRIBUTE,
-    Raised,
-    RecognisedMistake,
-    always,
-    of_self,
-)
+from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import statement_at
 
@@ -37,6 +30,9 @@ ATTRIBUTE = (
     r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
     r"attribute '(?P<name>\w{1,120})'"
 )
+
+OF_ROS = ("spin", "spin_once", *NODE_METHODS)
+"""Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
 
 def _close_attribute(raised: Raised, name: str) -> str:
@@ -186,6 +182,24 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             new = f"rclpy.{name}({before})"
             found = raised.finding("attribute_unknown", at=call, name=written, written=new)
             return replace(found, variant="written")
+    return None
+
+
+def _value_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A value is called on that line, or by ROS, to which a timer gave it as a callback."""
+    statement = statement_at(raised.module, raised.line)
+    calls = [name for _, name in calls_in(statement)] if statement is not None else [""]
+    if all(name.startswith("rclpy.") or last_part(name) in OF_ROS for name in calls):
+        return _value_passed(raised, match)
+    return raised.finding("not_callable", type=match["type"])
+
+
+def _value_passed(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A timer gets a value instead of a callback."""
+    for timer in raised.source.timers:
+        if timer.callback is not None and timer.method not in raised.source.methods:
+            found = raised.finding("not_callable", at=timer.call, type=match["type"])
+            return replace(found, variant="passed")
     return None
 
 
@@ -357,15 +371,29 @@ KINDS = (
         msg("() after a name calls it, and only functions can be called."),
         msg("Remove the () on that line."),
         links.PYTHON_ERRORS,
+        whys={"passed": msg("The timer calls what create_timer gets, which must be a method.")},
+        fixes={
+            "passed": msg(
+                "Pass the name of your method to create_timer: create_timer({period}, "
+                "self.{callback})"
+            )
+        },
         seen=r"TypeError: '(?P<type>int|float|str)' object is not callable",
         raised={
-            r"'(?P<type>int|float|str)' object is not callable": always("not_callable"),
+            r"'(?P<type>int|float|str)' object is not callable": _value_called,
+            r"TypeError: (?P<type>[\w.'\"-]{1,60}) is not a callable object": _value_passed,
             r"'(?P<type>NoneType|bool)' object is not callable": _constant_called,
         },
         examples=(
             example(
                 "counter_called",
                 Replace(NODE, "str(self.counter_)", "str(self.counter_())"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "timer_gets_counter",
+                Replace(NODE, "self.timer_callback)", "self.counter_)"),
                 fails="run.output",
                 blocks=DEAD,
             ),

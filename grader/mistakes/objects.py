@@ -9,12 +9,13 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_objects
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part, own_name
 from grader.package.source.place import statement_at
 
@@ -30,6 +31,13 @@ OPERATOR = r"unsupported operand type\(s\) for (?P<name>[-&|^/%]|//): '(?:str|in
 NOT_A_NUMBER = (
     r"can only concatenate (?:tuple|list) \(not \"int\"\)"
     r"|unsupported operand type\(s\) for [+-]=?: '(?!str)\w{1,120}' and '(?:int|float)'"
+)
+NOT_CALLABLE = (
+    r"TypeError: (?:'(?P<type>\w{1,120})' object is not callable|.{1,60} is not a callable object)"
+)
+METHOD_AS_VALUE = (
+    r"unsupported operand type\(s\) for .{1,3}: '(?P<type>method)' and"
+    r"|can only concatenate str \(not \"(?P<added>method)\"\)"
 )
 ANY_NAME = r"incompatible constructor arguments|node_name|TypeError"
 
@@ -133,13 +141,52 @@ def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if method is not None:
         if name not in node_objects.METHODS:
             return None
-        found = raised.finding("name_taken", at=method, name=name)
-        return replace(found, variant="method")
+        return _own_method(raised, method, name)
     for part in raised.source.own_nodes:
         stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
         if stored and isinstance(part, ast.Attribute) and own_name(part) == name:
             return raised.finding("name_taken", at=part, name=name, written=f"{name}_")
     return None
+
+
+def _own_method(raised: Raised, method: Function, name: str) -> RecognisedMistake:
+    """Return that a method has the name of one of Node's: it is a callback, or called."""
+    found = raised.finding("name_taken", at=method, name=name, written=f"my_{name}")
+    if any(own_name(timer.callback) == name for timer in raised.source.timers):
+        return replace(found, variant="method")
+    calls = node_objects.calls_of_own(raised.source, name)
+    if not calls:
+        return replace(found, variant="method_only")
+    lines = ", ".join(str(call.lineno) for call in calls)
+    return replace(found, variant="method_called", words={**found.words, "line": lines})
+
+
+def _shares_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A method that the line or the timer uses has the name of an attribute."""
+    source, statement = raised.source, statement_at(raised.module, raised.line)
+    passed = [own_name(timer.callback) for timer in source.timers]
+    used = [own_name(part) for part in ast.walk(statement)] if statement is not None else []
+    for name in dict.fromkeys([*used, *passed]):
+        method = source.method(name) if name else None
+        values = [n for n in source.own_nodes if f"self.{name}" in targets_of(n)]
+        at = next((n for n in values if _explains(n, match["type"])), None)
+        if method is None or method.decorator_list or not isinstance(at, ast.stmt):
+            continue
+        new = node_objects.NEW_CALLBACK if name in passed else f"{name.rstrip('_')}_value"
+        line = str(at.lineno)
+        found = raised.finding("name_shared", at=method, name=name, line=line, written=new)
+        return replace(found, variant="" if name in passed else "attribute")
+    return None
+
+
+def _explains(statement: ast.AST, kind: str | None) -> bool:
+    """Whether what an attribute gets can be of the type that an error names."""
+    value = getattr(statement, "value", None)
+    if isinstance(value, ast.Constant) and isinstance(statement, ast.Assign):
+        return kind in (type(value.value).__name__, "method", None)
+    if isinstance(value, ast.Call) and called_name(value) == "create_timer":
+        return kind == "Timer"
+    return value is not None
 
 
 def _own_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -321,14 +368,26 @@ KINDS = (
         fixes={
             "method": msg(
                 "Give your method another name than {name}, here and where the timer gets it."
-            )
+            ),
+            "method_called": msg(
+                "Give your method another name, for example {written}: here, and where you call it "
+                "(line {line}). All other calls of {name} are of Node's: leave them."
+            ),
+            "method_only": msg(
+                "Give your method another name, for example {written}. Calls of Node's {name} keep "
+                "theirs."
+            ),
         },
         raised={
             NO_SETTER: _taken,
             OWN_METHOD: _taken,
             "'RcutilsLogger' object is not callable": _taken,
         },
-        fixed_by=(node_objects.other_attribute, node_objects.other_method),
+        fixed_by=(
+            node_objects.other_attribute,
+            node_objects.other_method,
+            node_objects.called_method,
+        ),
         examples=(
             example(
                 "attribute_timers",
@@ -342,11 +401,63 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
+                "own_create_timer",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.create_timer()\n\n"
+                    "    def create_timer(self):\n"
+                    "        self.timer_ = self.create_timer(1.0, self.timer_callback)\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
                 "logger_for_get_logger",
                 Replace(
                     NODE,
                     "self.counter_ = 0",
                     "self.counter_ = 0\n        self.get_logger = self.get_logger()",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "name_shared",
+        "class",
+        msg("An attribute and a method have the same name"),
+        msg(
+            "self.{name} can mean only one thing. Line {line} gives a value to self.{name}, so the "
+            "method {name} cannot be used under that name."
+        ),
+        msg(
+            "Give the method another name, for example {written}: write def {written}(self): and "
+            "pass self.{written} to create_timer."
+        ),
+        fixes={
+            "attribute": msg(
+                "Give the attribute another name, for example self.{written}, in line {line} and "
+                "where you use its value."
+            )
+        },
+        raised={NOT_CALLABLE: _shares_name, METHOD_AS_VALUE: _shares_name},
+        fixed_by=(node_objects.shared_method,),
+        examples=(
+            example(
+                "callback_named_as_counter",
+                Replace(NODE, "def timer_callback", "def counter_"),
+                Replace(NODE, "self.timer_callback)", "self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "method_named_as_counter",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_())"),
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    f"{STEP_LINE}\n    def counter_(self):\n        return self.counter_\n",
                 ),
                 fails="run.output",
                 blocks=DEAD,

@@ -12,6 +12,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
+from grader.package.source.node import NodeSource
 
 NEW_CALLBACK = "on_timer"
 """The name for a callback whose own name is one of Node's methods."""
@@ -22,6 +23,8 @@ METHODS = (
     *("get_parameter", "destroy_timer", "create_rate", "get_namespace", "add_waitable"),
 )
 """Methods of Node that a node needs itself, or that a beginner calls."""
+NO_ARGUMENTS = ("get_logger", "get_clock", "get_name", "destroy_node", "get_namespace")
+"""Those of them that are called with empty brackets, like a method of the student."""
 
 
 def import_of_class(module: Module) -> Splice | None:
@@ -100,12 +103,48 @@ def other_method(case: Case) -> Files | None:
     given, module = timers[0], node.module
     if not isinstance(given, ast.Attribute) or own_name(given) != name:
         return None
-    at = module.text.at(method.lineno, method.col_offset) + len("def ")
-    if module.text.text[at : at + len(name)] != name:
+    splices, head = splices_of(module, [given], new), _head(module, method, new)
+    return case.changed(module, head, *splices) if splices and head is not None else None
+
+
+def shared_method(case: Case) -> Files | None:
+    """Give the timer's callback another name than an attribute has; nothing else calls it."""
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    if node is None or any(own_name(call.func) == name for call in node.calls_of(name)):
         return None
-    splices = splices_of(module, [given], new)
-    head = Splice(at, at + len(name), new)
-    return case.changed(module, head, *splices) if splices else None
+    return other_method(case)
+
+
+def calls_of_own(node: NodeSource, name: str) -> list[ast.Call]:
+    """Return the calls of an own method that has the name of one of Node's, which takes more."""
+    method = node.method(name)
+    if method is None or name in NO_ARGUMENTS or ast.unparse(method.args) != "self":
+        return []
+    calls = [call for call in node.calls_of(name) if own_name(call.func) == name]
+    return [call for call in calls if not call.args and not call.keywords]
+
+
+def called_method(case: Case) -> Files | None:
+    """Give a method with the name of one of Node's another one, where it is called too."""
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    new = str(case.finding.params.get("written", ""))
+    method = node.method(name) if node is not None else None
+    if node is None or method is None or not new or new in {*node.methods, *node.attributes}:
+        return None
+    module, called = node.module, [call.func for call in calls_of_own(node, name)]
+    parts = [part for part in called if isinstance(part, ast.Attribute) and module.has(part)]
+    head = _head(module, method, new)
+    splices = splices_of(module, parts, new)
+    if head is None or not splices or len(parts) < len(called):
+        return None
+    return case.changed(module, head, *splices)
+
+
+def _head(module: Module, method: ast.FunctionDef, new: str) -> Splice | None:
+    """Return the splice that gives a method another name where it is defined."""
+    at = module.text.at(method.lineno, method.col_offset) + len("def ")
+    end = at + len(method.name)
+    return Splice(at, end, new) if module.text.text[at:end] == method.name else None
 
 
 def plus(case: Case) -> Files | None:
