@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -12,6 +13,7 @@ from grader.mistakes.example import LOG, NODE, example
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part
 
@@ -41,8 +43,24 @@ def _full_name(suspect: Suspect, call: ast.Call) -> str:
 def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
     for call in suspect.source.calls_of("Timer"):
         if _full_name(suspect, call) == "threading.Timer":
-            return suspect.finding("threading_timer", call)
+            found = suspect.finding("threading_timer", call)
+            lines = _lines_of_timer(suspect, call)
+            if not lines:
+                return found
+            words = {**found.words, "line": ", ".join(map(str, lines))}
+            return replace(found, variant="used", words=words)
     return None
+
+
+def _lines_of_timer(suspect: Suspect, call: ast.Call) -> list[int]:
+    """Return the lines that start a timer and set it up, in the function that creates it."""
+    module, function = suspect.source.module_of(call), suspect.source.function_around(call)
+    made = module.parents.get(call)
+    names = set(targets_of(made)) if made is not None else set()
+    uses = [n for n in ast.walk(function or module.tree) if isinstance(n, ast.Attribute)]
+    lines = {use.lineno for use in uses if dotted(use.value) in names}
+    chained = isinstance(made, ast.Attribute) and made.attr == "start"
+    return sorted(lines - ({call.lineno} if not chained else set()))
 
 
 def _python_logging(suspect: Suspect) -> RecognisedMistake | None:
@@ -90,7 +108,16 @@ KINDS = (
         "timer",
         msg("threading.Timer calls its function once"),
         msg("It is no ROS timer: it calls its function one time, and ROS time does not drive it."),
-        msg("Write self.create_timer({period}, self.{callback}) instead."),
+        msg(
+            "Write self.create_timer({period}, self.{callback}) instead, without .start(): a ROS "
+            "timer starts by itself."
+        ),
+        fixes={
+            "used": msg(
+                "Write self.create_timer({period}, self.{callback}) instead, and delete what "
+                "starts or sets up the old timer (line {line}): a ROS timer starts by itself."
+            )
+        },
         behind={
             "run.no_lines": _threading_timer,
             "run.stops": _threading_timer,

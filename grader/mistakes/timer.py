@@ -9,6 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
+from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_scope, node_timer
 from grader.mistakes.kind import Family
@@ -30,6 +31,11 @@ LONG = 100.0  # seconds; a longer period was meant in milliseconds
 WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "tick", "time")
 """Words that names of callbacks have; of two names, one with fewer of them is misspelt."""
 
+REAL_NUMBER = (
+    r"float\(\) argument must be .{1,60}not '(?P<type>\w{1,120})'"
+    r"|must be real number, not (?P<old>\w{1,120})"
+)
+CALLABLE = ("method", "function")
 CALLED = msg(
     "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
     "after its name the callback runs now, and its result (None) is passed instead."
@@ -134,8 +140,30 @@ def _no_self_dot(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
 
 
 def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    return raised.finding("timer_arguments_swapped") if raised.source.timers else None
+    kind = match.groupdict().get("type")
+    if not raised.source.timers or kind not in (None, *CALLABLE):
+        return None
+    return raised.finding("timer_arguments_swapped")
+
+
+def _not_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The period is something else than a number: mostly a tuple, because of a comma."""
+    if match["type"] in CALLABLE:
+        return None
+    for timer in raised.source.timers:
+        if timer.period is None or raised.line not in (None, *lines_of(timer.call)):
+            continue
+        value = node_timer.value_of(raised.source, timer.period)
+        number = node_timer.number_of(value)
+        if value is None or not number:
+            return raised.finding("period_not_number", at=timer.call, type=match["type"])
+        code = raised.source.module_of(value).text.code(value)
+        params = {"name": code, "written": number, "type": match["type"]}
+        found = raised.finding("period_not_number", at=value, params=params)
+        return replace(
+            found, variant="decimal" if "." not in code and "," in code[:-1] else "comma"
+        )
+    return None
 
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
@@ -209,7 +237,10 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls if not threads else []:
         before, _, method = name.rpartition(".")
         if method == "sleep" and (before in rates or before.endswith("create_rate()")):
-            return suspect.finding("rate_sleep", call, name=name)
+            found = suspect.finding("rate_sleep", call, name=name)
+            around = suspect.source.module_of(call).around(call)
+            looped = any(isinstance(part, ast.While | ast.For) for part in around)
+            return replace(found, variant="" if looped else "alone")
     return None
 
 
@@ -228,6 +259,12 @@ KINDS = (
             "self.create_timer({period}, self.{callback})"
         ),
         links.EXECUTORS,
+        fixes={
+            "alone": msg(
+                "Remove this line, and the line that creates the rate. The timer already calls "
+                "{callback} in each period."
+            )
+        },
         behind={
             "run.no_lines": _rates,
             "run.stops": _rates,
@@ -390,6 +427,52 @@ KINDS = (
         ),
     ),
     _node(
+        "period_not_number",
+        "timer",
+        msg("The period is not a number"),
+        msg("create_timer takes the period first: a number of seconds, such as {period}."),
+        TIMER,
+        whys={
+            "comma": msg("A comma at the end of a value makes a tuple of it, and not a number."),
+            "decimal": msg(
+                "A decimal number has a point in Python. With a comma it is a tuple, and not a "
+                "number."
+            ),
+        },
+        fixes={
+            "comma": msg("Delete the comma after {written} on this line."),
+            "decimal": msg("Write {written} instead of {name}."),
+        },
+        seen=r"float\(\) argument must be a string or a real number, not '(?P<type>tuple)'",
+        raised={REAL_NUMBER: _not_number},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "period_is_tuple",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.period_ = 1.0,\n        self.create_timer(self.period_,",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "period_with_comma",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        period = 1,0\n        self.create_timer(period,",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "period_in_list",
+                Replace(NODE, "create_timer(1.0,", "create_timer([1.0],"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "timer_arguments_swapped",
         "timer",
         msg("The arguments of create_timer are swapped"),
@@ -397,7 +480,8 @@ KINDS = (
         TIMER,
         seen=r"float\(\) argument must be a string or a real number, not '(?:method|function)'",
         raised={
-            r"float\(\) argument must be|must be real number|not '?(?:method|function)'?": _swapped
+            REAL_NUMBER: _swapped,
+            r"float\(\) argument must be|not '?(?:method|function)'?": _swapped,
         },
         fixed_by=(node_timer.arguments,),
         examples=(

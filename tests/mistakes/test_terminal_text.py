@@ -147,6 +147,10 @@ SHOWN = {
         "TypeError: float() argument must be a string or a real number, not 'method'"
     ],
     "node.period_text": ["ValueError: could not convert string to float: '1.0s'"],
+    "node.text_outside": ["AttributeError: 'bool' object has no attribute 'format'"],
+    "node.period_not_number": [
+        "TypeError: float() argument must be a string or a real number, not 'tuple'"
+    ],
     "node.ros_1": ["AttributeError: module 'rclpy' has no attribute 'loginfo'"],
     "node.logger_not_called": ["AttributeError: 'function' object has no attribute 'info'"],
     "node.logger_arguments": [

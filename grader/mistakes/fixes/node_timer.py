@@ -8,8 +8,8 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.counter import starts_of
-from grader.package.source.names import own_name
+from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
 
 NAMES = ("create_timer", "get_logger")
@@ -80,6 +80,24 @@ def callback(case: Case) -> Files | None:
         return None
     end = text.span(given)[1]
     return case.changed(module, Splice(end - len(written), end, near))
+
+
+def value_of(node: NodeSource, named: ast.expr) -> ast.expr | None:
+    """Return the value of a variable or an attribute that gets one once; another value itself."""
+    name = dotted(named)
+    if not name:
+        return named
+    sets = [s for s in node.own_nodes if isinstance(s, ast.Assign) and name in targets_of(s)]
+    return sets[0].value if len(sets) == 1 else None
+
+
+def number_of(value: ast.expr | None) -> str:
+    """Return the number that a tuple was meant to be: `1.0,` and `1,0` are 1.0; "" if unknown."""
+    if not isinstance(value, ast.Tuple) or not all(map(_number, value.elts)):
+        return ""
+    parts = [ast.unparse(part) for part in value.elts]
+    whole = len(parts) == 2 and all(part.isdigit() for part in parts)
+    return parts[0] if len(parts) == 1 else ".".join(parts) if whole else ""
 
 
 def _is_function(node: NodeSource, named: ast.expr) -> bool:
