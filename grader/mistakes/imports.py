@@ -10,7 +10,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import INNER, NODE, example
 from grader.mistakes.fixes import lines, node_life, node_names, node_objects, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
@@ -162,6 +162,54 @@ KINDS = (
             example(
                 "import_of_node",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy import Node"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "own_module_missing",
+        "start",
+        msg("A file of your package is missing"),
+        msg(
+            "This line imports {path}, a file of your own package. The package that was handed in "
+            "does not have it."
+        ),
+        msg(
+            "Put {path} into the package and hand it in too. Or write what you need from it into "
+            "this file, and delete the import."
+        ),
+        links.PACKAGE,
+        close=CLOSE,
+        fixes={"elsewhere": msg("Move {there} to {path}: Python looks for it there.")},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "helper_not_handed_in",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\n\nfrom my_robot_controller.utils import text_of\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "helper_misspelt",
+                Write(f"{INNER}/utils.py", "def text_of(number):\n    return str(number)\n"),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\n\nfrom my_robot_controller.util import text_of\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "helper_beside_setup",
+                Write("utils.py", "def text_of(number):\n    return str(number)\n"),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\n\nfrom my_robot_controller.utils import text_of\n",
+                ),
                 fails="run.starts",
             ),
         ),
