@@ -120,6 +120,11 @@ KINDS = (
                 "Fix that line of setup.py, then build again. Often a comma, a "
                 "quote or a bracket is missing in the line above."
             ),
+            "no_import": msg("Add at the top of setup.py: {statement}"),
+            "outside": msg(
+                "Move this entry up, above the ] in line {line}: entries are between the [ and the "
+                "] of 'console_scripts'."
+            ),
             "key": msg(
                 "Write quotes around {name}: '{name}'. A name without quotes is a variable."
             ),
@@ -140,12 +145,34 @@ KINDS = (
             setup_py.comma,
             setup_py.key,
             setup_py.names,
+            setup_py.entry_inside,
+            setup_py.imports,
         ),
         examples=(
             example(
                 "comma_between_tuples_missing",
                 Replace(SETUP, "['resource/' + package_name]),", "['resource/' + package_name])"),
                 fails="build.colcon",
+            ),
+            example(
+                "setup_uses_os_and_glob",
+                Replace(
+                    SETUP,
+                    "        ('share/' + package_name, ['package.xml']),\n",
+                    "        ('share/' + package_name, ['package.xml']),\n"
+                    "        (os.path.join('share', package_name, 'launch'), glob('launch/*.py')),\n",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "entry_outside_list",
+                Replace(
+                    SETUP,
+                    "            'test_node = my_robot_controller.my_first_node:main',\n        ],\n",
+                    "        ],\n        'test_node = my_robot_controller.my_first_node:main',\n",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
             ),
             example(
                 "group_without_quotes",

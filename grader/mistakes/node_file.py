@@ -149,7 +149,11 @@ KINDS = (
         fixes={
             "init": msg(
                 "Move the code from {init} into a new file {wanted}, and leave __init__.py empty."
-            )
+            ),
+            "init_empty": msg(
+                "Move the code from {init} into {wanted}, and leave __init__.py empty."
+            ),
+            "folder": msg("Rename the folder {folder} to {inner}, to the letter: case matters."),
         },
         link=links.PACKAGE,
         fixed_by=(
@@ -162,6 +166,21 @@ KINDS = (
                 "node_in_init",
                 Delete(INIT),
                 Move(NODE, INIT),
+                fails="source.node_file",
+                blocks=(*NO_FILE, *UNSTARTED),
+            ),
+            example(
+                "node_in_init_and_empty_file",
+                Delete(INIT),
+                Move(NODE, INIT),
+                Write(NODE, b""),
+                Chmod(NODE, 0o755),
+                fails="source.node_file",
+                blocks=("source.shebang", *UNSTARTED),
+            ),
+            example(
+                "inner_folder_with_capitals",
+                Move(INNER, "My_Robot_Controller"),
                 fails="source.node_file",
                 blocks=(*NO_FILE, *UNSTARTED),
             ),

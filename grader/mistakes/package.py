@@ -36,6 +36,10 @@ MARKER_MISSING = msg(
     "copies it there from resource/ when you build. If it is missing, the build stops with: can't "
     "copy 'resource/{package}': doesn't exist or not a regular file."
 )
+OTHER_MARKER = msg(
+    "ROS finds a package by an empty file with the package's name in the package index. The "
+    "marker's name is the name that ROS uses for the package."
+)
 WITHOUT_CFG = msg(
     "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. Without "
     "these settings they are installed in bin, and ros2 run answers: No executable found."
@@ -463,11 +467,11 @@ KINDS = (
         title=msg("The marker file in resource/ is missing"),
         why=MARKER_MISSING,
         whys={
-            "other": msg(
-                "ROS finds a package by an empty file with the package's name in the "
-                "package index. The marker's name is the name that ROS uses for the "
-                "package."
-            )
+            "other": OTHER_MARKER,
+            "path": msg(
+                "setup.py copies the marker file from the path in this line. A path is the folder, "
+                "a / and the name of the file: + joins two texts without a / between them."
+            ),
         },
         fix=msg(
             "Create the empty file. In the package's folder, run: mkdir -p resource && touch "
@@ -485,6 +489,8 @@ KINDS = (
                 "Make that line install 'resource/{package}': set package_name in "
                 "setup.py to '{package}'."
             ),
+            "path": msg("Write ['resource/' + package_name] in that line."),
+            "moved": msg("Rename the folder {close} to resource."),
         },
         link=links.DEVELOPING,
         seen=r"can't copy '[^'\n]{0,300}resource/(?P<package>[^'/\n]{1,120})': doesn't exist",
@@ -494,6 +500,24 @@ KINDS = (
         ),
         examples=(
             example("marker_missing", Delete(MARKER), fails="package.marker", blocks=UNBUILT),
+            example(
+                "marker_without_slash",
+                Replace(SETUP, "'resource/' + package_name", "'resource' + package_name"),
+                fails="package.marker",
+                blocks=UNBUILT,
+            ),
+            example(
+                "marker_of_other_folder",
+                Replace(SETUP, "'resource/' + package_name", "'ressource/' + package_name"),
+                fails="package.marker",
+                blocks=UNBUILT,
+            ),
+            example(
+                "resource_folder_misnamed",
+                Move("resource", "resources"),
+                fails="package.marker",
+                blocks=UNBUILT,
+            ),
             example(
                 "marker_folder_missing",
                 Delete("resource"),
@@ -518,13 +542,7 @@ KINDS = (
             "index. setup.py copies it there from resource/ when you build. colcon still adds "
             "a missing one itself, but warns that it will stop doing so."
         ),
-        whys={
-            "other": msg(
-                "ROS finds a package by an empty file with the package's name in the "
-                "package index. The marker's name is the name that ROS uses for the "
-                "package."
-            )
-        },
+        whys={"other": OTHER_MARKER},
         fix=msg(
             "Add to data_files: ('share/ament_index/resource_index/packages', ['resource/' + "
             "package_name]),"

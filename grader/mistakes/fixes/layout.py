@@ -12,6 +12,9 @@ def marker(case: Case) -> Files | None:
     path = f"resource/{case.package}"
     if path in case.files.by_path or "resource" in _files(case):
         return None
+    folder = str(case.finding.params.get("folder", ""))
+    if folder and case.files.file(f"{folder}/{case.package}") is not None:
+        return case.files.with_move(f"{folder}/{case.package}", path)
     others = case.files.names_in("resource")
     close = nearest(case.package, others) or (others[0] if len(others) == 1 else "")
     old = f"resource/{close}"
@@ -53,10 +56,14 @@ def node_file(case: Case) -> Files | None:
 def out_of_init(case: Case) -> Files | None:
     """Move the node from __init__.py into its own file, and leave __init__.py empty."""
     init = f"{case.assignment.folder}/__init__.py"
-    if case.finding.params.get("path") != init or case.node_path in case.files.by_path:
+    there = case.files.data(case.node_path)
+    if case.finding.params.get("path") != init or (there and there.strip()):
         return None
-    if case.files.file(init) is None:
+    code = case.files.data(init)
+    if case.files.file(init) is None or code is None:
         return None
+    if case.node_path in case.files.by_path:
+        return case.files.with_data(case.node_path, code).with_data(init, b"")
     return case.files.with_move(init, case.node_path).with_data(init, b"")
 
 

@@ -9,9 +9,9 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice, read_source
+from grader.package.edit.text import Splice, indent_of, read_source
 from grader.package.source.python import can_parse
-from grader.package.source.setup_py import INDEX, called_value
+from grader.package.source.setup_py import INDEX, called_value, entry_outside, missing_imports
 
 IMPORTS = ast.Import | ast.ImportFrom
 UNKNOWN = re.compile(
@@ -41,6 +41,34 @@ def comma(case: Case) -> Files | None:
     at = source.span(value)[1]
     new = source.spliced([Splice(at, at, ",")])
     return case.with_data(FILE, new) if new is not None and can_parse(new) else None
+
+
+def entry_inside(case: Case) -> Files | None:
+    """Move an entry that is below the list of console_scripts into it."""
+    found = case.files.data(FILE)
+    source = read_source(found)
+    outside = entry_outside(found or b"")
+    if source is None or outside is None or can_parse(found or b""):
+        return None
+    entry = source.line(outside.line).strip().removesuffix(",")
+    row = f"{indent_of(source.line(outside.above))}    {entry},"
+    before = source.line(outside.above - 1).rstrip()
+    new = source.spliced([source.without(outside.line), source.before(outside.above, row)])
+    if not before.endswith((",", "[")) or new is None or not can_parse(new):
+        return None
+    return case.with_data(FILE, new)
+
+
+def imports(case: Case) -> Files | None:
+    """Add the imports that setup.py lacks above its first one."""
+    found = case.files.data(FILE)
+    setup, error = read_setup_call(case), str(case.finding.params.get("error", ""))
+    missing = missing_imports(found or b"", error)
+    first = [s.lineno for s in setup.tree.body if isinstance(s, IMPORTS)] if setup else []
+    if setup is None or not missing or not first:
+        return None
+    new = setup.source.spliced([setup.source.before(first[0], *missing)])
+    return case.with_data(FILE, new)
 
 
 def key(case: Case) -> Files | None:
@@ -103,6 +131,9 @@ def _renamed(setup: SetupCall, case: Case) -> list[Splice]:
             return [setup.text(whole, f"resource/{case.package}")]
         if isinstance(named, ast.BinOp) and isinstance(named.op, ast.Add):
             start, last = setup.literal(named.left), setup.literal(named.right)
+            lost = str(case.finding.params.get("path", ""))
+            if start is not None and lost == str(start.value) + case.package:
+                return [setup.text(start, "resource/")]
             if start is not None and last is not None and start.value == "resource/":
                 return [setup.text(last, case.package)] if last.value != case.package else []
     return []

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import dataclass
+from itertools import pairwise
 
 from grader.base.i18n.message import say
 from grader.package.source.kept import keep_small
+from grader.package.source.module import parse_module
+from grader.package.source.names import dotted
 from grader.package.source.python import PythonFault, PythonFile, parse_python
 from grader.package.source.values import Computed, Evaluator, Table, Text, Value
 
@@ -134,3 +138,49 @@ def called_value(found: bytes) -> ast.expr | None:
     calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call)]
     values = [c.func for c in calls if isinstance(c.func, ast.Tuple | ast.List | ast.Constant)]
     return min(values, key=lambda n: (n.lineno, n.col_offset), default=None)
+
+
+ENTRY = re.compile(r"[ \t]{0,80}(['\"])[\w.-]{1,80} ?= ?[\w.]{1,200}:\w{1,80}\1,?[ \t]*")
+
+
+@dataclass(frozen=True)
+class OutsideEntry:
+    """An entry of console_scripts below the end of its list, and the line with that end."""
+
+    line: int
+    above: int
+
+
+def entry_outside(found: bytes) -> OutsideEntry | None:
+    """Return the entry of a file that Python cannot read, if it is below the end of its list."""
+    rows = found.decode("utf-8", "replace").splitlines()
+    filled = [number for number, row in enumerate(rows, 1) if row.strip()]
+    for above, line in pairwise(filled):
+        if rows[above - 1].strip() in ("]", "],") and ENTRY.fullmatch(rows[line - 1]):
+            return OutsideEntry(line, above)
+    return None
+
+
+IMPORTS = {
+    "os": "import os",
+    "glob": "from glob import glob",
+    "sys": "import sys",
+    "setup": "from setuptools import setup",
+    "find_packages": "from setuptools import find_packages",
+}
+"""Imports that a setup.py often lacks, by the name that is then not defined."""
+
+
+def missing_imports(found: bytes, error: str) -> list[str]:
+    """Return the imports that the file lacks, if that is why it stops with an error."""
+    match = re.search(r"NameError: name '(\w{1,80})' is not defined", error)
+    try:
+        module = parse_module("setup.py", found)
+    except (PythonFault, RecursionError, MemoryError):
+        return []
+    if match is None or match[1] not in IMPORTS:
+        return []
+    used = {n.id for n in module.nodes if isinstance(n, ast.Name)} - module.names
+    whole = any(dotted(n) == "glob.glob" for n in module.nodes)
+    known = {**IMPORTS, "glob": "import glob"} if whole else IMPORTS
+    return [statement for name, statement in known.items() if name in used]

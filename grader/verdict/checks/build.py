@@ -15,7 +15,7 @@ from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
-from grader.package.source.setup_py import called_value
+from grader.package.source.setup_py import called_value, entry_outside, missing_imports
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE, cmake_error
@@ -62,7 +62,7 @@ def colcon_builds(evidence: Evidence) -> Passed:
             )
         )
     for cause in ("package.manifest", "package.marker"):
-        if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, build.log)):
+        if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, evidence)):
             raise Blocked(by=cause)
     if evidence.has_mistake("entry_point.mapping", "setup.missing"):
         raise Blocked(by="entry_point.mapping")
@@ -92,9 +92,13 @@ def _must_be_the_only_one(evidence: Evidence) -> None:
     )
 
 
-def _is_about(cause: str, log: str) -> bool:
-    words = {"package.manifest": "package.xml", "package.marker": "resource/"}
-    return words[cause] in log or (cause == "package.manifest" and "CMake" in log)
+def _is_about(cause: str, evidence: Evidence) -> bool:
+    """Whether the log is about what another check has found."""
+    log, (mistake, *_) = evidence.build.log, evidence.results[cause].mistakes
+    lost = str(mistake.params.get("path", ""))
+    if cause == "package.marker":
+        return "resource/" in log or bool(lost and f"{lost}'" in log)
+    return "package.xml" in log or "CMake" in log
 
 
 def _stopped(evidence: Evidence) -> Failed:
@@ -238,6 +242,10 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
     if key is not None:
         place = Where(file="setup.py", line=key.lineno)
         return _stopped_with(expected, error, place, "key", params={"name": key.id})
+    imports = missing_imports(code, error)
+    if imports:
+        words = {"statement": " / ".join(imports)}
+        return _stopped_with(expected, error, where, "no_import", words=words)
     found = called_value(code) if NOT_CALLABLE.match(error) else None
     if found is not None and found.end_lineno:
         place, words = (
@@ -271,10 +279,14 @@ def _stopped_with(
 
 def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     repeated = re.search(r"keyword argument repeated: (\w{1,80})", error)
-    slip = slip_of(_setup_py(evidence)) if repeated is None else None
+    outside = entry_outside(_setup_py(evidence))
+    slip = slip_of(_setup_py(evidence)) if repeated is None and outside is None else None
     variant, words = "unreadable", {}
     if repeated is not None:
         variant, words = "repeated", {"name": repeated[1]}
+    elif outside is not None:
+        variant, words = "outside", {"line": str(outside.above)}
+        where = Where(file="setup.py", line=outside.line)
     elif slip is not None:
         variant, words = slip.variant, words_of(slip)
     actual: str = say("Python cannot read setup.py: {error}", error=error)

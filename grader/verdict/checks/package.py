@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from posixpath import normpath
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
@@ -61,11 +62,13 @@ def marker(evidence: Evidence) -> Passed:
         return Passed(actual=path)
     data_files = setup.argument("data_files")
     installed, all_known = _installed_in(data_files, INDEX)
-    if any(item.value.rpartition("/")[2] == package for item in installed) or not all_known:
+    named = [item for item in installed if item.value.rpartition("/")[2] == package]
+    lost = [item for item in named if file_of(evidence, normpath(item.value)) is None]
+    if (named and not lost) or not all_known:
         where = say("{path}, installed in {folder}", path=path, folder=INDEX)
         return Passed(actual=where if all_known else path)
     if installed:
-        raise _other_marker(evidence, installed[0])
+        raise _other_marker(evidence, (lost or installed)[0])
     line = data_files.line if data_files is not None else setup.line
     raise Failed(
         "package.marker_not_installed",
@@ -83,6 +86,11 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
     close = nearest(package, others) or "".join(lone)
     if evidence.submission.file(path) is not None:
         variant, actual = "folder", say("{path} is a folder", path=path)
+    elif folder := _folder_of_marker(evidence, path):
+        variant, close = "moved", folder
+        actual = say(
+            "there is no {path}, but {there}", path=path, there=f"{shown(folder)}/{package}"
+        )
     elif close:
         variant = "rename"
         said = say("there is no {path}, but resource/{close}", path=path, close=shown(close))
@@ -92,9 +100,17 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         expected=say("an empty file {path}", path=path),
         actual=actual,
         variant=variant,
+        params={"folder": close} if variant == "moved" else {},
         words={"package": package, "close": shown(close)},
         where=Where(file=path),
     )
+
+
+def _folder_of_marker(evidence: Evidence, path: str) -> str:
+    """Return the folder that has the marker and nearly the name resource; "" if there is none."""
+    folder, _, name = path.partition("/")
+    parts = [file.path.partition("/") for file in evidence.submission.files]
+    return nearest(folder, {head for head, _, rest in parts if rest == name}, cutoff=0.75)
 
 
 def _other_marker(evidence: Evidence, item: Text) -> Failed:
@@ -110,7 +126,7 @@ def _other_marker(evidence: Evidence, item: Text) -> Failed:
         expected=say("setup.py installs {path} in {folder}", path=wanted, folder=INDEX),
         actual=with_difference(actual, item.value, wanted),
         where=Where(file="setup.py", line=item.line),
-        variant="other",
+        variant="path" if item.value.endswith(package) else "other",
         params={"path": path},
         words={"package": package},
     )

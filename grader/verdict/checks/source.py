@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 import shlex
 from functools import partial
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 MOST_ADVICE = 5
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 PYTHON3 = re.compile(
     rb"#![ \t]{0,9}(?:/usr/bin/env[ \t]{1,9}(?:-S[ \t]{1,9})?|/usr/bin/|/bin/|/usr/local/bin/)"
     rb"python3(?:\.\d{1,2})?(?P<rest>[ \t][^\r\n]{0,200})?"
@@ -96,6 +98,10 @@ def _other_version(evidence: Evidence, path: str) -> str:
 
 
 def _empty(evidence: Evidence, path: str) -> Failed:
+    init = f"{evidence.assignment.folder}/__init__.py"
+    if _has_node(evidence, init):
+        actual = say("the file is empty: your node is in {path}", path=init)
+        return _in_init(path, init, actual, "init_empty")
     copy = shown(evidence.submission.newer_copy)
     but = say("the file is empty, but {copy} is not", copy=copy)
     return Failed(
@@ -105,6 +111,26 @@ def _empty(evidence: Evidence, path: str) -> Failed:
         where=Where(file=path),
         variant="built" if copy else "",
         words={"path": path, "copy": copy},
+    )
+
+
+def _is_inner(evidence: Evidence, path: str) -> bool:
+    """Whether a node's file is in an inner folder, which only has a wrong name."""
+    folder, _, name = path.partition("/")
+    has_init = file_of(evidence, f"{folder}/__init__.py") is not None
+    same = name == evidence.assignment.node_file
+    return has_init and same and evidence.submission.file(evidence.assignment.folder) is None
+
+
+def _in_init(path: str, init: str, actual: str, variant: str) -> Failed:
+    return Failed(
+        "source.misplaced_node_file",
+        expected=say("your node's code in {path}", path=path),
+        actual=actual,
+        where=Where(file=init),
+        variant=variant,
+        params={"path": init},
+        words={"wanted": path, "init": init},
     )
 
 
@@ -132,20 +158,13 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             expected=expected,
             actual=actual_place,
             where=Where(file=shown(inside[0])) if inside else None,
+            variant="folder" if _is_inner(evidence, place) else "",
             params={"path": place},
-            words={"wanted": path},
+            words={"wanted": path, "folder": place.partition("/")[0], "inner": inner},
         )
     init = f"{inner}/__init__.py"
     if _has_node(evidence, init):
-        raise Failed(
-            "source.misplaced_node_file",
-            expected=expected,
-            actual=say("your node is in {path}", path=init),
-            where=Where(file=init),
-            variant="init",
-            params={"path": init},
-            words={"wanted": path, "init": init},
-        )
+        return _in_init(path, init, say("your node is in {path}", path=init), "init")
     stem = name.removesuffix(".py")
     beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
     close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
@@ -269,7 +288,7 @@ def exec_bit(evidence: Evidence) -> Passed:
 def shebang(evidence: Evidence) -> Passed:
     """The node's file begins with a line that names Python 3."""
     file = _node(evidence)
-    if file.unreadable:
+    if file.unreadable or file.data.startswith(UTF_16) or _is_empty_beside_init(evidence, file):
         raise Blocked(by="source.node_file")
     first = file.data[:1000].partition(b"\n")[0]
     match = PYTHON3.fullmatch(first)
@@ -279,6 +298,12 @@ def shebang(evidence: Evidence) -> Passed:
         if not (rest.strip() and through_env):
             return Passed(actual=shown(first.decode("utf-8", "replace")))
     raise _no_shebang(evidence, file.data, first)
+
+
+def _is_empty_beside_init(evidence: Evidence, file: SourceFile) -> bool:
+    """Whether the node, and with it its first line, is in __init__.py."""
+    init = f"{evidence.assignment.folder}/__init__.py"
+    return not file.data.strip() and _has_node(evidence, init)
 
 
 def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
