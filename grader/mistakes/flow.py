@@ -9,7 +9,15 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG_LINE, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.example import (
+    DEAD,
+    LOG_LINE,
+    NODE,
+    SILENT,
+    SPIN_UNTIL_CTRL_C,
+    STEP_LINE,
+    example,
+)
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -120,8 +128,61 @@ def _is_text(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
+def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an except in a loop that catches Ctrl+C and lets the loop go on."""
+    for handler in suspect.source.all_nodes:
+        if not isinstance(handler, ast.ExceptHandler) or not _catches_interrupt(handler):
+            continue
+        around = list(suspect.source.module_of(handler).around(handler))
+        loops = [part for part in around if isinstance(part, ast.While)]
+        leaves = any(isinstance(n, ast.Raise | ast.Return | ast.Break) for n in ast.walk(handler))
+        if loops and not leaves:
+            spins = any(last_part(name).startswith("spin") for _, name in calls_in(loops[0]))
+            found = suspect.finding("interrupt_swallowed", suspect.place_at(handler))
+            return replace(found, variant="spins" if spins else "")
+    return None
+
+
+def _catches_interrupt(handler: ast.ExceptHandler) -> bool:
+    named = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    return any(n is None or dotted(n) in ("KeyboardInterrupt", "BaseException") for n in named)
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "interrupt_swallowed",
+        "shutdown",
+        msg("An except in a loop catches Ctrl+C, and the loop goes on"),
+        msg(
+            "Ctrl+C raises KeyboardInterrupt. This except catches it, and the loop around it "
+            "starts again."
+        ),
+        msg("Write except KeyboardInterrupt: here, and break in it: it ends the loop."),
+        links.EXECUTORS,
+        fixes={
+            "spins": msg(
+                "Write rclpy.spin(node) instead of the whole loop. Put only this line in a try: "
+                "with except KeyboardInterrupt:"
+            )
+        },
+        behind={"run.ignores_interrupt": _swallowed},
+        examples=(
+            example(
+                "loop_catches_everything",
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    while True:\n"
+                    "        try:\n"
+                    "            rclpy.spin_once(node)\n"
+                    "        except:\n"
+                    "            pass\n",
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
     _node(
         "loop_in_callback",
         "timer",

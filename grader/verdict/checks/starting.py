@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from typing import TYPE_CHECKING
 
@@ -90,6 +91,14 @@ def _handler_fails(last: str) -> bool:
     return bool(handling) and OWN_ERROR.search(after) is not None
 
 
+def _catches_interrupt(evidence: Evidence) -> bool:
+    """Whether the source has an except for Ctrl+C."""
+    source = source_of_node(evidence)
+    handlers = source.all_nodes if source is not None else []
+    types = [n.type for n in handlers if isinstance(n, ast.ExceptHandler) and n.type is not None]
+    return any("KeyboardInterrupt" in ast.unparse(named) for named in types)
+
+
 @check(
     "run.interrupt",
     stage=RUN,
@@ -119,7 +128,8 @@ def interrupt(evidence: Evidence) -> Passed:
     )
     if run.status in (0, 130, 254) or run.signal == 2:
         caught = say("try: … except KeyboardInterrupt: around rclpy.spin avoids the traceback.")
-        return Passed(actual=actual, advice=[caught] if run.status == 254 else [])
+        bare = run.status == 254 and not _catches_interrupt(evidence)
+        return Passed(actual=actual, advice=[caught] if bare else [])
     if run.status is not None and run.status > SIGNALLED:
         crashed = say(
             "The program crashed in ROS's own clean-up after Ctrl+C: do not leave a thread "
