@@ -32,6 +32,8 @@ BACK_TO_SOLUTION = (
     *("import_of_other_lesson", "import_of_ros_1", "class_with_capital", "arrow_after_call"),
     *("bracket_too_many", "colon_after_super", "one_equals_sign", "body_not_indented"),
     *("docstring_not_closed", "node_in_init", "comma_between_tuples_missing"),
+    *("number_added_outside", "marker_without_slash", "node_in_init_and_empty_file"),
+    *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
 OTHERWISE = {
     "spin_before_node": "    node = MyFirstNode()\n    rclpy.spin(node)\n",
@@ -46,6 +48,14 @@ OTHERWISE = {
     "logger_with_value": "'Hello time: %d' % self.counter_)",
     "counter_not_declared": "        global counter\n        self.get_logger()",
     "variable_named_str": "str_ = 'Hello time: '\n        self.get_logger().info(str_ + str(",
+    "format_outside": "'Hello time: {}'.format(self.counter_))",
+    "plus_outside": "'Hello time: ' + (str(self.counter_)))",
+    "percent_outside": "'Hello time: %d' % self.counter_)",
+    "callback_named_as_counter": "self.create_timer(1.0, self.on_timer)",
+    "own_create_timer": "        self.my_create_timer()\n",
+    "period_is_tuple": "self.period_ = 1.0\n",
+    "period_with_comma": "period = 1.0\n",
+    "helper_misspelt": "from my_robot_controller.utils import",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
 # Only the student knows what these should be.
@@ -59,6 +69,7 @@ NOT_FIXED = (
         "none_called",
     ),
     *("init_defined_twice", "callback_defined_twice", "init_twice_without_counter"),
+    *("node_of_ros_1", "loginfo_of_rospy", "helper_not_handed_in", "loop_catches_everything"),
 )
 
 
