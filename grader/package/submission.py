@@ -102,12 +102,13 @@ def _others(
 ) -> Iterator[Package]:
     """Yield the other packages with these names, the outermost of each; raises TooLargeError.
 
-    A folder of that name beside the package at `root` is one too, if its package.xml is missing.
+    A folder of that name beside the package at `root` is one too, if it has no package.xml.
     """
     for name in names:
         beside = join(parent(root), name)
         paths = [one.path for one in candidates if one.name == name]
-        if not paths and any(path.startswith(f"{beside}/") for path in tree.entries):
+        unnamed = beside not in {one.path for one in candidates}
+        if not paths and unnamed and any(path.startswith(f"{beside}/") for path in tree.entries):
             paths = [beside]
         if paths:
             yield Package(name, paths[0], read_package(tree, paths[0]))

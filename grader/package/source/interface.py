@@ -9,6 +9,8 @@ LINE = re.compile(
     r"^(?P<type>[A-Za-z][\w/]*(?:<=\d+)?(?:\[(?:<=)?\d*\])?)\s+(?P<name>[A-Za-z]\w*)"
     r"(?:\s*=\s*(?P<constant>.+)|\s+(?P<default>.+))?$"
 )
+NUMBERS = re.compile(r"u?int(?:8|16|32|64)|float(?:32|64)")
+NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 
 
@@ -41,10 +43,16 @@ def message_text(text: str) -> MessageText:
     for number, line in enumerate(text.splitlines(), start=1):
         code = line.partition("#")[0].strip()
         found = LINE.match(code)
-        if found:
+        if found and not _is_comment(found["type"], (found["default"] or "").strip()):
             declared.append(
                 Declared(number, found["type"], found["name"], (found["constant"] or "").strip())
             )
         elif code:
             unknown.append(number)
     return MessageText(tuple(declared), tuple(unknown))
+
+
+def _is_comment(kind: str, default: str) -> bool:
+    """Whether what is behind a number's name cannot be its default: a comment without its sign."""
+    numeric = NUMBERS.fullmatch(kind) is not None
+    return bool(default) and numeric and NUMBER.fullmatch(default) is None

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 GROUP = "rosidl_interface_packages"
 GENERATE = re.compile(r"rosidl_generate_interfaces\s*\((?P<words>[^)]*)\)")
 COMMENT = re.compile(r"#[^\n]*")
+NAMED = re.compile(r"\b(?:msg|srv|action)/\w+\.(?:msg|srv|action)\b")
 MANIFEST = "package.xml"
 
 
@@ -120,7 +121,7 @@ def _generated(found: Package, files: tuple[str, ...]) -> None:
     code = COMMENT.sub("", text)
     listed = " ".join(match["words"] for match in GENERATE.finditer(code))
     for path in files:
-        if path not in listed and path not in code:
+        if path not in listed and (path not in code or not listed):
             raise Failed(
                 "interface.not_generated",
                 expected=f'rosidl_generate_interfaces(${{PROJECT_NAME}} "{path}")',
@@ -129,7 +130,18 @@ def _generated(found: Package, files: tuple[str, ...]) -> None:
                 params={"path": path},
                 words={"package": found.name},
             )
-    if "find_package(rosidl_default_generators" not in code.replace(" ", ""):
+    for path in NAMED.findall(listed):
+        if found.text(path) is None:
+            raise Failed(
+                "interface.file_missing",
+                expected=f"{found.name}/{path}",
+                actual=say("there is no such file"),
+                where=place,
+                params={"path": path},
+                words={"package": found.name},
+            )
+    before = code[: code.find("rosidl_generate_interfaces")].replace(" ", "")
+    if "find_package(rosidl_default_generators" not in before:
         raise Failed(
             "interface.not_found_in_cmake",
             expected="find_package(rosidl_default_generators REQUIRED)",
