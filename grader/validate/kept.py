@@ -15,10 +15,8 @@ LONGEST_NAME = 100  # characters of a folder
 OTHER = re.compile(r"[^A-Za-z0-9_.+-]+")
 
 
-def keep(
-    mutants: Iterable[Mutant], solution: Tree, assignment: Assignment, folder: Path
-) -> dict[str, Path]:
-    """Write each mutant to a folder of its own below `folder`; return the folders by its name.
+def keep(mutants: Iterable[Mutant], solution: Tree, assignment: Assignment, folder: Path) -> None:
+    """Write each mutant to a folder of its own below `folder`.
 
     Raises UsageError if `folder` has files already, or cannot be written.
     """
@@ -28,20 +26,17 @@ def keep(
                 f"{folder} is not empty",
                 remedy="Name a folder that does not exist yet: validate deletes nothing.",
             )
-        places: dict[str, Path] = {}
         for mutant in mutants:
-            place = _free(folder, mutant.name, places.values())
-            write_tree(mutant.of(solution), place / assignment.package)
-            places[mutant.name] = place
+            write_tree(mutant.of(solution), _free(folder, mutant.name) / assignment.package)
     except OSError as error:
         raise UsageError(f"the mutants cannot be written to {folder}: {error.strerror}") from None
-    return places
 
 
-def _free(folder: Path, name: str, taken: Iterable[Path]) -> Path:
+def _free(folder: Path, name: str) -> Path:
+    """Return a folder for a mutant that is not there yet."""
     stem = OTHER.sub("_", name).strip("_.")[:LONGEST_NAME] or "mutant"
-    place, used, number = folder / stem, {*taken}, 1
-    while place in used:
+    place, number = folder / stem, 1
+    while place.exists():
         number += 1
         place = folder / f"{stem}_{number}"
     return place

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from xml.parsers import expat
 
@@ -227,24 +228,24 @@ def tag_name(case: Case) -> Files | None:
 
 def depend_name(case: Case) -> Files | None:
     """Correct the name of a dependency that is nearly that of a package which the code imports."""
-    places = _places(case.files.data(FILE))
     wanted, written = (str(case.finding.params.get(key, "")) for key in ("needed", "found"))
-    for tag in places.closed if places is not None and written else ():
-        inside = (case.files.data(FILE) or b"")[slice(*tag.inside)]
-        if DEPENDS.fullmatch(tag.name) and inside.strip() == written.encode():
-            return _put(case, *tag.inside, wanted.encode())
-    return None
+    return _with_names(case, lambda name: wanted if name == written else "") if written else None
 
 
 def dependencies(case: Case) -> Files | None:
     """Correct the names of dependencies that are nearly those of a known package."""
+    return _with_names(case, meant_package)
+
+
+def _with_names(case: Case, meant: Callable[[str], str]) -> Files | None:
+    """Give dependencies other names: what `meant` returns for the name, unless it is empty."""
     places = _places(case.files.data(FILE))
     if places is None:
         return None
     new = places.found
     for tag in sorted(places.closed, key=lambda t: t.start, reverse=True):
         name = places.found[slice(*tag.inside)]
-        close = meant_package(name.decode("utf-8", "replace").strip())
+        close = meant(name.decode("utf-8", "replace").strip())
         if DEPENDS.fullmatch(tag.name) and tag.within == "package" and close:
             new = new[: tag.inside[0]] + close.encode() + new[tag.inside[1] :]
     return case.with_data(FILE, new)

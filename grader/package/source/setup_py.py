@@ -18,6 +18,15 @@ INDEX = "share/ament_index/resource_index/packages"
 """The folder into which `data_files` installs the package's marker."""
 
 MOST_COMMENTS = 200
+ENTRY = re.compile(r"[ \t]{0,80}(['\"])[\w.-]{1,80} ?= ?[\w.]{1,200}:\w{1,80}\1,?[ \t]*")
+IMPORTS = {
+    "os": "import os",
+    "glob": "from glob import glob",
+    "sys": "import sys",
+    "setup": "from setuptools import setup",
+    "find_packages": "from setuptools import find_packages",
+}
+"""Imports that a setup.py often lacks, by the name that is then not defined."""
 
 
 @dataclass(frozen=True)
@@ -140,9 +149,6 @@ def called_value(found: bytes) -> ast.expr | None:
     return min(values, key=lambda n: (n.lineno, n.col_offset), default=None)
 
 
-ENTRY = re.compile(r"[ \t]{0,80}(['\"])[\w.-]{1,80} ?= ?[\w.]{1,200}:\w{1,80}\1,?[ \t]*")
-
-
 @dataclass(frozen=True)
 class OutsideEntry:
     """An entry of console_scripts below the end of its list, and the line with that end."""
@@ -159,16 +165,6 @@ def entry_outside(found: bytes) -> OutsideEntry | None:
         if rows[above - 1].strip() in ("]", "],") and ENTRY.fullmatch(rows[line - 1]):
             return OutsideEntry(line, above)
     return None
-
-
-IMPORTS = {
-    "os": "import os",
-    "glob": "from glob import glob",
-    "sys": "import sys",
-    "setup": "from setuptools import setup",
-    "find_packages": "from setuptools import find_packages",
-}
-"""Imports that a setup.py often lacks, by the name that is then not defined."""
 
 
 def missing_imports(found: bytes, error: str) -> list[str]:
