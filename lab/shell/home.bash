@@ -6,7 +6,11 @@ _lab_kept=~/ros2_ws/.lab/home
 _lab_restore_home() {
   [ ! -e ~/.lab_opened ] || return 0  # by the first terminal of this lab
   [ ! -d "$_lab_kept" ] || cp -a "$_lab_kept/." ~/
-  : > ~/.lab_opened
+  : > ~/.lab_opened || return
+  # The student's files are those that are newer. Time stamps advance in steps of some milliseconds,
+  # so the terminal waits for the next step: a file that is made at once is newer, too.
+  until ! : > ~/.lab_step || [ ~/.lab_step -nt ~/.lab_opened ]; do :; done
+  rm -f ~/.lab_step
 }
 
 # Prints the files to keep, each ended by a null byte: changed ones, and those kept last time.
