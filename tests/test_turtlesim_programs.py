@@ -20,7 +20,7 @@ from grader.ros import interfaces, turtlesim_executables
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.sandbox.proof import proven_ros
-from tests.lab.screen import new_domain
+from tests.domains import new_domain
 
 SECONDS = 30.0
 MOST_POSES, POSES_BETWEEN = 2_000, 60

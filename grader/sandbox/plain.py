@@ -86,7 +86,7 @@ class NoSandbox(LocalSandbox):
 
     def open(self) -> None:
         adopt_orphans()
-        self._domain, self._domain_lock = _lock_domain()
+        self._domain, self._domain_lock = lock_domain()
         place = tempfile.gettempdir()
         place = place if PLAIN_PATH.fullmatch(place) else SHORT_FOLDER
         self._folder = Path(tempfile.mkdtemp(prefix="grader-", dir=place))
@@ -260,8 +260,11 @@ class AccountSandbox(NoSandbox):
         reap(descendants(os.getpid()))
 
 
-def _lock_domain() -> tuple[int, int]:
-    """Return a ROS domain id that no other grader on this machine uses, and its lock file."""
+def lock_domain() -> tuple[int, int]:
+    """Return a ROS domain id that no other grader on this machine uses, and its lock.
+
+    The lock is a descriptor, which the caller closes. Raises SurroundingsError if all are in use.
+    """
     for domain in random.sample(DOMAINS, len(DOMAINS)):
         place = Path(tempfile.gettempdir()) / f"ros2-grader-domain-{domain}.lock"
         try:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 import re
 import sys
@@ -13,12 +12,11 @@ import pexpect
 
 from grader.base.cache import cache_root
 from tests import processes
+from tests.domains import new_domain
 from tests.lab.kinds import Kind
 
 PROMPT = re.compile(r"student@lab-\w+:[^\n$]*\$ ")
 WAIT = 60  # seconds for one command, including a build on a busy machine
-_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
-_domains = itertools.count(10 + 20 * (_worker % 4))
 
 
 def command(*words: str | Path) -> list[str]:
@@ -31,11 +29,6 @@ def environment(**more: str) -> dict[str, str]:
     inherited = {k: v for k, v in os.environ.items() if not k.startswith(("SUDO_", "ROS_"))}
     own = {"TERM": "dumb", "GRADER_CACHE": str(cache_root())}
     return inherited | own | more
-
-
-def new_domain() -> str:
-    """Return a ROS domain that no other test of this run uses at the same time."""
-    return str(next(_domains) % 90 + 10)
 
 
 class Lab:

@@ -9,9 +9,10 @@ from pathlib import Path
 import pexpect
 
 from tests import processes
+from tests.domains import new_domain
 from tests.lab.helpers import SLOW, has_the_terminal, start, until
 from tests.lab.kinds import Kind
-from tests.lab.screen import Lab, command, environment, new_domain
+from tests.lab.screen import Lab, command, environment
 
 NODE = "import rclpy; rclpy.init(); rclpy.spin(rclpy.create_node('talker'))"
 SEEN = "timeout 60 bash -c 'until ros2 node list | grep -x /talker; do :; done'"
