@@ -123,3 +123,10 @@ def test_what_python_cannot_read_is_the_business_of_another_check(package: Path)
     assert judged(package).status == "passed"
     (package / NODE).write_text("from std_msgs.msg import (\n")
     assert judged(package).status == "skipped"
+
+
+def test_a_missing_rclpy_is_told_once(package: Path) -> None:
+    change(package / "package.xml", "  <depend>rclpy</depend>\n", "")
+    results = evaluate_static(take_in_for(ASSIGNMENT, package), ASSIGNMENT)
+    assert [found.id for found in judged(package).mistakes] == ["package.depend_missing"]
+    assert [advice for result in results for advice in result.advice] == []

@@ -51,7 +51,8 @@ def check_manifest(evidence: Evidence) -> Passed:
     _check_name(evidence, manifest)
     _check_setup_name(evidence)
     _check_build_type(manifest)
-    return Passed(actual=f"{manifest.name}, ament_python", advice=_advice(manifest))
+    asked = any(use.kind == "package.depends" for use in evidence.assignment.checks)
+    return Passed(actual=f"{manifest.name}, ament_python", advice=_advice(manifest, asked=asked))
 
 
 def _failed(
@@ -293,11 +294,11 @@ def _of_ros_1(names: Mapping[str, int]) -> list[str]:
     ]
 
 
-def _advice(manifest: Manifest) -> list[str]:
-    """Return advice that costs no points."""
+def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
+    """Return advice that costs no points; `asked`: a check asks for the dependencies."""
     names = {element.text: element.line for element in manifest.depends}
     advice = _of_ros_1(names)
-    if "rclpy" not in names and not advice:
+    if "rclpy" not in names and not asked and not advice:
         advice.append(
             say(
                 "package.xml does not say that the package needs rclpy: add "
