@@ -5,7 +5,6 @@ from __future__ import annotations
 import shlex
 import time
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from grader.base.errors import UsageError
@@ -15,12 +14,12 @@ from grader.course.scenario import RunPlan, Start, Stimulus
 from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
-from grader.run.probe_link import Answer, ProbeError, ProbeLink
+from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
 from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Run, press_ctrl_c, start
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Sandbox
 
-IN_PROBE = Path(__file__).with_name("in_probe")
+MODULES = ("messages", "parameters", "graph", "goals", "scenario")  # of in_probe, in order of need
 MILLISECOND = 1_000_000
 PREPARE_SECONDS = 5.0  # wall time to make the probe's ends
 STEP_SECONDS = 2.0  # wall time for one step
@@ -67,7 +66,7 @@ def conduct(
     run = Run(command=commands[0], name=plan.name, seen=seen)
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
-    probe.extend(IN_PROBE / "scenario.py")
+    probe.extend([in_probe(name) for name in MODULES])
     _prepare(probe, plan)
     begin = time.monotonic()
     terminals: list[Terminal] = []
@@ -94,10 +93,6 @@ def conduct(
 
 def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
     """Make the ends that the plan needs; UsageError for what ROS does not have."""
-    world = {}
-    if plan.world:
-        source = IN_PROBE / f"{plan.world}.py"
-        world = {"name": plan.world, "text": source.read_text(encoding="utf-8")}
     said = probe.said(
         "prepare",
         seconds=PREPARE_SECONDS,
@@ -106,7 +101,7 @@ def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
         call=[[one.call.service, one.call.type] for one in plan.do if one.call],
         goal=[[one.goal.action, one.goal.type] for one in plan.do if one.goal],
         periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
-        world=world,
+        world=in_probe(plan.world) if plan.world else None,
     )
     for kind in said.get("unknown", ()):
         raise UsageError(

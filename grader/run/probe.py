@@ -12,7 +12,7 @@ Commands (`do`); times are nanoseconds of ROS time, `seconds` is the most wall t
   with `patient` it waits for every node that has a service to ask;
 - `follow` sets `use_sim_time` of the node `name`; `barrier` is whether the node accepted it;
 - `try` asks the other services of the node `name`; `barrier` is whether one answered;
-- `extend` adds the commands of a module (`text`, `name`) of grader/run/in_probe;
+- `extend` adds the commands of the last of some `modules` (name and text) of grader/run/in_probe;
 - `end` ends the probe.
 The answer has `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock),
 `silent` (the number of nodes that were asked and have never answered), `doubled` (the nodes with
@@ -305,7 +305,7 @@ class Probe:
             return self.added_answer(command, deadline)
         barrier: bool | None = None
         if command["do"] == "extend":
-            self.extend(command["name"], command["text"])
+            self.extend(command["modules"])
         if command["do"] == "clock":
             barrier = self.set_clock(command, deadline)
         elif command["do"] == "follow":
@@ -329,16 +329,14 @@ class Probe:
         answer["clocks"] = self.node.count_publishers("/clock")
         return answer
 
-    def extend(self, name: str, text: str) -> None:
-        """Add the commands of a module's text."""
-        self.added.update(self.module(name, text).commands(self))
+    def extend(self, modules: list[list[str]]) -> None:
+        """Make modules of their names and texts, and add the commands of the last one."""
+        for name, text in modules:
+            module = self.module(name, text)
+        self.added.update(module.commands(self))
 
     def module(self, name: str, text: str) -> Any:
-        """Return a module made of its text; dataclasses look it up by its name.
-
-        The name gets a prefix: a module `turtlesim` would hide the package of the interfaces.
-        """
-        name = f"grader_{name}"
+        """Return a module made of its text; others import it by its name."""
         module = types.ModuleType(name)
         sys.modules[name] = module
         exec(compile(text, name, "exec"), module.__dict__)  # noqa: S102 - the grader's own text

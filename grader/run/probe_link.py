@@ -6,7 +6,7 @@ import contextlib
 import json
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from grader.base.errors import SurroundingsError
 from grader.sandbox.base import Sandbox
 
 SOURCE = Path(__file__).with_name("probe.py")
+Module = tuple[str, str]  # its name and its text
 START_SECONDS = 30.0
 LONGEST_ANSWER = 8_000_000  # bytes
 END_SECONDS = 1.0
@@ -25,6 +26,12 @@ export AMENT_PREFIX_PATH="$place" LD_LIBRARY_PATH="$place/lib"
 export PYTHONPATH=$(echo "$place"/lib/python3*/site-packages)
 """
 PATIENCE = 20.0  # seconds in addition to a command's own, within which the answer must come
+
+
+def in_probe(name: str) -> Module:
+    """Return a module of `in_probe`, for the probe, which has no other of the grader's modules."""
+    text = SOURCE.with_name("in_probe").joinpath(f"{name}.py").read_text(encoding="utf-8")
+    return f"grader.run.in_probe.{name}", text
 
 
 @dataclass(frozen=True)
@@ -118,9 +125,9 @@ class ProbeLink:
             self._read(START_SECONDS)
             self._ready = True
 
-    def extend(self, source: Path) -> None:
-        """Add the commands of a module of `in_probe` to the probe."""
-        self.ask("extend", seconds=1, name=source.stem, text=source.read_text(encoding="utf-8"))
+    def extend(self, modules: Sequence[Module]) -> None:
+        """Add the commands of the last of these modules to the probe."""
+        self.said("extend", seconds=1, modules=modules)
 
     def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
         """Send one command and return the answer; ProbeError if none comes."""

@@ -1,7 +1,7 @@
 """The probe's part of a scenario: topics, services, parameters, the graph, and a world.
 
-The grader sends this module to the probe, which runs it under the prefix's Python: it imports
-nothing of the grader. `commands(probe)` returns its commands:
+The grader sends this module and those that it imports to the probe, which runs them under the
+prefix's Python: they import nothing else of the grader. `commands(probe)` returns its commands:
 - `prepare` makes the subscriptions (`watch`), publishers (`publish`), clients (`call`) and action
   clients (`goal`) that the scenario needs, and the `world`; `unknown` has the types that do not exist;
 - `tick` moves the world to `at`, whose messages go out, publishes this instant on /clock and makes
@@ -16,32 +16,26 @@ has arrived then. `messages` has those of each topic in order, up to a limit; `c
 
 from __future__ import annotations
 
-import importlib
-import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from typing import Any
-from uuid import uuid4
 
 import rclpy
-from action_msgs.msg import GoalStatus
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 from rclpy.action import ActionClient
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from unique_identifier_msgs.msg import UUID
+
+from grader.run.in_probe.goals import Goals
+from grader.run.in_probe.graph import ends_of_others
+from grader.run.in_probe.messages import Values, fill, interface, taken_from
+from grader.run.in_probe.parameters import read_parameters, set_parameters
 
 SECOND = 1_000_000_000
 DEPTH = 2_000  # messages of a topic that wait to be taken
 MOST_MESSAGES = 40  # of a topic in one answer
-MOST_VALUES = 400  # numbers and texts of a message
-LONGEST_TEXT = 2_000  # characters
-MOST_ENDPOINTS = 400
-MOST_PARAMETERS = 60
 ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
 MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
 MISSING_TRIES, MISSING_SECONDS = 12, 0.3  # barriers and wall time after which a message is missing
@@ -52,13 +46,6 @@ MOST_LOGS = 1_000  # records that are taken at once
 MOST_TRIPS = 7  # at once, behind as many messages of a world
 REACTION_TRIES = 3  # further barriers after a stimulus
 PAUSE_SECONDS = 0.002
-STATUS = {
-    GoalStatus.STATUS_SUCCEEDED: "succeeded",
-    GoalStatus.STATUS_CANCELED: "canceled",
-    GoalStatus.STATUS_ABORTED: "aborted",
-}
-MOST_FEEDBACK = 200  # of goals, in one answer
-OF_ROS = ("use_sim_time", "start_type_description_service")  # parameters that every node has
 
 
 class Untouched(CallbackGroup):  # type: ignore[misc]
@@ -76,87 +63,6 @@ class Untouched(CallbackGroup):  # type: ignore[misc]
         """Do nothing."""
 
 
-def interface(name: str) -> Any:
-    """Return the class of a type such as geometry_msgs/msg/Twist; None if there is none."""
-    package, kind, rest = (*name.split("/"), "", "")[:3]
-    try:
-        return getattr(importlib.import_module(f"{package}.{kind}"), rest, None)
-    except (ImportError, ValueError):
-        return None
-
-
-def taken_from(subscription: Any, most: int) -> Iterator[Any]:
-    """Take the messages that have arrived at a subscription, at most so many, and yield them."""
-    for _ in range(most):
-        with subscription.handle:
-            taken = subscription.handle.take_message(subscription.msg_type, False)
-        if taken is None:
-            return
-        yield taken[0]
-
-
-class Values:
-    """Turns messages into JSON values, of a bounded size."""
-
-    def __init__(self) -> None:
-        self.left = MOST_VALUES
-
-    def of(self, value: Any) -> Any:
-        """Return a field's value: a number, a text, a list, or a mapping of fields."""
-        self.left -= 1
-        if hasattr(value, "get_fields_and_field_types"):
-            names = value.get_fields_and_field_types()
-            return {name: self.of(getattr(value, name)) for name in names if self.left > 0}
-        if isinstance(value, bytes):
-            return (
-                int.from_bytes(value, "little") if len(value) == 1 else value.hex()[:LONGEST_TEXT]
-            )
-        if isinstance(value, str):
-            return value[:LONGEST_TEXT]
-        if isinstance(value, (bool, int)):
-            return value
-        if isinstance(value, float):
-            return value if math.isfinite(value) else str(value)
-        if hasattr(value, "item"):  # numpy
-            return self.of(value.tolist())
-        return [self.of(item) for item in value if self.left > 0]
-
-
-def fill(message: Any, values: Any) -> None:
-    """Set the fields of a message from a mapping; raises AttributeError, TypeError, AssertionError."""
-    for name, value in values.items():
-        inner = getattr(message, name)
-        if hasattr(inner, "get_fields_and_field_types"):
-            fill(inner, value)
-        elif isinstance(inner, float):
-            setattr(message, name, float(value))
-        else:
-            setattr(message, name, value)
-
-
-def parameter_value(value: Any) -> ParameterValue:
-    """Return a parameter's value for a bool, an int, a float, a text or a list of one of them."""
-    if isinstance(value, bool):
-        return ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=value)
-    if isinstance(value, int):
-        return ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=value)
-    if isinstance(value, float):
-        return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
-    return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=str(value))
-
-
-TYPES = {
-    ParameterType.PARAMETER_BOOL: ("bool", "bool_value"),
-    ParameterType.PARAMETER_INTEGER: ("integer", "integer_value"),
-    ParameterType.PARAMETER_DOUBLE: ("double", "double_value"),
-    ParameterType.PARAMETER_STRING: ("string", "string_value"),
-    ParameterType.PARAMETER_BOOL_ARRAY: ("bool_array", "bool_array_value"),
-    ParameterType.PARAMETER_INTEGER_ARRAY: ("integer_array", "integer_array_value"),
-    ParameterType.PARAMETER_DOUBLE_ARRAY: ("double_array", "double_array_value"),
-    ParameterType.PARAMETER_STRING_ARRAY: ("string_array", "string_array_value"),
-}
-
-
 class Scenario:
     """The commands of a scenario; see the module."""
 
@@ -168,11 +74,7 @@ class Scenario:
         self.clients: dict[str, Any] = {}
         self.askers: dict[str, Any] = {}  # clients for round trips, by the node's name
         self.actions: dict[str, Any] = {}
-        # (taken by hand: the client drops feedback that it has not taken when the result comes)
-        self.feedback: list[Any] = []
-        self.sent: dict[bytes, str] = {}  # the name of each goal by its id
-        self.goals: dict[str, Any] = {}  # the handles of those that were accepted
-        self.of_goals: list[list[Any]] = []  # what became of them since the last answer
+        self.goals = Goals()
         self.calls: list[tuple[str, Any]] = []
         self.periods: dict[str, int] = {}  # ns between the messages that are awaited on topics
         self.latest: dict[str, int] = {}  # when a message was read last, and how long after another
@@ -202,15 +104,16 @@ class Scenario:
             if action not in self.actions:
                 self.actions[action] = ActionClient(self.probe.node, kinds[name], action)
                 topic, kind = f"{action}/_action/feedback", kinds[name].Impl.FeedbackMessage
-                self.feedback += [self.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)]
+                feedback = self.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)
+                self.goals.feedback.append(feedback)
         self.periods = command["periods"]
         if command["world"]:
             self.open_world(command["world"])
         return {"unknown": []}
 
-    def open_world(self, source: dict[str, str]) -> None:
-        """Make the world of a source text."""
-        world = self.probe.module(source["name"], source["text"]).World
+    def open_world(self, source: Sequence[str]) -> None:
+        """Make the world of a module, given by its name and text."""
+        world = self.probe.module(*source).World
         node = rclpy.create_node(world.NAME, enable_rosout=False, use_global_arguments=False)
         self.probe.ours.add("/" + world.NAME)
         self.probe.executor.add_node(node)
@@ -250,11 +153,7 @@ class Scenario:
             if count:
                 self.counts[topic] = self.counts.get(topic, 0) + count
             found[topic] = count
-        for subscription in self.feedback:
-            for message in taken_from(subscription, MOST_FEEDBACK):
-                name = self.sent.get(bytes(message.goal_id.uuid))
-                if name is not None:
-                    self.of_goals.append([name, "feedback", Values().of(message.feedback)])
+        self.goals.take_feedback()
         return found
 
     def trips(self, count: int, deadline: float) -> bool | None:
@@ -408,8 +307,9 @@ class Scenario:
         if done:
             self.calls = [one for one in self.calls if not one[1].done()]
             said["replies"] = [[name, Values().of(future.result())] for name, future in done]
-        if self.of_goals:
-            said["goals"], self.of_goals = self.of_goals[:MOST_FEEDBACK], []
+        goals = self.goals.taken()
+        if goals:
+            said["goals"] = goals
         if self.world is not None:
             if self.world.steps:
                 said["path"], self.world.steps = self.world.steps, []
@@ -427,13 +327,18 @@ class Scenario:
             self.world.collect(self.at)
         return barrier
 
+    def await_ready(self, ready: Callable[[], bool], deadline: float) -> bool:
+        """Wait for the other side of a topic, service or action; return whether it is there."""
+        until = min(deadline, time.monotonic() + MATCH_SECONDS)
+        while not ready() and time.monotonic() < until:
+            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        return ready()
+
     def publish(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Publish a message and wait until every subscriber has run its callback."""
         publisher = self.publishers[command["topic"]]
-        until = min(deadline, time.monotonic() + MATCH_SECONDS)
         ours = len(self.watched.get(command["topic"], ()))
-        while publisher.get_subscription_count() <= ours and time.monotonic() < until:
-            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
+        self.await_ready(lambda: publisher.get_subscription_count() > ours, deadline)
         message = interface(command["type"])()
         fill(message, command["values"])
         heard = publisher.get_subscription_count() - ours
@@ -445,63 +350,13 @@ class Scenario:
     def call(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Call a service; the reply comes with this answer or a later one."""
         client = self.clients[command["service"]]
-        until = min(deadline, time.monotonic() + MATCH_SECONDS)
-        while not client.service_is_ready() and time.monotonic() < until:
-            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
-        heard = int(client.service_is_ready())
+        heard = self.await_ready(client.service_is_ready, deadline)
         if heard:
             request = interface(command["type"]).Request()
             fill(request, command["values"])
             self.calls.append((command["name"], client.call_async(request)))
         barrier = self.react(deadline)
-        return {**self.result(barrier), "heard": heard}
-
-    def goal(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
-        """Send a goal; what becomes of it comes with this answer or later ones."""
-        client, name = self.actions[command["action"]], command["name"]
-        until = min(deadline, time.monotonic() + MATCH_SECONDS)
-        while not client.server_is_ready() and time.monotonic() < until:
-            self.probe.executor.spin_once(timeout_sec=PAUSE_SECONDS)
-        heard = int(client.server_is_ready())
-        if heard:
-            goal = interface(command["type"]).Goal()
-            fill(goal, command["values"])
-
-            def tell(what: str, values: Any = None) -> None:
-                self.of_goals.append([name, what, values])
-
-            def ended(future: Any) -> None:
-                answer = future.result()
-                status = STATUS.get(answer.status)
-                if status:
-                    tell(status, Values().of(answer.result))
-
-            def answered(future: Any) -> None:
-                handle = future.result()
-                tell("accepted" if handle.accepted else "refused")
-                if handle.accepted:
-                    self.goals[name] = handle
-                    handle.get_result_async().add_done_callback(ended)
-
-            goal_id = UUID(uuid=list(uuid4().bytes))
-            self.sent[bytes(goal_id.uuid)] = name
-            client.send_goal_async(goal, goal_uuid=goal_id).add_done_callback(answered)
-        barrier = self.react(deadline)
-        return {**self.result(barrier), "heard": heard}
-
-    def cancel(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
-        """Ask for the end of a goal."""
-        name = command["name"]
-        handle = self.goals.get(name)
-
-        def answered(future: Any) -> None:
-            if not future.result().goals_canceling:
-                self.of_goals.append([name, "refused", None])
-
-        if handle is not None:
-            handle.cancel_goal_async().add_done_callback(answered)
-        barrier = self.react(deadline)
-        return {**self.result(barrier), "heard": int(handle is not None)}
+        return {**self.result(barrier), "heard": int(heard)}
 
     def place(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Put a turtle into the world: a new one, or one that is there."""
@@ -510,127 +365,41 @@ class Scenario:
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": heard}
 
+    def goal(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Send a goal; what becomes of it comes with this answer or later ones."""
+        client = self.actions[command["action"]]
+        heard = self.await_ready(client.server_is_ready, deadline)
+        if heard:
+            goal = interface(command["type"]).Goal()
+            fill(goal, command["values"])
+            self.goals.send(command["name"], client, goal)
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": int(heard)}
+
+    def cancel(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Ask for the end of a goal."""
+        heard = self.goals.cancel(command["name"])
+        barrier = self.react(deadline)
+        return {**self.result(barrier), "heard": int(heard)}
+
     def set(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Set parameters of a node; `set` has for each whether it was accepted, and why not."""
-        wanted = [
-            Parameter(name=name, value=parameter_value(value))
-            for name, value in command["values"].items()
-        ]
-        client = self.probe.node.create_client(SetParameters, command["name"] + "/set_parameters")
-        answer = self.probe.call(client, SetParameters.Request(parameters=wanted), deadline)
-        results = [
-            [one.name, bool(result.successful), result.reason[:200]]
-            for one, result in zip(wanted, getattr(answer, "results", ()))
-        ]
+        results = set_parameters(self.probe, command["name"], command["values"], deadline)
         barrier = self.react(deadline)
-        return {**self.result(barrier), "set": results, "heard": int(answer is not None)}
+        return {**self.result(barrier), "set": results or [], "heard": int(results is not None)}
 
     def parameters(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
-        """Return the parameters of a node: name, type, value, description and whether read-only."""
-        probe, name = self.probe, command["name"]
-        listed = probe.call(
-            probe.node.create_client(ListParameters, f"{name}/list_parameters"),
-            ListParameters.Request(),
-            deadline,
-        )
-        if listed is None:
-            return {"parameters": None}
-        names = [one for one in listed.result.names if one not in OF_ROS][:MOST_PARAMETERS]
-        values = probe.call(
-            probe.node.create_client(GetParameters, f"{name}/get_parameters"),
-            GetParameters.Request(names=names),
-            deadline,
-        )
-        described = probe.call(
-            probe.node.create_client(DescribeParameters, f"{name}/describe_parameters"),
-            DescribeParameters.Request(names=names),
-            deadline,
-        )
-        found = []
-        for one, value, about in zip(
-            names, getattr(values, "values", ()), getattr(described, "descriptors", ())
-        ):
-            kind, attribute = TYPES.get(value.type, ("not set", ""))
-            ranges = [*about.floating_point_range, *about.integer_range]
-            found.append(
-                {
-                    "name": one[:LONGEST_TEXT],
-                    "type": kind,
-                    "value": Values().of(getattr(value, attribute)) if attribute else None,
-                    "read_only": bool(about.read_only),
-                    "range": [ranges[0].from_value, ranges[0].to_value] if ranges else None,
-                }
-            )
-        return {"parameters": found}
-
-    def own_definitions(self, infos: dict[str, Any]) -> dict[str, Any]:
-        """Return the hash that each type of our own ends has."""
-        name = self.probe.node.get_name()
-        ends = [("subscription", topic) for topic in self.watched]
-        ends += [("publisher", topic) for topic in self.publishers]
-        return {
-            info.topic_type: info.topic_type_hash
-            for role, topic in ends
-            for info in infos[role](topic)
-            if info.node_name == name
-        }
+        """Return the parameters of a node."""
+        return {"parameters": read_parameters(self.probe, command["name"], deadline)}
 
     def look_closely(self, _: dict[str, Any], __: float) -> dict[str, Any]:
         """Return every end of the nodes that are not ours."""
         self.hear_best_effort()
-        node = self.probe.node
-        ends: list[dict[str, Any]] = []
-        ours = {"/" + node.get_name()}  # (the node of a world is one of the graph)
-        names = [
-            (name, space)
-            for name, space in node.get_node_names_and_namespaces()
-            if (space.rstrip("/") + "/" + name) not in ours
-        ]
-        qos: dict[tuple[str, str, str], tuple[str, str, bool]] = {}
-        own = self.own_definitions(
-            infos := {
-                "publisher": node.get_publishers_info_by_topic,
-                "subscription": node.get_subscriptions_info_by_topic,
-            }
-        )
-        readers = (
-            ("publisher", node.get_publisher_names_and_types_by_node),
-            ("subscription", node.get_subscriber_names_and_types_by_node),
-            ("service", node.get_service_names_and_types_by_node),
-            ("client", node.get_client_names_and_types_by_node),
-        )
-        for name, space in names:
-            full = space.rstrip("/") + "/" + name
-            for role, read in readers:
-                try:
-                    found = read(name, space)
-                except RuntimeError:  # the node has gone
-                    continue
-                for topic, types in found:
-                    if role in infos and (role, topic, full) not in qos:
-                        for info in infos[role](topic):
-                            owner = info.node_namespace.rstrip("/") + "/" + info.node_name
-                            qos[role, topic, owner] = (
-                                info.qos_profile.reliability.name.lower(),
-                                info.qos_profile.durability.name.lower(),
-                                own.get(info.topic_type, info.topic_type_hash)
-                                != info.topic_type_hash,
-                            )
-                    reliability, durability, differs = qos.get((role, topic, full), ("", "", False))
-                    self.asked = self.asked or role == "client"
-                    for kind in types:
-                        ends.append(
-                            {
-                                "node": full[:256],
-                                "role": role,
-                                "name": topic[:256],
-                                "type": kind[:256],
-                                "reliability": reliability,
-                                "durability": durability,
-                                "differs": differs,
-                            }
-                        )
-        return {"ends": ends[:MOST_ENDPOINTS]}
+        topics = [("subscription", topic) for topic in self.watched]
+        topics += [("publisher", topic) for topic in self.publishers]
+        ends = ends_of_others(self.probe.node, topics)
+        self.asked = self.asked or any(end["role"] == "client" for end in ends)
+        return {"ends": ends}
 
 
 def commands(probe: Any) -> dict[str, Any]:
