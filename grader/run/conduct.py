@@ -26,6 +26,7 @@ STEP_SECONDS = 2.0  # wall time for one step
 SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
+DYING_SECONDS = 3.0  # wall time of a run for the ends of programs whose nodes have gone
 LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
 MOST_FEEDBACK = 1_000  # of a goal
@@ -130,6 +131,7 @@ class _Scene:
         self.deadline = 0.0  # by time.monotonic()
         self.at = 0  # ns
         self._unanswered = 0
+        self._dying_left = DYING_SECONDS
         self._names = {begin.node: full_name(assignment, begin) for begin in plan.start}
         self._waiting = sorted(plan.do, key=lambda one: one.at)
 
@@ -154,6 +156,7 @@ class _Scene:
                     break
                 self._tick(round(k * self.plan.clock.period * SECOND))
             self.seen.complete = len(self.seen.instants) == self.plan.clock.ticks
+        self._await_dying()
         if self._unanswered >= UNANSWERED:
             self.seen.stuck = self.seen.instants[max(0, len(self.seen.instants) - UNANSWERED)]
         watch.events += self.observer.settle()
@@ -225,6 +228,23 @@ class _Scene:
         self._record(said)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
+        if said["barrier"] is None:
+            self._await_dying()
+
+    def _await_dying(self) -> None:
+        """Wait until the programs have ended whose nodes have left the graph.
+
+        A program with an error leaves the graph first and ends some 0.1 s later: without a node to
+        wait for, all instants of the plan would be over by then.
+        """
+        began, known = time.monotonic(), {node.name for node in self.run.nodes}
+        while not self.over and time.monotonic() - began < self._dying_left:
+            answer = self.probe.ask("wait", seconds=0.02)
+            self._take(answer)
+            there = sum(node.name in known for node in answer.nodes)
+            if there >= sum(not terminal.ended for terminal in self.terminals):
+                break
+        self._dying_left -= time.monotonic() - began
 
     def _do_all(self, until: float) -> None:
         while self._waiting and self._waiting[0].at <= until + 1e-9 and not self.over:
