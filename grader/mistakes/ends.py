@@ -15,7 +15,8 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.callback import never_ends_in
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.order import attribute_needed_early
+from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -80,6 +81,16 @@ def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     for end in ends(raised.source):
         here = raised.line is None or end.call.lineno <= raised.line <= _last(end.call)
         if here and isinstance(end.callback, ast.Call) and end.method in raised.source.methods:
+            return raised.finding("end_callback_called", at=end.call, name=end.method)
+    return None
+
+
+def _called_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback is called in __init__, before the line that sets what it needs."""
+    early = attribute_needed_early(raised, match)
+    for end in ends(raised.source) if early is not None else ():
+        inside = early is not None and end.call in ast.walk(early.needs)
+        if inside and isinstance(end.callback, ast.Call) and end.method in raised.source.methods:
             return raised.finding("end_callback_called", at=end.call, name=end.method)
     return None
 
@@ -329,7 +340,7 @@ KINDS = (
         msg("The callback is called, not passed on"),
         LATER,
         msg("Write self.{name} without parentheses."),
-        raised={r"Error|Exception": _called},
+        raised={r"Error|Exception": _called, OWN_ATTRIBUTE: _called_early},
     ),
     _node(
         "end_callback_text",

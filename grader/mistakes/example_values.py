@@ -136,6 +136,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_text": {"name": "'self.callback'", "written": "self.callback"},
     "node.text_operator": {"name": "&", "written": "+"},
     "node.name_taken": {"name": "timers", "line": "12"},
+    "node.attribute_set_late": {"name": "self.counter", "line": "12"},
     "node.name_shared": {"name": "counter", "line": "12", "written": "on_timer"},
     "node.text_outside": {
         "name": "info",

@@ -10,9 +10,17 @@ from grader.mistakes import links
 from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import node_order
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    of_self,
+)
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, last_part
+from grader.package.source.early_use import EarlyUse, early_use
+from grader.package.source.names import calls_in, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at
 
@@ -38,6 +46,24 @@ def _used_before_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
         return None
     found = raised.finding("used_before_set", at=use, name=name, line=str(later.lineno))
     return replace(found, variant="line")
+
+
+def attribute_needed_early(raised: Raised, match: re.Match[str]) -> EarlyUse | None:
+    """Return where __init__ needs the missing attribute before the line that sets it."""
+    if raised.line is None or not of_self(raised, match):
+        return None
+    return early_use(raised.source, raised.module, raised.line, match["name"])
+
+
+def _attribute_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    early = attribute_needed_early(raised, match)
+    if early is None:
+        return None
+    callbacks = {timer.method for timer in raised.source.timers} - {""}
+    if callbacks & {own_name(call.func) for call, _ in calls_in(early.needs)}:
+        return None  # (the timer calls it later: see timer.py)
+    name, late = f"self.{match['name']}", str(early.sets.lineno)
+    return raised.finding("attribute_set_late", at=early.needs, name=name, line=late)
 
 
 def _cleanup(source: NodeSource) -> tuple[str, int] | None:
@@ -134,6 +160,44 @@ KINDS = (
                 ),
                 fails="run.starts",
                 note="the finally raises the same error once more",
+            ),
+        ),
+    ),
+    _node(
+        "attribute_set_late",
+        "start",
+        msg("__init__ uses an attribute before the line that sets it"),
+        msg(
+            "Python runs the lines of __init__ from top to bottom, and {name} does not exist until "
+            "line {line} has run."
+        ),
+        msg("Move line {line} ({name} = …) above this line."),
+        links.PYTHON_CLASSES,
+        raised={OWN_ATTRIBUTE: _attribute_late},
+        fixed_by=(node_order.attribute_first,),
+        examples=(
+            example(
+                "period_set_after_timer",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.create_timer(self.period_, self.timer_callback)\n"
+                    "        self.period_ = 1.0\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "set_up_before_attribute",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.set_up()\n"
+                    "        self.period_ = 1.0\n"
+                    "\n"
+                    "    def set_up(self):\n"
+                    "        self.create_timer(self.period_, self.timer_callback)\n",
+                ),
+                fails="run.starts",
             ),
         ),
     ),

@@ -13,6 +13,7 @@ from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_scope, node_timer
 from grader.mistakes.kind import Family
+from grader.mistakes.order import attribute_needed_early
 from grader.mistakes.recognised import (
     NAME_ERROR,
     OWN_ATTRIBUTE,
@@ -24,7 +25,7 @@ from grader.mistakes.recognised import (
 )
 from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.place import function_at
 
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
@@ -54,6 +55,25 @@ def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     for timer in raised.source.timers:
         if timer.called and timer.method == match["name"] and raised.line == timer.call.lineno:
             return raised.finding("callback_called", at=timer.call)
+    return None
+
+
+def _called_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback runs in __init__, before the line that sets what it needs."""
+    early = attribute_needed_early(raised, match)
+    inside = list(ast.walk(early.needs)) if early is not None else []
+    for timer in raised.source.timers:
+        if timer.called and timer.call in inside:
+            return raised.finding("callback_called", at=timer.call)
+    return None
+
+
+def _by_hand_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    early = attribute_needed_early(raised, match)
+    names = {timer.method for timer in raised.source.timers} - {""}
+    for call, _ in calls_in(early.needs) if early is not None else ():
+        if own_name(call.func) in names:
+            return raised.finding("called_by_hand", at=call)
     return None
 
 
@@ -336,6 +356,7 @@ KINDS = (
         raised={
             "'NoneType' object is not callable|'arg_name'|is not a callable object": _called,
             r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) takes": _called_with,
+            OWN_ATTRIBUTE: _called_early,
         },
         behind={"run.by_hand": _calls_back_at_once},
         fixed_by=(node_timer.callback,),
@@ -351,6 +372,16 @@ KINDS = (
             example(
                 "callback_called_with_self",
                 Replace(NODE, "self.timer_callback)", "self.timer_callback(self))"),
+                fails="run.starts",
+            ),
+            example(
+                "callback_called_before_counter",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "self.timer_callback)\n",
+                    "self.timer_callback())\n        self.counter_ = 0\n",
+                ),
                 fails="run.starts",
             ),
         ),
@@ -695,9 +726,19 @@ KINDS = (
         msg("__init__ calls the callback itself"),
         msg("The timer makes the first call after one period; your own call comes too early."),
         msg("Remove the line self.{callback}() from __init__."),
+        raised={OWN_ATTRIBUTE: _by_hand_early},
         behind={"run.by_hand": _by_hand},
         fixed_by=(node_timer.by_hand,),
         examples=(
+            example(
+                "called_by_hand_before_counter",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.timer_callback()\n        self.counter_ = 0\n",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "called_by_hand",
                 Replace(

@@ -33,6 +33,7 @@ BACK_TO_SOLUTION = (
     *("bracket_too_many", "colon_after_super", "one_equals_sign", "body_not_indented"),
     *("docstring_not_closed", "node_in_init", "comma_between_tuples_missing"),
     *("number_added_outside", "marker_without_slash", "node_in_init_and_empty_file"),
+    "called_by_hand_before_counter",
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
 OTHERWISE = {
@@ -56,6 +57,9 @@ OTHERWISE = {
     "period_is_tuple": "self.period_ = 1.0\n",
     "period_with_comma": "period = 1.0\n",
     "helper_misspelt": "from my_robot_controller.utils import",
+    "callback_called_before_counter": "self.timer_callback)\n        self.counter_ = 0\n",
+    "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
+    "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
 # Only the student knows what these should be.

@@ -62,6 +62,30 @@ def moved_up(case: Case) -> Files | None:
     )
 
 
+def attribute_first(case: Case) -> Files | None:
+    """Move the line that sets an attribute to before the statement of __init__ that needs it."""
+    node, module, line = case.node, case.module, case.finding.line
+    init = node.method("__init__") if node is not None else None
+    name = str(case.finding.params.get("name", ""))
+    late = str(case.finding.params.get("line", ""))
+    if module is None or init is None or not module.has(init):
+        return None
+    user = next((s for s in init.body if s.lineno == line), None)
+    sets = next((s for s in init.body if str(s.lineno) == late and name in targets_of(s)), None)
+    if user is None or sets is None or not _is_own_line(module, sets):
+        return None
+    between = init.body[init.body.index(user) : init.body.index(sets)]
+    used = [n for n in ast.walk(sets) if isinstance(n, ast.Name | ast.Attribute | ast.Call)]
+    needed = {dotted(n) for n in used}
+    changed = {target for s in between for n in ast.walk(s) for target in targets_of(n)}
+    if any(isinstance(n, ast.Call) for n in used) or needed & (changed - {name}):
+        return None
+    row = module.text.line(sets.lineno)
+    return case.changed(
+        module, module.text.without(sets.lineno), module.text.before(user.lineno, row)
+    )
+
+
 def _has(statement: ast.stmt, part: ast.AST) -> bool:
     return any(node is part for node in ast.walk(statement))
 
