@@ -4,45 +4,26 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import LOG, NODE, example
+from grader.mistakes.example import LOG, NODE, SILENT, example
+from grader.mistakes.fixes import node_logging
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
-from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part
+from grader.package.source.node import NodeSource
+from grader.package.source.python_logging import full_name, imports, is_of_logging, python_logs
 
 ROS_NODE = ("rclpy.node", "rclpy.lifecycle", "rclpy.lifecycle.node")
 
 
-def _imports(module: Module) -> Iterator[tuple[str, str, ast.stmt]]:
-    """Yield the name that each import binds, the full name behind it, and the statement."""
-    for node in module.nodes:
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield alias.asname or alias.name, alias.name, node
-        elif isinstance(node, ast.ImportFrom) and not node.level:
-            for alias in node.names:
-                yield alias.asname or alias.name, f"{node.module}.{alias.name}", node
-
-
-def _full_name(suspect: Suspect, call: ast.Call) -> str:
-    """Return the imported name of what is called: threading.Timer; "" if it is not imported."""
-    written = dotted(call.func)
-    for bound, full, _ in _imports(suspect.source.module_of(call)):
-        if written == bound or written.startswith(f"{bound}."):
-            return full + written.removeprefix(bound)
-    return ""
-
-
 def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
     for call in suspect.source.calls_of("Timer"):
-        if _full_name(suspect, call) == "threading.Timer":
+        if full_name(suspect.source.module_of(call), call.func) == "threading.Timer":
             found = suspect.finding("threading_timer", call)
             lines = _lines_of_timer(suspect, call)
             if not lines:
@@ -66,16 +47,32 @@ def _lines_of_timer(suspect: Suspect, call: ast.Call) -> list[int]:
 def _python_logging(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a logger of Python's logging where the lines are logged."""
     source = suspect.source
-    for call in source.calls_of("getLogger", "basicConfig", "info"):
-        if _full_name(suspect, call).startswith("logging."):
-            return suspect.finding("python_logging", call)
-    return None
+    set_up = [c for c in source.calls_of("getLogger", "basicConfig") if _of_logging(source, c)]
+    logs = [c for module in source.modules for c in python_logs(source, module.tree)]
+    calls = set_up or logs
+    return suspect.finding("python_logging", calls[0]) if calls else None
+
+
+def _of_logging(source: NodeSource, call: ast.Call) -> bool:
+    return is_of_logging(source.module_of(call), call.func)
+
+
+def _python_logging_hidden(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a callback that logs only with Python's logging, whose level hides the lines."""
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None or not source.timers:
+        return None
+    own = [call for call in source.own_logs if call in ast.walk(callback)]
+    logs = python_logs(source, callback)
+    if own or not logs:
+        return None
+    return replace(suspect.finding("python_logging", logs[0]), variant="hidden")
 
 
 def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
     for call in suspect.source.calls_of("signal"):
         ignored = len(call.args) > 1 and last_part(dotted(call.args[1])).startswith("SIG_")
-        if _full_name(suspect, call) == "signal.signal" and not ignored:
+        if full_name(suspect.source.module_of(call), call.func) == "signal.signal" and not ignored:
             return suspect.finding("signal_handler", call)
     return None
 
@@ -91,7 +88,7 @@ def _other_node_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     del match
     for found in raised.source.family:
         for base in map(dotted, found.bases):
-            for bound, full, node in _imports(raised.source.module_of(found)):
+            for bound, full, node in imports(raised.source.module_of(found)):
                 if (
                     base == bound
                     and isinstance(node, ast.ImportFrom)
@@ -148,12 +145,60 @@ KINDS = (
         msg("ROS does not know that logger: its lines have another form and do not reach /rosout."),
         msg("Write self.get_logger().info(…) in the callback, and remove the logging module."),
         links.LOGGING,
+        whys={
+            "hidden": msg(
+                "This line logs with Python's logging module, which shows only warnings and errors "
+                "unless it is set up. ROS does not know that logger, so its lines do not reach "
+                "/rosout either."
+            )
+        },
+        fixes={
+            "hidden": msg(
+                "Write self.get_logger().info(…) on this line: the node's own logger. Then remove "
+                "the logging module."
+            )
+        },
         behind={
+            "run.no_lines": _python_logging_hidden,
             "run.wrong_text": _python_logging,
             "run.print_not_logger": _python_logging,
             "run.other_logger": _python_logging,
         },
+        fixed_by=(node_logging.own_logger,),
         examples=(
+            example(
+                "python_logging_not_set_up",
+                Replace(NODE, "import rclpy\nfrom", "import logging\nimport rclpy\nfrom"),
+                Replace(NODE, "self.get_logger().info", "logging.info"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "python_logger_of_the_file",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom rclpy.node import Node\n",
+                    "import rclpy\nfrom logging import getLogger\n"
+                    "from rclpy.node import Node\n\nlogger = getLogger(__name__)\n",
+                ),
+                Replace(NODE, LOG, "logger.info('Hello time: %d', self.counter_)"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "python_logger_of_the_node",
+                Replace(NODE, "import rclpy\nfrom", "import logging\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.counter_ = 0\n"
+                    "        self.logger = logging.getLogger('my_first_node')\n"
+                    "        self.logger.setLevel(logging.INFO)\n",
+                ),
+                Replace(NODE, "self.get_logger().info", "self.logger.info"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "python_logging",
                 Replace(

@@ -33,7 +33,8 @@ BACK_TO_SOLUTION = (
     *("bracket_too_many", "colon_after_super", "one_equals_sign", "body_not_indented"),
     *("docstring_not_closed", "node_in_init", "comma_between_tuples_missing"),
     *("number_added_outside", "marker_without_slash", "node_in_init_and_empty_file"),
-    "called_by_hand_before_counter",
+    *("called_by_hand_before_counter", "python_logging_not_set_up", "python_logger_of_the_node"),
+    "python_logging_bare",
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
 OTHERWISE = {
@@ -58,6 +59,8 @@ OTHERWISE = {
     "period_with_comma": "period = 1.0\n",
     "helper_misspelt": "from my_robot_controller.utils import",
     "callback_called_before_counter": "self.timer_callback)\n        self.counter_ = 0\n",
+    "python_logging": "self.get_logger().info('Hello time: ' + str(self.counter_))",
+    "python_logger_of_the_file": "self.get_logger().info('Hello time: %d' % self.counter_)",
     "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
