@@ -12,6 +12,7 @@ from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
 from grader.package.source.names import dotted
 from grader.package.source.sleeps import longest_sleep
@@ -77,19 +78,9 @@ def never_ends_in(method: Function) -> ast.Call | ast.While | None:
     for node in ast.walk(method):
         if isinstance(node, ast.Call) and dotted(node.func) == "input":
             return node
-        if isinstance(node, ast.While) and _goes_on(node):
+        if isinstance(node, ast.While) and goes_on(node):
             return node
     return None
-
-
-def _goes_on(loop: ast.While) -> bool:
-    """Whether a loop has no end: its condition is true, or an attribute that it does not set."""
-    left = any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))
-    tested = dotted(loop.test)
-    parts = list(ast.walk(loop))
-    sets = any(isinstance(n, ast.Assign) and dotted(n.targets[0]) == tested for n in parts)
-    constant = isinstance(loop.test, ast.Constant) and bool(loop.test.value)
-    return (constant or (tested.startswith("self.") and not sets)) and not left
 
 
 _node = Family("node", links.FIRST_NODE)

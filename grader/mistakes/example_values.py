@@ -164,6 +164,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.count_if": {"name": "self.counter", "text": "self.counter > 0"},
     "node.ends_in_callback": {"name": "rclpy.shutdown()"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
+    "node.callback_repeats": {"name": "while"},
+    "node.constructor_repeats": {"name": "while", "method": "run", "line": "12"},
     "node.inner_not_called": {"name": "say_hello"},
     "node.placeholder": {"name": "callback"},
 }

@@ -14,9 +14,10 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.imported import full_name, imports
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.python_logging import full_name, imports, is_of_logging, python_logs
+from grader.package.source.python_logging import is_of_logging, python_logs
 
 ROS_NODE = ("rclpy.node", "rclpy.lifecycle", "rclpy.lifecycle.node")
 

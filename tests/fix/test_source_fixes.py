@@ -37,6 +37,10 @@ BACK_TO_SOLUTION = (
     "python_logging_bare",
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
+STEPS_ALONE = (
+    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+    "        self.counter_ += 1\n\n"
+)
 OTHERWISE = {
     "spin_before_node": "    node = MyFirstNode()\n    rclpy.spin(node)\n",
     "shutdown_before_spin": "    node = MyFirstNode()\n    rclpy.spin(node)\n    rclpy.shutdown()\n",
@@ -61,6 +65,10 @@ OTHERWISE = {
     "callback_called_before_counter": "self.timer_callback)\n        self.counter_ = 0\n",
     "python_logging": "self.get_logger().info('Hello time: ' + str(self.counter_))",
     "python_logger_of_the_file": "self.get_logger().info('Hello time: %d' % self.counter_)",
+    "while_and_sleep_in_callback": STEPS_ALONE,
+    "while_in_method_of_constructor": STEPS_ALONE,
+    "while_in_constructor_beside_timer": "self.timer_callback)\n\n    def timer_callback",
+    "while_in_constructor": "self.counter_ = 0\n        self.create_timer(1.0, self.timer_callback)\n\n",
     "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
@@ -76,6 +84,7 @@ NOT_FIXED = (
         "none_called",
     ),
     *("init_defined_twice", "callback_defined_twice", "init_twice_without_counter"),
+    "while_logs_in_constructor",
     *("node_of_ros_1", "loginfo_of_rospy", "helper_not_handed_in", "loop_catches_everything"),
 )
 

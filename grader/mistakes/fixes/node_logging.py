@@ -7,18 +7,13 @@ import ast
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
+from grader.package.source.imported import full_name, imports
 from grader.package.source.module import Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.python import PythonFault, parse_python
-from grader.package.source.python_logging import (
-    full_name,
-    imports,
-    is_of_logging,
-    python_loggers,
-    python_logs,
-)
+from grader.package.source.python_logging import is_of_logging, python_loggers, python_logs
 
 
 def own_logger(case: Case) -> Files | None:

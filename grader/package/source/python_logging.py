@@ -3,36 +3,14 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
 from grader.package.source.counter import targets_of
+from grader.package.source.imported import full_name
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 
 METHODS = ("debug", "info", "warn", "warning", "error", "fatal", "critical", "exception", "log")
-HIDDEN = ("debug", "info")
-"""The methods that show nothing, because Python's own level is WARNING."""
-
-
-def imports(module: Module) -> Iterator[tuple[str, str, ast.stmt]]:
-    """Yield the name that each import binds, the full name behind it, and the statement."""
-    for node in module.nodes:
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield alias.asname or alias.name, alias.name, node
-        elif isinstance(node, ast.ImportFrom) and not node.level:
-            for alias in node.names:
-                yield alias.asname or alias.name, f"{node.module}.{alias.name}", node
-
-
-def full_name(module: Module, named: ast.AST) -> str:
-    """Return the imported name of what is named: threading.Timer; "" if it is not imported."""
-    written = dotted(named)
-    for bound, full, _ in imports(module):
-        if written == bound or written.startswith((f"{bound}.", f"{bound}()")):
-            return full + written.removeprefix(bound)
-    return ""
 
 
 def is_of_logging(module: Module, named: ast.AST) -> bool:

@@ -1,0 +1,118 @@
+"""Fixes of loops that do what a timer does."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from grader.mistakes.fixes import lines
+from grader.mistakes.fixes.case import Case
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
+from grader.package.source.endless import Loop, calls_of_methods, sleeps_in
+from grader.package.source.module import Function, Module
+from grader.package.source.names import own_name
+from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of, function_at
+
+
+def without_loop(case: Case) -> Files | None:
+    """Remove the loop of the finding and the sleep in it, and keep its other lines."""
+    found = _loop(case)
+    if found is None or case.node is None or _counts_itself(found[1], found[2]):
+        return None
+    unwrapped = lines.unwrapped(case)
+    module, _, function = found
+    after = replace(case, files=unwrapped) if unwrapped is not None else case
+    return _without_sleep(after, module.path, function.name) if unwrapped is not None else None
+
+
+def timer_for_loop(case: Case) -> Files | None:
+    """Create a timer where __init__ calls the method with the loop, and remove the loop."""
+    found, node = _loop(case), case.node
+    init = node.method("__init__") if node is not None else None
+    if found is None or node is None or init is None or node.timers:
+        return None
+    module, loop, method = found
+    calls = [call for call, called in calls_of_methods(node, init) if called is method]
+    body = [s for s in method.body if not _is_text(s)]
+    plain = body == [loop] and ast.unparse(method.args) == "self" and not method.decorator_list
+    if len(calls) != 1 or calls[0].args or not plain or not module.has(calls[0]):
+        return None
+    if not isinstance(module.parents.get(calls[0]), ast.Expr):
+        return None
+    seconds = case.assignment.output.period
+    new = f"self.create_timer({seconds!r}, self.{method.name})"
+    made = case.changed(module, module.text.swap(calls[0], new))
+    return without_loop(replace(case, files=made)) if made is not None else None
+
+
+def only_call(source: NodeSource, loop: Loop) -> str:
+    """Return the method that a loop calls, if that and a sleep is all it does; "" otherwise."""
+    sleeps = sleeps_in(source, loop)
+    rest = [s for s in loop.body if not (isinstance(s, ast.Expr) and s.value in sleeps)]
+    value = rest[0].value if len(rest) == 1 and isinstance(rest[0], ast.Expr) else None
+    if not isinstance(value, ast.Call) or value.args or value.keywords or loop.orelse:
+        return ""
+    return own_name(value.func) if own_name(value.func) in source.methods else ""
+
+
+def timer_for_calls(case: Case) -> Files | None:
+    """Create a timer in __init__ instead of a loop there that only calls a method.
+
+    If a timer calls it already, only the loop is deleted.
+    """
+    found, node = _loop(case), case.node
+    if found is None or node is None or found[2].name != "__init__":
+        return None
+    module, loop, _ = found
+    method = only_call(node, loop)
+    if node.timers:
+        return lines.deleted(case) if method in {t.method for t in node.timers} else None
+    start, end = module.text.span(loop)
+    new = f"self.create_timer({case.assignment.output.period!r}, self.{method})"
+    return case.changed(module, Splice(start, end, new)) if method else None
+
+
+def _loop(case: Case) -> tuple[Module, Loop, Function] | None:
+    """Return the loop of the finding, its file, and the function around it."""
+    module, line = case.module, case.finding.line
+    found = [
+        n for n in (module.nodes if module else ()) if isinstance(n, Loop) and n.lineno == line
+    ]
+    function = function_at(module, line) if module is not None else None
+    if module is None or len(found) != 1 or function is None:
+        return None
+    return module, found[0], function
+
+
+def _counts_itself(loop: Loop, function: Function) -> bool:
+    """Whether the loop changes a variable of the function, which the next call does not know."""
+    inside = {n.id for n in ast.walk(loop) if isinstance(n, ast.Name) and _is_set(n)}
+    before = [n for s in function.body if s.lineno < loop.lineno for n in ast.walk(s)]
+    return any(isinstance(n, ast.Name) and n.id in inside and _is_set(n) for n in before)
+
+
+def _is_set(name: ast.Name) -> bool:
+    return isinstance(name.ctx, ast.Store)
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+
+
+def _without_sleep(case: Case, path: str, name: str) -> Files | None:
+    """Delete the sleeps of a method, each a statement on its own line."""
+    node: NodeSource | None = case.node
+    method = node.method(name) if node is not None else None
+    if node is None or method is None:
+        return None
+    module, splices = node.module_at(path), []
+    for call in sleeps_in(node, method):
+        statement = module.parents.get(call)
+        if not isinstance(statement, ast.Expr) or len(block_of(module, statement)) == 1:
+            return None
+        if module.text.line(statement.lineno).strip() != module.text.code(statement):
+            return None
+        splices.append(module.text.without(statement.lineno))
+    return case.changed(module, *splices) if splices else case.files

@@ -1,0 +1,183 @@
+"""Mistakes in which a loop of the node does what a timer does, so that nothing spins."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_loops
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
+
+IMPORT = Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom time import sleep\nfrom")
+TIMER_LINE = "        self.create_timer(1.0, self.timer_callback)\n"
+WHILE_OK = Replace(
+    NODE,
+    LOG_LINE + STEP_LINE,
+    f"        while rclpy.ok():\n    {LOG_LINE}    {STEP_LINE}            sleep(1.0)\n",
+)
+
+
+def _word(loop: Loop) -> str:
+    return "while" if isinstance(loop, ast.While) else "for"
+
+
+def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop that does not end, or that sleeps, in what the timer calls."""
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None or callback.name not in {timer.method for timer in source.timers}:
+        return None
+    for function in (callback, *(method for _, method in calls_of_methods(source, callback))):
+        loop = endless_loop(source, function)
+        if loop is not None:
+            found = suspect.finding("callback_repeats", loop, name=_word(loop))
+            return replace(found, variant="sleep" if sleeps_in(source, loop) else "")
+    return None
+
+
+def _sleeps_in_callback(suspect: Suspect) -> RecognisedMistake | None:
+    """The same for a loop that sleeps: another one that is silent is no timer's work."""
+    found = _in_callback(suspect)
+    return found if found is not None and found.variant == "sleep" else None
+
+
+def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop that keeps __init__ from returning."""
+    source, init = suspect.source, suspect.source.methods.get("__init__")
+    if init is None:
+        return None
+    direct = endless_loop(source, init)
+    for loop, call in [(direct, None)] + [
+        (endless_loop(source, method), call) for call, method in calls_of_methods(source, init)
+    ]:
+        if loop is None:
+            continue
+        found = suspect.finding("constructor_repeats", loop, name=_word(loop))
+        if source.timers:
+            return replace(found, variant="timer")
+        only = node_loops.only_call(source, loop)
+        if call is None and only:
+            return replace(found, variant="calls", words={**found.words, "method": only})
+        method = source.function_around(loop)
+        if call is None or method is None:
+            return found
+        words = {**found.words, "method": method.name, "line": str(call.lineno)}
+        return replace(found, variant="method", words=words)
+    return None
+
+
+_node = Family("node", links.EXECUTORS)
+KINDS = (
+    _node(
+        "callback_repeats",
+        "callback",
+        msg("The callback repeats itself in a loop, and does not return"),
+        msg(
+            "The timer calls {callback} again in each period. While the loop in it runs, it does "
+            "not return: the timer cannot call it, and ROS can call no other callback."
+        ),
+        msg("Delete this {name}, and indent its lines as far as the {name} is indented now."),
+        fixes={
+            "sleep": msg(
+                "Delete this {name} and the sleep in it, and indent its other lines as far as the "
+                "{name} is indented now: the timer repeats them already."
+            )
+        },
+        behind={
+            "run.never_spins": _in_callback,
+            "run.no_lines": _sleeps_in_callback,
+            "run.stops": _sleeps_in_callback,
+            "run.twice": _in_callback,
+        },
+        fixed_by=(node_loops.without_loop,),
+        examples=(
+            example(
+                "while_and_sleep_in_callback",
+                IMPORT,
+                WHILE_OK,
+                fails="run.spins",
+                also={"run.output": "node.callback_repeats"},
+            ),
+        ),
+    ),
+    _node(
+        "constructor_repeats",
+        "spin",
+        msg("A loop keeps __init__ from returning, so spin is never reached"),
+        msg(
+            "{function} creates the node and then spins it. While this loop runs, __init__ does "
+            "not return: rclpy.spin is never called, and ROS can call no callback of the node."
+        ),
+        msg(
+            "Put the lines of the loop into a method, without the {name} and without a sleep, and "
+            "create a timer here that calls it: self.create_timer({period}, self.{callback})"
+        ),
+        fixes={
+            "timer": msg(
+                "Delete this {name} from __init__ and from what __init__ calls: the timer calls "
+                "{callback} in each period."
+            ),
+            "calls": msg(
+                "Write self.create_timer({period}, self.{method}) instead of this loop: the timer "
+                "calls the method in each period."
+            ),
+            "method": msg(
+                "Write self.create_timer({period}, self.{method}) instead of self.{method}() on "
+                "line {line}. Delete this {name} and the sleep in it, and indent its other lines "
+                "as far as the {name} is indented now."
+            ),
+        },
+        behind={
+            "run.never_spins": _in_constructor,
+            "run.no_lines": _in_constructor,
+            "run.twice": _in_constructor,
+        },
+        fixed_by=(node_loops.timer_for_loop, node_loops.timer_for_calls),
+        examples=(
+            example(
+                "while_in_method_of_constructor",
+                IMPORT,
+                WHILE_OK,
+                Replace(NODE, TIMER_LINE, "        self.timer_callback()\n"),
+                fails="run.spins",
+            ),
+            example(
+                "while_logs_in_constructor",
+                IMPORT,
+                Replace(
+                    NODE,
+                    TIMER_LINE,
+                    f"        while True:\n    {LOG_LINE}    {STEP_LINE}            sleep(1.0)\n",
+                ),
+                fails="run.spins",
+            ),
+            example(
+                "while_in_constructor_beside_timer",
+                IMPORT,
+                Replace(
+                    NODE,
+                    TIMER_LINE,
+                    f"{TIMER_LINE}        while rclpy.ok():\n            self.timer_callback()\n"
+                    "            sleep(1.0)\n",
+                ),
+                fails="run.spins",
+            ),
+            example(
+                "while_in_constructor",
+                IMPORT,
+                Replace(
+                    NODE,
+                    TIMER_LINE,
+                    "        while True:\n            self.timer_callback()\n"
+                    "            sleep(1.0)\n",
+                ),
+                fails="run.spins",
+            ),
+        ),
+    ),
+)
