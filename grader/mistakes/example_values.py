@@ -153,6 +153,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "helper",
         "close": "helpers",
     },
+    "node.own_module_alone": {
+        "path": "my_package/helpers.py",
+        "there": "helpers.py",
+        "name": "import helpers",
+        "written": "from my_package import helpers",
+    },
     "node.comma_for_dot": {"name": "self,counter", "written": "self.counter"},
     "node.counter_not_number": {"name": "None", "written": "0", "attribute": "self.counter"},
     "node.arguments_many": {"name": "__init__"},

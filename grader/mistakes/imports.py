@@ -11,7 +11,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import INNER, NODE, example
-from grader.mistakes.fixes import lines, node_life, node_names, node_objects, rename
+from grader.mistakes.fixes import lines, node_imports, node_life, node_names, node_objects, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace, Write
@@ -39,6 +39,37 @@ IMPORTS = {
     },
     **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
 }
+NODE_IMPORT = "from rclpy.node import Node\n"
+TEXT_OF = "def text_of(number):\n    return str(number)\n"
+HELLO_CLASS = """\
+from rclpy.node import Node
+
+
+class MyFirstNode(Node):
+    def __init__(self):
+        super().__init__('my_first_node')
+        self.counter_ = 0
+        self.create_timer(1.0, self.timer_callback)
+
+    def timer_callback(self):
+        self.get_logger().info('Hello time: ' + str(self.counter_))
+        self.counter_ += 1
+"""
+HELLO_MAIN = """\
+#!/usr/bin/env python3
+import rclpy
+from hello_class import MyFirstNode
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    rclpy.try_shutdown()
+"""
 CLOSE = msg("Write {close} instead of {name}.")
 
 
@@ -167,6 +198,67 @@ KINDS = (
         ),
     ),
     _node(
+        "own_module_alone",
+        "start",
+        msg("A file of your own package is imported by a wrong name"),
+        msg(
+            "ros2 run starts the installed package. Python knows the files in it only as {package}."
+            "name, also from a file in the same folder."
+        ),
+        msg("Write {written} instead of {name}."),
+        links.PACKAGE,
+        whys={
+            "class": msg(
+                "The folder {package} and its files are different modules: a class or a function is "
+                "in the file that defines it."
+            )
+        },
+        fixes={"elsewhere": msg("Move {there} to {path}, and write {written} instead of {name}.")},
+        fixed_by=(node_imports.through_package,),
+        examples=(
+            example(
+                "class_from_own_file",
+                Write(f"{INNER}/hello_class.py", HELLO_CLASS),
+                Write(NODE, HELLO_MAIN, 0o755),
+                fails="run.starts",
+            ),
+            example(
+                "own_file_by_its_name",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import helpers as text\n"),
+                fails="run.starts",
+            ),
+            example(
+                "own_file_misspelt",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom helper import text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "package_named_twice",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(
+                    NODE,
+                    NODE_IMPORT,
+                    f"{NODE_IMPORT}\nfrom {INNER}.{INNER}.helpers import text_of\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "own_function_from_package",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom {INNER} import text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "own_file_beside_setup",
+                Write("helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom helpers import text_of\n"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "own_module_missing",
         "start",
         msg("A file of your package is missing"),
@@ -223,8 +315,9 @@ KINDS = (
             "none."
         ),
         msg(
-            "Check the spelling of the module's name; only modules of ROS and of Python are "
-            "available."
+            "Check the spelling of the module's name. Only modules of ROS and of Python are "
+            "available, and the files of your own package: import these with the package's name, "
+            "as in from {package}.name import …"
         ),
         links.PYTHON_ERRORS,
         close=CLOSE,

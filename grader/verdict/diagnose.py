@@ -20,6 +20,7 @@ from grader.verdict.checks.faults import raised_in
 from grader.verdict.checks.parsed import names_in
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
+from grader.verdict.own_modules import own_module
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -99,7 +100,7 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
         if error:
             return (
                 _not_installed(error, evidence)
-                or _not_handed_in(error, where, evidence)
+                or own_module(error, where, evidence)
                 or _raised(error, where, evidence)
             )
     source = source_of_node(evidence)
@@ -128,30 +129,6 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
     if evidence.submission.file(init) is None:
         return _no_init(package, init, evidence)
     return RecognisedMistake(kind="setup.not_packaged", where=Where(file="setup.py"))
-
-
-def _not_handed_in(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
-    """Return that the code imports a module of its own package that the package does not have."""
-    package = evidence.assignment.folder
-    match = re.search(rf"No module named '({re.escape(package)}(?:\.\w{{1,120}}){{1,9}})'", error)
-    if match is None or where is None or not where.file.startswith(f"{package}/"):
-        return None
-    path = match[1].replace(".", "/")
-    submission = evidence.submission
-    if any(submission.file(found) for found in (path, f"{path}.py")):
-        return None
-    folder, _, name = path.rpartition("/")
-    modules = [n.removesuffix(".py") for n in names_in(evidence, folder) if n.endswith(".py")]
-    close = nearest(name, modules, cutoff=0.75)
-    elsewhere = [f.path for f in submission.files if f.path.rpartition("/")[2] == f"{name}.py"]
-    there = shown(elsewhere[0]) if elsewhere else ""
-    return RecognisedMistake(
-        kind="node.own_module_missing",
-        params={"name": name, "close": close, "written": close} if close else {"name": name},
-        words={"path": f"{path}.py", "there": there, "close": shown(close)},
-        variant="close" if close else "elsewhere" if there else "",
-        where=where,
-    )
 
 
 def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:

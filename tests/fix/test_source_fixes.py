@@ -68,6 +68,11 @@ OTHERWISE = {
     "while_and_sleep_in_callback": STEPS_ALONE,
     "while_in_method_of_constructor": STEPS_ALONE,
     "while_in_constructor_beside_timer": "self.timer_callback)\n\n    def timer_callback",
+    "class_from_own_file": "from my_robot_controller.hello_class import MyFirstNode\n",
+    "own_file_by_its_name": "from my_robot_controller import helpers as text\n",
+    "own_file_misspelt": "from my_robot_controller.helpers import text_of\n",
+    "package_named_twice": "from my_robot_controller.helpers import text_of\n",
+    "own_function_from_package": "from my_robot_controller.helpers import text_of\n",
     "while_in_constructor": "self.counter_ = 0\n        self.create_timer(1.0, self.timer_callback)\n\n",
     "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",
@@ -84,7 +89,7 @@ NOT_FIXED = (
         "none_called",
     ),
     *("init_defined_twice", "callback_defined_twice", "init_twice_without_counter"),
-    "while_logs_in_constructor",
+    *("while_logs_in_constructor", "own_file_beside_setup"),
     *("node_of_ros_1", "loginfo_of_rospy", "helper_not_handed_in", "loop_catches_everything"),
 )
 
