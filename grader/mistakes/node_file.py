@@ -61,7 +61,7 @@ def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Recognise a label of a web page that Python takes for a name."""
     data = raised.module.text.spliced([]) or b""
     label = next((p for p in labels_in(data) if p.line == raised.line), None)
-    if label is None or label.found != match["name"]:
+    if label is None or label.word != match["name"]:
         return None
     return RecognisedMistake(
         kind="source.pasted",
@@ -367,6 +367,18 @@ KINDS = (
                 Replace(NODE, "import rclpy\n", ">>> import rclpy\n"),
                 fails="source.node_file",
                 blocks=UNSTARTED,
+            ),
+            example(
+                "shell_line_without_prompt",
+                Replace(NODE, "import rclpy\n", "chmod +x my_first_node.py\nimport rclpy\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "shell_line_that_is_python",
+                Replace(NODE, "import rclpy\n", "ls -l\nimport rclpy\n"),
+                fails="run.starts",
+                note="NameError: name 'ls' is not defined",
             ),
             example(
                 "shell_command",

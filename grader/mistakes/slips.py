@@ -39,7 +39,9 @@ PASTED = {
     "prompt": msg(
         "Remove {found} from the start of the lines: it is the prompt of Python, not code."
     ),
-    "command": msg("Delete that line: it is a command for the terminal, not code."),
+    "command": msg(
+        "Delete that line: it is a command and not code. Commands are typed in the terminal."
+    ),
     "heredoc": msg("Delete the line '{found}': it ends a command of the shell, and is not code."),
     "editor": msg("Delete the line '{found}': it is a command for the editor, not code."),
     "prose": msg("Delete that line: it is a sentence and not code."),

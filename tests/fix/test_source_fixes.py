@@ -34,7 +34,7 @@ BACK_TO_SOLUTION = (
     *("docstring_not_closed", "node_in_init", "comma_between_tuples_missing"),
     *("number_added_outside", "marker_without_slash", "node_in_init_and_empty_file"),
     *("called_by_hand_before_counter", "python_logging_not_set_up", "python_logger_of_the_node"),
-    "python_logging_bare",
+    *("python_logging_bare", "shell_line_without_prompt", "shell_line_that_is_python"),
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
 STEPS_ALONE = (

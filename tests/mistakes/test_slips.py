@@ -11,6 +11,24 @@ from grader.package.source.pasted import labels_in
 from grader.package.source.python import can_parse
 from grader.package.source.slips import slip_of
 
+COMMANDS = (
+    "chmod +x my_first_node.py",
+    "cd ..",
+    "  cd ~",
+    "colcon build --packages-select=a",
+    "export A=1",
+    "python3 my_first_node.py",
+    "sudo apt install -y x",
+    "mkdir -p ~/ros2_ws/src",
+    ". install/setup.bash",
+    "./my_first_node.py",
+    "ros2 run a b --ros-args -p use_sim_time:=true",
+    "source install/setup.bash",
+    "git clone https://a.b/c.git",
+    'echo "source /opt/ros/jazzy/setup.bash" >> ~/.bashrc',
+    "code .",
+    "ros2 pkg create a --build-type ament_python",
+)
 # what is written, the variant, its line, and the file after the fix ("" if there is none)
 PASTED = [
     ("a = \u201cx\u201d\n", "quotes", 1, 'a = "x"\n'),
@@ -30,6 +48,10 @@ PASTED = [
     (">>> if 1:\n...     a = 1\n", "prompt", 1, "if 1:\n    a = 1\n"),
     ("a = 1\ncd ~/ros2_ws && colcon build\nb = 2\n", "command", 2, "a = 1\nb = 2\n"),
     ("jane@pc:~/ros2_ws$ ros2 run a b\na = 1\n", "command", 1, "a = 1\n"),
+    *(
+        (f"a = 1\n{command}\nb = 2\n", "command", 2, "a = 1\nb = 2\n")
+        for command in COMMANDS
+    ),
     ("a = 1\n:wq\n", "editor", 2, "a = 1\n"),
     ("a = (1)\n  :q!\n", "editor", 2, "a = (1)\n"),
     ("1 import sys\n2 a = 1\n", "numbers", 1, "import sys\na = 1\n"),
@@ -152,7 +174,8 @@ SIGNS = [
     ),
 ]
 CODE = ["a = 1\n", "b = 4 // 2\n", "c = a < b > a\n", "'''\nPython\n// a++\n'''\n", "# \u201cx\u201d\n",
-        "d = '\u201cx\u201d'\n", "...\n", "Python = 1\nPython\n"]  # fmt: skip
+        "d = '\u201cx\u201d'\n", "...\n", "Python = 1\nPython\n",
+        "ls = l = 1\nls -l\n", "code = 1\ncode = code if code else 1\n", "f(\n    code in b,\n)\n"]  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -172,6 +195,12 @@ def test_a_slip_is_named_and_fixed(
     assert (slip.cause, slip.variant, slip.line) == (cause, variant, line)
     assert (slip.fixed or b"").decode() == fixed
     assert not fixed or can_parse(fixed.encode())
+
+
+@pytest.mark.parametrize("command", ["ls", "ls -l", "ros2", "chmod +x"])
+def test_a_command_that_python_reads_is_found(command: str) -> None:
+    (found,) = labels_in(f"a = 1\n{command}\n".encode())
+    assert (found.variant, found.line, found.word) == ("command", 2, command.partition(" ")[0])
 
 
 @pytest.mark.parametrize("text", CODE)

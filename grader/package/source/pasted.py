@@ -26,8 +26,36 @@ EDITOR = r":(?:wq?|qa?|x|wqa)!?|ZZ|\^[XCSOZ]"
 """What is typed to leave an editor."""
 COMMANDS = (
     *("cd", "source", "ros2", "colcon", "chmod", "sudo", "mkdir", "touch", "nano", "gedit", "code"),
-    *("export", "cat", "python3"),
+    *(
+        "export",
+        "cat",
+        "python3",
+        "python",
+        "pip",
+        "pip3",
+        "apt",
+        "apt-get",
+        "git",
+        "ls",
+        "cp",
+        "mv",
+    ),
+    *("rm", "vim", "vi", "echo", "rosdep", "rosrun", "roslaunch", "catkin_make", "bash"),
 )
+ALONE = ("ls", "pwd", "clear", "ros2", "colcon", "rviz2", "rqt", "rqt_graph")
+"""Commands that need no word behind them."""
+OPERATORS = "and|or|in|is|if|else|for|not|as"
+"""What Python has between two words of a line."""
+SHELL = rf"""
+    (?:{"|".join(COMMANDS)})[ ]{{1,9}}(?:
+        (?!(?:{OPERATORS})\b)[A-Za-z_~$"'][^\r\n]{{0,400}}
+      | (?:[-+]\w|[\w~./$<>])[^\r\n=(]{{0,400}}
+      | \.{{1,2}}
+    )
+  | (?:{"|".join(ALONE)})
+  | \.[ ][^\r\n=(]{{0,200}}setup\.(?:ba|z)?sh
+  | \./[\w./-]{{1,200}}
+"""
 TAGS = "br|p|code|pre|span|div|li|ul|ol|b|i|em|strong|font|a|td|tr|table"
 SINGLE, DOUBLE = (
     "\u2018\u2019\u201a\u201b\u2032\u00b4\uff07",
@@ -48,7 +76,7 @@ OPEN = re.compile(
         | (?P<heredoc>(?:{"|".join(ENDS)}){END})
         | (?P<editor>[ \t]{{0,20}}(?:{EDITOR}){END})
         | (?P<fence>[ \t]{{0,20}}(?:```|~~~)[ \t]{{0,9}}[\w+-]{{0,20}}{END})
-        | (?P<command>(?:{"|".join(COMMANDS)})[ ]{{1,9}}(?:-\w|[\w~./$<>])[^\r\n=(]{{0,400}}{END})
+        | (?P<command>[ \t]{{0,20}}(?:{SHELL}){END})
         | (?P<shell>(?:[\w.-]{{1,40}}@[\w.-]{{1,60}}:[^\r\n$\#]{{0,200}})?\$[ ][^\r\n]{{0,400}}{END})
         | (?P<prompt>(?:>>>|\.\.\.)(?:[ ]|{END}))
       ))
@@ -98,6 +126,11 @@ class Pasted:
     found: str
     splice: Splice
 
+    @property
+    def word(self) -> str:
+        """The name that Python takes it for: the first word of a command, else all of it."""
+        return self.found.partition(" ")[0] if self.variant == "command" else self.found
+
 
 def pasted_in(source: SourceText) -> list[Pasted]:
     """Return all that may have been pasted, in order.
@@ -120,18 +153,21 @@ def labels_in(found: bytes) -> list[Pasted]:
     source = read_source(found)
     if source is None:
         return []
-    labels = [p for p in pasted_in(source) if p.variant in ("label", "heredoc", "editor")]
+    labels = [p for p in pasted_in(source) if p.variant in WHOLE_LINES]
     try:
         tree = parse_python(found).tree if labels else ast.Module([], [])
     except PythonFault:
         return []
-    alone = {
-        statement.lineno: statement.value.id
-        for statement in tree.body
-        if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Name)
-    }
+    alone = {s.lineno: _first_name(s.value) for s in ast.walk(tree) if isinstance(s, ast.Expr)}
     known = _bound(tree)
-    return [p for p in labels if p.found == alone.get(p.line) and not {p.found, "*"} & known]
+    return [p for p in labels if p.word == alone.get(p.line) and not {p.word, "*"} & known]
+
+
+def _first_name(value: ast.expr) -> str:
+    """Return the name with which a line begins that only reads names: `Python`, `ls -l`."""
+    while isinstance(value, ast.BinOp):
+        value = value.left
+    return value.id if isinstance(value, ast.Name) else ""
 
 
 def _bound(tree: ast.Module) -> set[str]:
