@@ -487,6 +487,17 @@ KINDS = (
         fixed_by=(syntax.node,),
         examples=(
             example(
+                "try_without_except",
+                Replace(NODE, "    except KeyboardInterrupt:\n        pass\n    finally:\n", ""),
+                Replace(
+                    NODE,
+                    "        node.destroy_node()\n        rclpy.try_shutdown()\n",
+                    "    node.destroy_node()\n    rclpy.try_shutdown()\n",
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "bracket_missing",
                 Replace(NODE, "str(self.counter_))", "str(self.counter_)"),
                 fails="source.node_file",

@@ -101,6 +101,21 @@ SIGNS = {
         "This line needs a line with {wanted}: above it, in the same column. The lines between the "
         "two are indented by 4 spaces."
     ),
+    "try_alone": msg(
+        "This try: has neither except: nor finally: below its block. Write one of them above line "
+        "{line}, in the same column as try:. For Ctrl+C that is except KeyboardInterrupt: and, on "
+        "the next line and indented by 4 spaces more, pass."
+    ),
+    "try_between": msg(
+        "This line is between the block of a try: (line {wanted}) and its except: or finally: (line "
+        "{line}). Indent it as far as the lines of the block, or move it below the last line that "
+        "belongs to the try:."
+    ),
+    "clause_column": msg(
+        "An except: or finally: begins in the same column as its try:. Indent this line as far as "
+        "line {line}, and the lines of its block by 4 spaces more."
+    ),
+    "clause_misspelt": msg("Below the block of a try: comes except or finally. Write: {wanted}"),
     "bracket_extra": msg("Remove one {wanted}: the line closes more brackets than are open."),
     "bracket_alone": msg(
         "No bracket is open that this {wanted} closes: remove it, or write the bracket that it "

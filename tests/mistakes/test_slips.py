@@ -91,6 +91,8 @@ LANGUAGE = [
     ("class A<B>:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
     ("class A extends B:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
     ("class A : public B:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
+    ("try:\n    a = 1\nExcept KeyError:\n    pass\n", "capital", 3,
+     "try:\n    a = 1\nexcept KeyError:\n    pass\n"),
     ("Import sys\n", "capital", 1, "import sys\n"),
     ("If a:\n    pass\n", "capital", 1, "if a:\n    pass\n"),
     ("define f(a):\n    pass\n", "function", 1, "def f(a):\n    pass\n"),
@@ -172,6 +174,38 @@ SIGNS = [
         2,
         "def f():\n    '''Text\n    of f.'''\n    return 1\n\n\ndef g():\n    '''Of g.'''\n",
     ),
+]
+TRY = "def f():\n    try:\n        {0}\n{1}\n\nf()\n"
+PASS = "    except KeyboardInterrupt:\n        pass"
+SIGNS += [
+    (TRY.format("spin(a)", "    b()"), "try_alone", 2, TRY.format("spin(a)", f"{PASS}\n    b()")),
+    (TRY.format("spin(a)", ""), "try_alone", 2, TRY.format("spin(a)", f"{PASS}\n")),
+    (TRY.format("c()", "    b()"), "try_alone", 2, ""),
+    *(
+        (
+            TRY.format("c()", PASS.replace("except", word)),
+            "clause_misspelt",
+            4,
+            TRY.format("c()", PASS),
+        )
+        for word in ("exept", "expect", "exception")
+    ),
+    (
+        TRY.format("c()", PASS.replace("    ", "", 1).replace("        ", "    ")),
+        "clause_column",
+        4,
+        TRY.format("c()", PASS),
+    ),
+    *(
+        (
+            TRY.format("c()", "\n".join(f"{more}{row}" for row in PASS.split("\n"))),
+            "clause_column",
+            4,
+            TRY.format("c()", PASS),
+        )
+        for more in ("    ", "  ", "        ")
+    ),
+    (TRY.format("c()", f"    b()\n{PASS}"), "try_between", 4, ""),
 ]
 CODE = ["a = 1\n", "b = 4 // 2\n", "c = a < b > a\n", "'''\nPython\n// a++\n'''\n", "# \u201cx\u201d\n",
         "d = '\u201cx\u201d'\n", "...\n", "Python = 1\nPython\n",
