@@ -101,6 +101,15 @@ SIGNS = {
         "This line needs a line with {wanted}: above it, in the same column. The lines between the "
         "two are indented by 4 spaces."
     ),
+    "tab": msg(
+        "This line is indented with a tab, and line {line} with spaces. Delete the tab and type "
+        "{wanted} spaces. The Tab key types spaces if the editor is set so (in VS Code: 'Indent "
+        "Using Spaces')."
+    ),
+    "tab_other": msg(
+        "This line is indented with a tab, and the lines around it with spaces. Delete the tab and "
+        "type as many spaces as the other lines of its block have."
+    ),
     "try_alone": msg(
         "This try: has neither except: nor finally: below its block. Write one of them above line "
         "{line}, in the same column as try:. For Ctrl+C that is except KeyboardInterrupt: and, on "

@@ -34,6 +34,7 @@ BACK_TO_SOLUTION = (
     *("docstring_not_closed", "node_in_init", "comma_between_tuples_missing"),
     *("number_added_outside", "marker_without_slash", "node_in_init_and_empty_file"),
     *("called_by_hand_before_counter", "python_logging_not_set_up", "python_logger_of_the_node"),
+    "tabs_and_spaces",
     *("python_logging_bare", "shell_line_without_prompt", "shell_line_that_is_python"),
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
@@ -73,6 +74,7 @@ OTHERWISE = {
     "own_file_misspelt": "from my_robot_controller.helpers import text_of\n",
     "package_named_twice": "from my_robot_controller.helpers import text_of\n",
     "own_function_from_package": "from my_robot_controller.helpers import text_of\n",
+    "try_without_except": "    except KeyboardInterrupt:\n        pass\n    node.destroy_node()\n",
     "while_in_constructor": "self.counter_ = 0\n        self.create_timer(1.0, self.timer_callback)\n\n",
     "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",

@@ -207,6 +207,19 @@ SIGNS += [
     ),
     (TRY.format("c()", f"    b()\n{PASS}"), "try_between", 4, ""),
 ]
+METHOD = "class A:\n    def f(self):\n        a = 1\n"
+SIGNS += [
+    (f"{METHOD}\tb = 2\n", "tab", 4, f"{METHOD}        b = 2\n"),
+    (f"{METHOD}\t\tb = 2\n", "tab", 4, f"{METHOD}        b = 2\n"),
+    (
+        f"{METHOD}        if a:\n\t    b = 2\n",
+        "tab",
+        5,
+        f"{METHOD}        if a:\n            b = 2\n",
+    ),
+    ("def f():\n    if a:\n        b = 1\n\tc = 2\n", "tab", 4, ""),
+    (f"{METHOD}        if a:\n            b = 2\n\tc = 3\n", "tab_other", 6, ""),
+]
 CODE = ["a = 1\n", "b = 4 // 2\n", "c = a < b > a\n", "'''\nPython\n// a++\n'''\n", "# \u201cx\u201d\n",
         "d = '\u201cx\u201d'\n", "...\n", "Python = 1\nPython\n",
         "ls = l = 1\nls -l\n", "code = 1\ncode = code if code else 1\n", "f(\n    code in b,\n)\n"]  # fmt: skip

@@ -49,8 +49,8 @@ def _fixed(case: Case, path: str) -> Files | None:
 
 def _fixed_once(text: SourceText, found: bytes, fault: PythonFault) -> bytes | None:
     """Return the file without the error at which Python stops; None if no fix is certain."""
-    if fault.kind == "tabs":
-        return _without_tabs(text)
+    if fault.kind == "tabs" and (new := _without_tabs(text)) is not None:
+        return new
     slip = slip_of(found)
     return slip.fixed if slip is not None else _smaller(text, fault)
 

@@ -15,6 +15,7 @@ from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip,
 from grader.package.source.code_only import code_only
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
+from grader.package.source.slip_tabs import tab
 from grader.package.source.slip_try import try_block
 
 TYPES = (
@@ -351,5 +352,5 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _quotes, _keys, try_block, *BLOCK_LOOKS, _other_sign, two_statements,
+    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _quotes, _keys, tab, try_block, *BLOCK_LOOKS, _other_sign, two_statements,
 )  # fmt: skip
