@@ -16,7 +16,7 @@ from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, outer_word, starts_of, targets_of
+from grader.package.source.counter import logged_counter, outer_word, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.place import function_at, place_of
@@ -38,7 +38,8 @@ class Counter:
     logged: ast.Call  # the first log call
 
 
-def _counter(suspect: Suspect) -> Counter | None:
+def counter_in(suspect: Suspect) -> Counter | None:
+    """Return the counter that the callback logs; None if it logs none."""
     callback, logged = suspect.source.callback, logged_counter(suspect.source)
     if callback is None or logged is None:
         return None
@@ -166,7 +167,7 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _plus_reversed(suspect: Suspect) -> RecognisedMistake | None:
-    counter = _counter(suspect)
+    counter = counter_in(suspect)
     for node in counter.set if counter is not None else ():
         if isinstance(node.value, ast.UnaryOp) and isinstance(node.value.op, ast.UAdd):
             return suspect.finding("plus_reversed", node, name=counter.name if counter else "")
@@ -174,7 +175,7 @@ def _plus_reversed(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _reset(suspect: Suspect) -> RecognisedMistake | None:
-    counter = _counter(suspect)
+    counter = counter_in(suspect)
     if counter is None:
         return None
     for node in counter.set:
@@ -187,7 +188,7 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
 
 def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a condition of the callback under which the counter starts again."""
-    counter = _counter(suspect)
+    counter = counter_in(suspect)
     for node in counter.set if counter is not None else ():
         around = suspect.source.module_of(node).parents.get(node)
         if counter is None or not isinstance(around, ast.If) or around.orelse:
@@ -215,7 +216,7 @@ def _in_text(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
-    counter = _counter(suspect)
+    counter = counter_in(suspect)
     if counter is None or counter.added or counter.set or not _is_number(suspect, counter.name):
         return None
     for node in suspect.source.own_nodes:
@@ -238,7 +239,7 @@ def _is_number(suspect: Suspect, name: str) -> bool:
 
 def _multiplied(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a product: a counter that starts at 0 stays there."""
-    counter = _counter(suspect)
+    counter = counter_in(suspect)
     for node in counter.added if counter is not None else ():
         if isinstance(node.op, ast.Mult) and counter is not None:
             return suspect.finding("counter_multiplied", node, name=counter.name)
@@ -257,50 +258,20 @@ def _added_instead(case: Case) -> Files | None:
 
 
 def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
-    counter, step = _counter(suspect), suspect.output.step
+    counter, step = counter_in(suspect), suspect.output.step
     if counter is None or len(counter.added) < 2:
         return None
     return suspect.finding("adds_twice", counter.added[1], name=counter.name, step=step)
 
 
 def _other_step(suspect: Suspect) -> RecognisedMistake | None:
-    counter, step = _counter(suspect), suspect.output.step
+    counter, step = counter_in(suspect), suspect.output.step
     for node in counter.added if counter is not None else ():
         added = isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
         if not added or getattr(node.value, "value", 1) != step:
             name = counter.name if counter else ""
             return suspect.finding("other_step", node, name=name, step=step)
     return None
-
-
-def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
-    counter = _counter(suspect)
-    if counter is None or not counter.added or counter.added[0].lineno >= counter.logged.lineno:
-        return None
-    return suspect.finding("adds_before_log", counter.added[0], name=counter.name)
-
-
-def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
-    counter = _counter(suspect)
-    if counter is None:
-        return None
-    init = suspect.source.methods.get("__init__")
-    at: ast.stmt | ast.expr | None = starts_of(suspect.source).get(counter.name)
-    for node in ast.walk(init) if init else ():
-        if isinstance(node, ast.Assign) and counter.name in targets_of(node):
-            at = node
-            break
-    if at is None:
-        return None
-    start = suspect.output.start
-    value = at.value if isinstance(at, ast.Assign) else at
-    if isinstance(value, ast.Constant) and value.value == start:
-        return None
-    name = counter.name
-    around = suspect.source.module_of(at).parents.get(at)
-    if isinstance(around, ast.Assign):
-        name = next(targets_of(around), name)
-    return suspect.finding("starts_elsewhere", at, name=name, start=start)
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -634,48 +605,6 @@ KINDS = (
             example(
                 "counter_doubled",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ *= 2"),
-                fails="run.output",
-            ),
-        ),
-    ),
-    _node(
-        "adds_before_log",
-        "counter",
-        msg("The callback adds to the counter before it logs"),
-        msg("The first line must show the counter's first value."),
-        msg("Log first, and put {name} += {step} after it."),
-        behind={"run.wrong_start": _adds_before_log},
-        fixed_by=(node_count.start,),
-        examples=(
-            example(
-                "adds_before_logging",
-                Replace(
-                    NODE,
-                    (
-                        "self.get_logger().info('Hello time: ' + str(self.counter_))\n"
-                        "        self.counter_ += 1"
-                    ),
-                    (
-                        "self.counter_ += 1\n"
-                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
-                    ),
-                ),
-                fails="run.output",
-            ),
-        ),
-    ),
-    _node(
-        "starts_elsewhere",
-        "counter",
-        msg("The counter starts at a different number"),
-        msg("The first line shows the first value of the counter."),
-        msg("Write on that line: {name} = {start}"),
-        behind={"run.wrong_start": _starts_elsewhere},
-        fixed_by=(node_count.start,),
-        examples=(
-            example(
-                "starts_at_one",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = 1"),
                 fails="run.output",
             ),
         ),

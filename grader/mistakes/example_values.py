@@ -114,7 +114,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.plus_reversed": COUNTER,
     "node.counter_not_increased": COUNTER,
     "node.counter_reset": COUNTER,
-    "node.adds_before_log": COUNTER,
+    "node.adds_before_log": {"written": "self.counter += 1", "line": "12"},
     "node.starts_elsewhere": COUNTER,
     "node.adds_twice": COUNTER,
     "node.other_step": COUNTER,

@@ -75,6 +75,7 @@ OTHERWISE = {
     "package_named_twice": "from my_robot_controller.helpers import text_of\n",
     "own_function_from_package": "from my_robot_controller.helpers import text_of\n",
     "try_without_except": "    except KeyboardInterrupt:\n        pass\n    node.destroy_node()\n",
+    "adds_before_text": "self.get_logger().info(text)\n        self.counter_ = self.counter_ + 1\n",
     "while_in_constructor": "self.counter_ = 0\n        self.create_timer(1.0, self.timer_callback)\n\n",
     "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",

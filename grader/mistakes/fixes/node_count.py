@@ -8,9 +8,11 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import (
+    adds_to,
     changes_of,
     declares,
     local_start,
+    logged_counter,
     names_given,
     outer_start,
     starts_of,
@@ -81,7 +83,7 @@ def start(case: Case) -> Files | None:
     if node is None or call is None or len(changes) != 1:
         return None
     change, first = changes[0], starts_of(node)[name]
-    if not isinstance(change, ast.AugAssign):
+    if not adds_to(change, name):
         return None
     wanted = case.assignment.output.start
     if change.lineno > call.lineno:
@@ -91,21 +93,24 @@ def start(case: Case) -> Files | None:
             if (first.value != wanted)
             else None
         )
-    return _after_log(case, change, call) if first.value == wanted else None
+    return _after_log(case, change, call, name) if first.value == wanted else None
 
 
-def _after_log(case: Case, change: ast.stmt, call: ast.Call) -> Files | None:
-    """Move the line directly before the log line to directly after it."""
+def _after_log(case: Case, change: ast.stmt, call: ast.Call, name: str) -> Files | None:
+    """Move the line that counts from before the log line, and what builds its text, to after it."""
     node = case.node
     function = node.function_around(change) if node else None
     body = function.body if function is not None and change in function.body else []
-    at = body.index(change) if body else 0
-    log = body[at + 1] if at + 1 < len(body) else None
-    if node is None or not isinstance(log, ast.Expr) or log.value is not call:
+    log = next((s for s in body if isinstance(s, ast.Expr) and s.value is call), None)
+    if node is None or log is None or body.index(log) < body.index(change):
         return None
-    if change.end_lineno != change.lineno or change.lineno + 1 != log.lineno:
+    between = body[body.index(change) + 1 : body.index(log)]
+    if any(not isinstance(s, ast.Assign) or name in targets_of(s) for s in between):
         return None
     module = node.module_of(change)
+    code = module.text.line(change.lineno).partition("#")[0].strip()
+    if code != module.text.code(change):
+        return None
     row = module.text.line(change.lineno)
     below = (log.end_lineno or log.lineno) + 1
     return case.changed(module, module.text.without(change.lineno), module.text.before(below, row))
@@ -113,7 +118,11 @@ def _after_log(case: Case, change: ast.stmt, call: ast.Call) -> Files | None:
 
 def _counted(node: NodeSource, call: ast.Call) -> str:
     """Return the name of the counter that is logged; "" if there is not exactly one."""
-    named = set(names_given(call)) & set(starts_of(node))
+    starts = set(starts_of(node))
+    named = set(names_given(call)) & starts
+    logged = logged_counter(node)
+    if not named and logged is not None and logged[0] is call:
+        named = {logged[1]} & starts  # (the text is built on a line before)
     return min(named) if len(named) == 1 else ""
 
 

@@ -149,6 +149,27 @@ def changes_of(source: NodeSource, name: str) -> list[ast.stmt]:
     return found
 
 
+def texts_of(function: Function, call: ast.Call) -> list[ast.Assign]:
+    """Return the statements that build the text of a log call before it, in order."""
+    given = set(names_given(call))
+    found = [n for n in ast.walk(function) if isinstance(n, ast.Assign) and n.lineno < call.lineno]
+    return [n for n in found if given & {t for t in targets_of(n) if "." not in t}]
+
+
+def adds_to(statement: ast.AST, name: str) -> bool:
+    """Return whether a statement changes a counter: `n += 1`, or `n = n + 1`."""
+    if name not in targets_of(statement):
+        return False
+    if isinstance(statement, ast.AugAssign):
+        return True
+    return isinstance(statement, ast.Assign) and name in _read_in(statement.value)
+
+
+def _read_in(value: ast.expr) -> list[str]:
+    parts = [n for n in ast.walk(value) if isinstance(n, ast.Name | ast.Attribute)]
+    return list(filter(None, map(dotted, parts)))
+
+
 def logged_counter(source: NodeSource) -> tuple[ast.Call, str] | None:
     """Return the first log call of the callback, and the counter that it shows."""
     callback = source.callback
@@ -166,6 +187,11 @@ def logged_counter(source: NodeSource) -> tuple[ast.Call, str] | None:
         for name in names:
             if local_start(callback, name) is not None:
                 return call, name
+    for call in calls:
+        for text in texts_of(callback, call):
+            shown = [name for name in _read_in(text.value) if name in starts]
+            if shown:
+                return call, shown[0]
     # (the text is built on a line before the call: the incremented name is the counter)
     for call in calls[:1]:
         for node in ast.walk(callback):

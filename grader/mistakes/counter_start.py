@@ -1,0 +1,116 @@
+"""Mistakes in the first number of the counter: its start, and counting before the log line."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.counter import counter_in
+from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_count
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import adds_to, starts_of, targets_of, texts_of
+
+
+def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
+    counter, callback = counter_in(suspect), suspect.source.callback
+    if counter is None or callback is None:
+        return None
+    texts = texts_of(callback, counter.logged)
+    read = min([counter.logged.lineno, *(text.lineno for text in texts)])
+    added = [n for n in ast.walk(callback) if adds_to(n, counter.name)]
+    first = min(added, key=lambda n: getattr(n, "lineno", 0), default=None)
+    if not isinstance(first, ast.Assign | ast.AugAssign) or first.lineno >= read:
+        return None
+    found = suspect.finding("adds_before_log", first, name=counter.name)
+    written = suspect.source.module_of(first).text.code(first)
+    words = {**found.words, "written": written[:80], "line": str(counter.logged.lineno)}
+    return replace(found, words=words)
+
+
+def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
+    counter = counter_in(suspect)
+    if counter is None:
+        return None
+    init = suspect.source.methods.get("__init__")
+    at: ast.stmt | ast.expr | None = starts_of(suspect.source).get(counter.name)
+    for node in ast.walk(init) if init else ():
+        if isinstance(node, ast.Assign) and counter.name in targets_of(node):
+            at = node
+            break
+    if at is None:
+        return None
+    start = suspect.output.start
+    value = at.value if isinstance(at, ast.Assign) else at
+    if isinstance(value, ast.Constant) and value.value == start:
+        return None
+    name = counter.name
+    around = suspect.source.module_of(at).parents.get(at)
+    if isinstance(around, ast.Assign):
+        name = next(targets_of(around), name)
+    return suspect.finding("starts_elsewhere", at, name=name, start=start)
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "adds_before_log",
+        "counter",
+        msg("The callback adds to the counter before it logs"),
+        msg("The first line must show the counter's first value."),
+        msg(
+            "Move this line ({written}) below line {line}, which logs: log first, and then count. "
+            "Then the first line shows {start}."
+        ),
+        behind={"run.wrong_start": _adds_before_log},
+        fixed_by=(node_count.start,),
+        examples=(
+            example(
+                "adds_before_logging",
+                Replace(
+                    NODE,
+                    (
+                        "self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "        self.counter_ += 1"
+                    ),
+                    (
+                        "self.counter_ += 1\n"
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
+                    ),
+                ),
+                fails="run.output",
+            ),
+            example(
+                "adds_before_text",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        self.counter_ = self.counter_ + 1\n"
+                    "        text = 'Hello time: ' + str(self.counter_)\n"
+                    "        self.get_logger().info(text)\n",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "starts_elsewhere",
+        "counter",
+        msg("The counter starts at a different number"),
+        msg("The first line shows the first value of the counter."),
+        msg("Write on that line: {name} = {start}"),
+        behind={"run.wrong_start": _starts_elsewhere},
+        fixed_by=(node_count.start,),
+        examples=(
+            example(
+                "starts_at_one",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 1"),
+                fails="run.output",
+            ),
+        ),
+    ),
+)
