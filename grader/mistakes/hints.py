@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 
-from grader.base.i18n.message import Message, joined, say
+from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import compared, nearest
 from grader.package.source.names import dotted
+from grader.package.source.second_node import second_node
 
 GUARD = "__main__"
 
@@ -19,6 +21,10 @@ def hints(tree: ast.Module) -> list[str]:
             found += _guard(node)
         elif isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.shutdown":
             found.append(_advice("node.shutdown_not_called", node.lineno))
+    second = second_node(tree)
+    if second is not None:
+        values: Mapping[str, Value] = {"name": second.name, "line": second.line}
+        found.append(_advice("node.second_node_spun", second.spin.lineno, values))
     return found
 
 
@@ -30,9 +36,9 @@ def _guard(node: ast.Compare) -> list[str]:
     return [joined(_advice("node.guard_misspelt", node.lineno), compared(text, GUARD), by="\n")]
 
 
-def _advice(mistake: str, line: int) -> Message:
+def _advice(mistake: str, line: int, values: Mapping[str, Value] | None = None) -> Message:
     from grader.mistakes.catalogue import CATALOGUE  # noqa: PLC0415 - slow, rarely needed
 
     kind = CATALOGUE[mistake]
     title = say("line {line}: {code}", line=line, code=Message(kind.title))
-    return joined(joined(title, kind.rationale({}), by=". "), kind.fix_text({}))
+    return joined(joined(title, kind.rationale(values or {}), by=". "), kind.fix_text(values or {}))

@@ -9,6 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
+from grader.mistakes.fixes import node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
@@ -16,6 +17,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.second_node import second_node
 
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 GUARD = msg(
@@ -98,6 +100,15 @@ def _local_of_that_name(raised: Raised, name: str) -> ast.Assign | None:
 
 def _is_global(function: Function, name: str) -> bool:
     return any(isinstance(n, ast.Global) and name in n.names for n in ast.walk(function))
+
+
+def _second_spun(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a node that is created in the call of spin, beside the one that does the work."""
+    for module in suspect.source.modules:
+        found = second_node(module.tree)
+        if found is not None:
+            return suspect.finding("second_node_spun", found.spin, name=found.name, line=found.line)
+    return None
 
 
 def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
@@ -190,6 +201,35 @@ KINDS = (
                 "variable_hides_class",
                 Replace(NODE, "node = MyFirstNode()", "MyFirstNode = MyFirstNode()"),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "second_node_spun",
+        "spin",
+        msg("Two nodes are created, and only one of them is spun"),
+        msg(
+            "Line {line} creates a node, and this line creates another one of the same name in the "
+            "call of spin. The first one, {name}, is never spun."
+        ),
+        msg("Write {name} instead of the second node: rclpy.spin({name})"),
+        behind={"run.no_lines": _second_spun},
+        fixed_by=(node_life.first_node,),
+        examples=(
+            example(
+                "second_node_is_spun",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def start(self):\n"
+                    "        self.create_timer(1.0, self.timer_callback)\n\n"
+                    "    def timer_callback",
+                ),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode()\n    node.start()"),
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(MyFirstNode())"),
+                fails="run.output",
+                blocks=SILENT,
             ),
         ),
     ),

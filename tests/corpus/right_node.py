@@ -161,6 +161,8 @@ COUNTING = (
     right("no_try", Replace(NODE, CATCH, "    rclpy.spin(node)\n    node.destroy_node()\n"
           "    rclpy.shutdown()\n"), note="it ends with the KeyboardInterrupt traceback"),
     right("only_spin", Replace(NODE, CATCH, "    rclpy.spin(node)\n")),
+    right("second_node_in_spin", Replace(NODE, "rclpy.spin(node)", "rclpy.spin(MyFirstNode())"),
+          note="the first node is never spun; advice"),
     right("shutdown_not_called", Replace(NODE, "rclpy.try_shutdown()", "rclpy.shutdown"),
           note="brackets forgotten; 3 of 147, harmless"),
     right("if_ok_shutdown", Replace(NODE, "        rclpy.try_shutdown()",

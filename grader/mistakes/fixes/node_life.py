@@ -10,6 +10,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.second_node import second_node
 
 IMPORT = "from rclpy.node import Node"
 
@@ -285,3 +286,12 @@ def _makes(statement: ast.stmt, node: NodeSource) -> bool:
     """Whether it is an assignment whose value is a new node."""
     value = statement.value if isinstance(statement, ast.Assign) else None
     return isinstance(value, ast.Call) and node.is_node_class(value.func)
+
+
+def first_node(case: Case) -> Files | None:
+    """Spin the node that is in a variable instead of a second one."""
+    module = case.module
+    found = second_node(module.tree) if module is not None else None
+    if module is None or found is None or found.spin.lineno != case.finding.line:
+        return None
+    return case.changed(module, module.text.swap(found.spin.args[0], found.name))

@@ -1,0 +1,42 @@
+"""The advice on a node that is created in the call of spin beside another one."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from grader.mistakes.hints import hints
+
+MAIN = """\
+def main():
+    rclpy.init()
+    node = MyNode()
+    {body}
+    node.destroy_node()
+"""
+
+
+def advice(body: str) -> list[str]:
+    return hints(ast.parse(MAIN.format(body=body)))
+
+
+def test_the_second_node_is_named() -> None:
+    (text,) = advice("rclpy.spin(MyNode())")
+    assert text.startswith("line 4: Two nodes are created, and only one of them is spun")
+    assert "Line 3 creates a node" in text
+    assert "rclpy.spin(node)" in text
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "rclpy.spin(node)",
+        "rclpy.spin(OtherNode())",
+        "rclpy.spin(MyNode('other'))",
+        "Thread(target=rclpy.spin, args=(node,)).start(); rclpy.spin(MyNode())",
+        "executor.add_node(node); rclpy.spin(MyNode())",
+    ],
+)
+def test_a_node_that_may_be_meant_gets_no_advice(body: str) -> None:
+    assert advice(body) == []
