@@ -142,6 +142,13 @@ def test_a_missing_init_file_is_advice(bench: Bench) -> None:
     assert "__init__.py" in bench.passes(source.node_file).advice[0]
 
 
+def test_a_misnamed_init_file_is_to_be_renamed_and_not_made(bench: Bench) -> None:
+    (bench.root / NAME / "__init__.py").rename(bench.root / NAME / "_init_.py")
+    advice = bench.passes(source.node_file).advice[0]
+    assert f"mv {NAME}/_init_.py {NAME}/__init__.py" in advice
+    assert "Make it" not in advice
+
+
 @pytest.mark.parametrize(
     ("above", "what"),
     [

@@ -70,17 +70,31 @@ def node_file(evidence: Evidence) -> Passed:
     advice = hints(parsed.tree)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
-        no_init = say(
-            "There is no {inner}/__init__.py: without it find_packages() finds nothing to "
-            "install, and the node cannot be imported. Make it: an empty file is enough.",
-            inner=inner,
-        )
+        no_init = _no_init(inner, nearest("__init__.py", names_in(evidence, inner), cutoff=0.75))
         advice.insert(0, no_init)
     other = _other_version(evidence, path)
     if other:
         two = say("{other} has a node too, but ros2 run starts {path}.", other=other, path=path)
         advice.insert(0, two)
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _no_init(inner: str, close: str) -> str:
+    """Return the advice on a missing __init__.py; `close` is a file with nearly this name."""
+    if close:
+        there = shown(close)
+        return say(
+            "{inner}/{there} has a wrong name: find_packages() looks for __init__.py, finds nothing "
+            "to install, and the node cannot be imported. Rename it: mv {inner}/{there} "
+            "{inner}/__init__.py",
+            inner=inner,
+            there=there,
+        )
+    return say(
+        "There is no {inner}/__init__.py: without it find_packages() finds nothing to "
+        "install, and the node cannot be imported. Make it: an empty file is enough.",
+        inner=inner,
+    )
 
 
 def _other_version(evidence: Evidence, path: str) -> str:
