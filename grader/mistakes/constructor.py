@@ -109,7 +109,13 @@ def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["type"] not in raised.source.known_classes:
         return None
-    return raised.finding("super_late", at=raised.source.super_init)
+    found = raised.finding("super_late", at=raised.source.super_init)
+    init, call = raised.source.methods.get("__init__"), raised.source.super_init
+    if init is None or call is None or raised.line is None:
+        return found
+    if raised.module.has(init) and init.lineno <= raised.line < call.lineno:
+        return replace(found, variant="line", words={**found.words, "line": str(raised.line)})
+    return found
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -297,6 +303,12 @@ KINDS = (
         msg("super().__init__() is called too late"),
         INIT_OF_NODE,
         msg("Move super().__init__('{node_name}') to the first line of __init__."),
+        fixes={
+            "line": msg(
+                "Move this line to the first line of __init__: line {line} already uses the node, "
+                "which super().__init__('{node_name}') sets up."
+            )
+        },
         raised={PRIVATE: _super_late},
         fixed_by=(node_life.super_first,),
         examples=(

@@ -530,7 +530,7 @@ KINDS = (
         msg("The line shows a time instead of a count"),
         msg(
             "The number says how often the callback was called: {start} first, then {step} more "
-            "each time. {name} says how late it is."
+            "each time. {name} is the time that a clock shows, and no count."
         ),
         msg("Log the counter, and add {step} to it in each callback."),
         behind={
