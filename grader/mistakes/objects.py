@@ -13,6 +13,7 @@ from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_objects
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
+from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
@@ -23,7 +24,20 @@ NO_BASE = (
     r"TypeError: (?:module|str|int)\(\) takes at most|metaclass conflict"
     r"|module 'rclpy(?:\.node)?' has no attribute '[Nn]ode'"
 )
-NO_SETTER = r"property '(?P<name>\w{1,120})' of '\w{1,120}' object has no setter|can't set attribute '(?P<old>\w{1,120})'"
+NO_SETTER = (
+    r"property '(?P<name>\w{1,120})' of '\w{1,120}' object has no setter"
+    r"|can't set attribute '(?P<old>\w{1,120})'|(?P<only>handle) cannot be modified after"
+)
+IN_NODE = (
+    r"AttributeError: '(?:int|float|str|list|dict|Timer|Publisher|NoneType)' object has no attribute "
+    r"'(?:add_node|append|remove|handle|get_child|now|clock|wake)'"
+    r"|'(?!RcutilsLogger)\w{1,120}' object is not callable$"
+)
+OF_NODE = (
+    *("executor", "_executor", "_timers", "_clients", "_publishers", "_subscriptions", "_services"),
+    *("_logger", "_clock", "_handle", "_context", "_parameters", "_default_callback_group"),
+)
+"""What Node keeps for itself under names that a class can set."""
 OWN_METHOD = r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) (?:takes|missing|got)"
 NOT_A_NODE = r"'(?P<type>\w{1,120})' object has no attribute '(?:executor|handle|context)'"
 OWN_IMPORT = r"cannot import name '(?P<name>\w{1,120})' from partially initialized module '(?P<module>[\w.]{1,200})'"
@@ -136,7 +150,7 @@ def _is_text(part: ast.expr) -> bool:
 def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The class sets an attribute, or has a method, with the name of one of Node's."""
     given = match.groupdict()
-    name = given.get("name") or given.get("old") or "get_logger"
+    name = given.get("name") or given.get("old") or given.get("only") or "get_logger"
     method = raised.source.methods.get(name)
     if method is not None:
         if name not in node_objects.METHODS:
@@ -145,6 +159,23 @@ def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     for part in raised.source.own_nodes:
         stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
         if stored and isinstance(part, ast.Attribute) and own_name(part) == name:
+            found = raised.finding("name_taken", at=part, name=name, written=f"{name}_")
+            return replace(found, variant="property") if name in given.values() else found
+    return None
+
+
+def _taken_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class sets what the methods of Node work with, or one of these methods."""
+    used = {
+        own_name(part)
+        for part in ast.walk(statement_at(raised.module, raised.line) or raised.module.tree)
+    }
+    called = match.string.endswith("is not callable")
+    for part in raised.source.own_nodes:
+        name = own_name(part) if isinstance(part, ast.Attribute) else ""
+        if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):
+            continue
+        if (called and name in used & {*NODE_METHODS}) or (not called and name in OF_NODE):
             return raised.finding("name_taken", at=part, name=name, written=f"{name}_")
     return None
 
@@ -365,7 +396,17 @@ KINDS = (
             "the one of Node, which the node needs."
         ),
         msg("Give the attribute another name, for example self.{name}_ instead of self.{name}."),
+        whys={
+            "property": msg(
+                "Each node has self.{name} already: your class inherits it from Node. ROS keeps its "
+                "own value there, and it cannot be set."
+            )
+        },
         fixes={
+            "property": msg(
+                "Use another name for your value, for example self.{name}_, on this line and "
+                "wherever you use it."
+            ),
             "method": msg(
                 "Give your method another name than {name}, here and where the timer gets it."
             ),
@@ -382,6 +423,7 @@ KINDS = (
             NO_SETTER: _taken,
             OWN_METHOD: _taken,
             "'RcutilsLogger' object is not callable": _taken,
+            IN_NODE: _taken_inside,
         },
         fixed_by=(
             node_objects.other_attribute,
@@ -393,6 +435,29 @@ KINDS = (
                 "attribute_timers",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.timers = []"),
                 fails="run.starts",
+            ),
+            example(
+                "timer_in_timers",
+                Replace(NODE, "self.create_timer", "self.timers = self.create_timer"),
+                fails="run.starts",
+            ),
+            example(
+                "attribute_handle",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.handle = 0"),
+                fails="run.starts",
+            ),
+            example(
+                "attribute_with_underscore",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self._timers = 0"),
+                fails="run.starts",
+            ),
+            example(
+                "get_logger_is_a_number",
+                Replace(
+                    NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.get_logger = 0"
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "callback_is_create_timer",
