@@ -31,7 +31,9 @@ ARGUMENTS = (
 ASSERTION = r"Assertion `Py(?P<kind>\w{1,30})_Check\(field\)' failed"
 BAD_ARGUMENT = r"TypeError: bad argument type for built-in operation"
 NO_SERVICE_TYPE = r"The service type provided is not valid"
-STR_TYPE = r"type object 'str' has no attribute '_TYPE_SUPPORT'"
+STR_TYPE = (
+    r"(?:type object 'str'|'str' object) has no attribute '_TYPE_SUPPORT'"  # (kilted: object)
+)
 NOT_INSTANTIATED = r"Service classes can not be instantiated"
 TWO_TYPES = r"RCLError: Failed to create (?:subscription|publisher): "
 NO_DEPTH = r"Expected QoSProfile or int, but received <class '(?:method|function)'>"

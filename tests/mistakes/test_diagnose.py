@@ -84,6 +84,25 @@ def test_the_root_cause_is_first_the_symptom_second_and_the_line_is_shown(bench:
     assert shown_text.consequence_of == ""
 
 
+@pytest.mark.parametrize(
+    "error",
+    [
+        "AttributeError: type object 'str' has no attribute '_TYPE_SUPPORT'",
+        "AttributeError: 'str' object has no attribute '_TYPE_SUPPORT' This might be a ROS 1 message "
+        "type but it should be a ROS 2 message type.",
+    ],
+    ids=["jazzy", "kilted"],
+)
+def test_a_services_type_and_name_in_the_wrong_order(bench: Bench, error: str) -> None:
+    timer = "self.create_timer(1.0, self.timer_callback)"
+    source = RIGHT.replace(timer, f"{timer}\n        self.create_client('/pen', SetPen)")
+    line = next(n for n, text in enumerate(source.splitlines(), 1) if "create_client" in text)
+    seen = evidence(bench, source, TRACEBACK.format(line=line, error=error))
+    shown_text = diagnose(failed("run.died_at_start"), seen)
+    assert shown_text.mistakes[0].id == "node.service_arguments"
+    assert shown_text.where == Where(file=NODE, line=line)
+
+
 def test_the_same_root_cause_at_another_check_is_a_consequence(bench: Bench) -> None:
     source = RIGHT.replace("self.timer_callback)", "self.timer_callback())")
     seen = evidence(bench, source)
