@@ -119,6 +119,10 @@ RELAY = NODE.format(
     rest="self.create_subscription(Int32, '/in', self.on_number, 10)",
 )
 
+IN_CALLBACK = "    def on_number(self, number):\n"
+DIES_LATER = RELAY.replace(IN_CALLBACK, f"{IN_CALLBACK}        self.missing.append(number)\n")
+DIES_AT_START = RELAY.replace("super().__init__('relay')", "super().__init__('relay' + 1)")
+
 
 def marked(folder: Path, *, relay: str | None) -> Report:
     file = folder / "assignment.yaml"
@@ -181,6 +185,31 @@ def test_a_mistake_in_the_second_package_is_found(
     if logged is not None and logged.where is not None:
         text = (relay or "").splitlines()[(logged.where.line or 1) - 1]
         assert "get_logger" in text
+
+
+@pytest.mark.prefix
+@pytest.mark.full
+@pytest.mark.parametrize(
+    ("relay", "check", "mistake", "line", "word"),
+    [
+        (DIES_LATER, "run.stays", "node.attribute_not_set", "self.missing", "by itself"),
+        (DIES_AT_START, "run.starts", "node.str_plus_int", "super()", "on startup"),
+    ],
+    ids=["later", "at start"],
+)
+def test_a_second_program_that_dies_is_told(
+    relay: str, check: str, mistake: str, line: str, word: str, tmp_path: Path
+) -> None:
+    report = marked(tmp_path, relay=relay)
+    told = next(found for found in report.checks if found.status == "failed")
+    assert (told.id, told.mistakes[0].id) == (check, mistake)
+    assert told.actual.startswith("relay ") and word in told.actual
+    assert told.where is not None and told.where.file == "relaying/relaying/relay.py"
+    assert line in relay.splitlines()[(told.where.line or 1) - 1]
+    other = report.runs[0].others[0]
+    assert (other.node, other.ended_by_itself, other.exit.status) == ("relay", True, 1)
+    assert report.runs[0].observed.exit is not None
+    assert "Traceback" in report.evidence.transcript.partition("^C")[0]
 
 
 @pytest.mark.parametrize(

@@ -222,8 +222,19 @@ def _near(value: float) -> float:
     return NEAR * max(1.0, abs(value))
 
 
+class OtherProgram(Part):
+    """A program that a scenario starts beside its first one, for the assignment's `node`."""
+
+    node: str
+    command: str
+    ended_by_itself: bool = Field(default=False, description="before Ctrl+C")
+    exit: Exit
+
+
 class RunInfo(Part):
     """One run of a scenario: what was observed, and where its turtles drove.
+
+    `observed` has the command and the exit of the first program, `others` those of the rest.
 
     `instants` is how many instants of ROS time the clock showed, `period` s apart (`observed`);
     `path` has points in metres by the turtle's name, `wanted` those of the path that was wanted.
@@ -233,6 +244,7 @@ class RunInfo(Part):
     name: str
     world: str = ""
     observed: Observed = Field(default_factory=Observed)
+    others: list[OtherProgram] = Field(default_factory=list)
     instants: int = 0
     topics: list[TopicInfo] = Field(default_factory=list)
     path: dict[str, list[tuple[float, float]]] = Field(default_factory=dict)

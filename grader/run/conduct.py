@@ -15,7 +15,7 @@ from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
 from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
-from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Run, press_ctrl_c, start
+from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Program, Run, press_ctrl_c, start
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Sandbox
 
@@ -64,7 +64,8 @@ def conduct(
     limits = sandbox.limits
     seen = Observations(plan.clock.period)
     commands = [command_of(assignment, begin) for begin in plan.start]
-    run = Run(command=commands[0], name=plan.name, seen=seen)
+    others = [Program(one.node, line) for one, line in zip(plan.start, commands)][1:]
+    run = Run(command=commands[0], name=plan.name, seen=seen, others=others)
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
     probe.extend([in_probe(name) for name in MODULES])
@@ -86,7 +87,9 @@ def conduct(
         for terminal in terminals:
             terminal.read()
             terminal.close()
-        run.transcript = "\n".join(terminal.transcript for terminal in terminals)
+        programs: list[Run | Program] = [run, *run.others]
+        for program, terminal in zip(programs, terminals):
+            program.transcript = terminal.transcript
         run.flooded = run.flooded or any(terminal.flooded for terminal in terminals)
         run.seconds = time.monotonic() - begin
     return run
@@ -149,6 +152,9 @@ class _Scene:
         if run.nodes and not self.over:
             watch.clock = "virtual"
             watch.settled = self._settle()
+            self._await_dying()
+            for other, terminal in zip(run.others, self.terminals[1:]):
+                other.started = not terminal.ended
             self._look()
             self._do_all(0.0)
             for k in range(1, self.plan.clock.ticks + 1):
@@ -182,9 +188,9 @@ class _Scene:
                 self.run.nodes = answer.nodes
                 self.run.node_seconds = first_seen - begin
                 complete = all(node.clock and node.services for node in answer.nodes)
-                if complete and answer.matched and len(answer.nodes) >= len(self.plan.start):
+                alone = len(answer.nodes) >= sum(not one.ended for one in self.terminals)
+                if complete and answer.matched and alone:
                     break
-                alone = len(answer.nodes) >= len(self.plan.start)
                 if now - first_seen > (COMPLETE_SECONDS if alone else most):
                     break
             elif now - begin > most:
@@ -237,9 +243,11 @@ class _Scene:
         A program with an error leaves the graph first and ends some 0.1 s later: without a node to
         wait for, all instants of the plan would be over by then.
         """
+        do = "look"
         began, known = time.monotonic(), {node.name for node in self.run.nodes}
         while not self.over and time.monotonic() - began < self._dying_left:
-            answer = self.probe.ask("wait", seconds=0.02)
+            answer = self.probe.ask(do, seconds=0.02)
+            do = "wait"
             self._take(answer)
             there = sum(node.name in known for node in answer.nodes)
             if there >= sum(not terminal.ended for terminal in self.terminals):
@@ -360,10 +368,16 @@ def _end(run: Run, scene: _Scene, seconds: float) -> None:
         scene.at += round(passed * SECOND)
         scene.probe.ask("clock", at=scene.at, until_log=0, patient=0)
 
-    for terminal in scene.terminals[1:]:
+    pressed = time.monotonic()
+    others = list(zip(run.others, scene.terminals[1:]))
+    for other, terminal in others:
+        other.by_itself = terminal.ended
         if not terminal.ended:
             terminal.interrupt()
     press_ctrl_c(run, scene.terminals[0], go_on, seconds)
-    for terminal in scene.terminals[1:]:
-        terminal.finish(seconds)
+    for other, terminal in others:
+        _, ended = terminal.finish(seconds)
+        if ended:
+            other.stop_seconds = time.monotonic() - pressed
+            other.status, other.signal = terminal.status
     run.watch.events += scene.observer.take()

@@ -32,6 +32,24 @@ END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by
 
 
 @dataclass
+class Program:
+    """A program that a scenario starts beside its first one; `node` is its key in the assignment.
+
+    `started` is False if it ended before the clock began, `by_itself` True if it ended before
+    Ctrl+C; `stop_seconds` are counted from there.
+    """
+
+    node: str
+    command: str
+    started: bool = False
+    by_itself: bool = False
+    stop_seconds: float | None = None
+    status: int | None = None
+    signal: int | None = None
+    transcript: str = ""
+
+
+@dataclass
 class Run:
     """The result of one run; times in seconds.
 
@@ -41,7 +59,8 @@ class Run:
     person would run it, None if it was not run so. `doubled` is a node with two publishers on
     /rosout: its records prove nothing. `erased` is above 0 if the terminal no longer shows lines of
     the count. `held_up` is the median of the seconds for which the node held up its steps in two
-    runs, 0 if it was at most a period. `name` and `seen` are of a run of a scenario.
+    runs, 0 if it was at most a period. `name`, `seen` and `others` are of a run of a scenario, whose
+    first program all the rest is about.
     """
 
     command: str
@@ -68,6 +87,7 @@ class Run:
     first_line_seconds: float | None = None
     name: str = ""
     seen: Observations | None = None
+    others: list[Program] = field(default_factory=list)
 
     @property
     def counting_node(self) -> NodeSeen | None:

@@ -13,7 +13,8 @@ from grader.course.assignment import Assignment
 from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
-from grader.run.run import Run
+from grader.run.run import Program, Run
+from grader.verdict.checks.faults import ended_program
 from grader.verdict.checks.world import Path as WantedPath
 from grader.verdict.checks.world import circle_from
 from grader.verdict.evidence import Evidence
@@ -44,7 +45,10 @@ def compose(
     assignment, submission = evidence.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None
-    transcripts = [made.transcript for made in evidence.runs] or ([run.transcript] if run else [])
+    programs = [
+        program for made in evidence.runs or ([run] if run else ()) for program in _programs(made)
+    ]
+    transcripts = [program.transcript for program in programs]
     open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
     unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
     return model.Report(
@@ -106,6 +110,12 @@ def _package_name(submission: Submission) -> str | None:
     return None
 
 
+def _programs(run: Run) -> list[Run | Program]:
+    """Return the programs of a run, those first that ended by themselves: what they say matters."""
+    ended = ended_program(run)
+    return sorted((run, *run.others), key=lambda program: program is not ended)
+
+
 def _observed(run: Run | None, period: float) -> model.Observed:
     if run is None:
         return model.Observed()
@@ -126,11 +136,16 @@ def _observed(run: Run | None, period: float) -> model.Observed:
         period=period,
         due=[round(due, 3) for due in run.watch.dues[:200]],
         nodes=[node.name for node in run.nodes],
-        exit=model.Exit(
-            status=run.status,
-            signal=run.signal,
-            seconds=None if run.stop_seconds is None else round(run.stop_seconds, 3),
-        ),
+        exit=_exit(run),
+    )
+
+
+def _exit(program: Run | Program) -> model.Exit:
+    seconds = program.stop_seconds
+    return model.Exit(
+        status=program.status,
+        signal=program.signal,
+        seconds=None if seconds is None else round(seconds, 3),
     )
 
 
@@ -148,6 +163,15 @@ def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
         name=run.name,
         world=plan.world,
         observed=observed.model_copy(update={"ticks": [], "due": []}),
+        others=[
+            model.OtherProgram(
+                node=other.node,
+                command=other.command,
+                ended_by_itself=other.by_itself,
+                exit=_exit(other),
+            )
+            for other in run.others
+        ],
         instants=len(seen.instants),
         topics=topics,
         path={

@@ -16,7 +16,7 @@ from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
-from grader.verdict.checks.faults import raised_in
+from grader.verdict.checks.faults import ended_program, raised_in
 from grader.verdict.checks.parsed import names_in
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
@@ -96,7 +96,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
 
 def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedMistake | None:
     if symptom in RAISES:
-        error, where = raised_in(evidence, evidence.run)
+        error, where = raised_in(evidence, ended_program(evidence.run) or evidence.run)
         if error:
             return (
                 _not_installed(error, evidence)

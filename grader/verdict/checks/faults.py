@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Value, say
 from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
+from grader.run.run import Program
 from grader.verdict.checks.build import limit_name, python_error
 from grader.verdict.checks.parsed import node_path
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
+    from grader.course.scenario import Node
     from grader.run.probe_link import LogRecord
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
@@ -46,8 +48,33 @@ def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
     return place
 
 
-def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
-    """Return the last error that the run printed, and the line of the student's code, if any.
+def ended_program(run: Run) -> Run | Program | None:
+    """Return the first program of a run that ended by itself; a run stands for its first program."""
+    if run.ended_by_itself:
+        return run
+    return next((other for other in run.others if other.by_itself), None)
+
+
+def file_of_program(evidence: Evidence, program: Run | Program) -> Where:
+    """Return the file of a program's node as the place of a fault without a line."""
+    if not isinstance(program, Program):
+        return node_file(evidence)
+    node = evidence.assignment.nodes[program.node]
+    return Where(file=_in_package(evidence, node.package, f"{_folder_of(node)}/{node.file}"))
+
+
+def _folder_of(node: Node) -> str:
+    """Return the inner folder of a node's package."""
+    return node.target.partition(".")[0]
+
+
+def _in_package(evidence: Evidence, package: str, path: str) -> str:
+    """Return the path of a package's file as a report has it."""
+    return path if package in ("", evidence.assignment.package) else f"{package}/{path}"
+
+
+def traceback_of(evidence: Evidence, run: Run | Program) -> tuple[str, Where | None]:
+    """Return the last error that a program printed, and the line of the student's code, if any.
 
     Python's own suggestion ("Did you mean") is left out: the diagnosis suggests what fits.
     """
@@ -55,18 +82,21 @@ def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
     return SUGGESTION.sub("", error), where
 
 
-def raised_in(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
+def raised_in(evidence: Evidence, run: Run | Program) -> tuple[str, Where | None]:
     """Return the last error as Python printed it, and the line of the student's code, if any."""
     text = _with_cause(_without_ignored(run.transcript))
     aborted = ABORTED.search(text)
     if aborted:  # C code of an interface ends the process, without a traceback
         return aborted[0], None
     error, _ = python_error(text, evidence.assignment.node_file)
-    folder = evidence.assignment.folder
+    node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
+    package = node.package if node is not None else ""
+    folder = _folder_of(node) if node is not None else evidence.assignment.folder
     mine = [m for m in FRAME.findall(text) if m[0].startswith(f"{folder}/")]
     if not mine:
         return error, None
-    return error, Where(file=mine[-1][0], line=int(mine[-1][1]))
+    path = _in_package(evidence, package, mine[-1][0])
+    return error, Where(file=path, line=int(mine[-1][1]))
 
 
 def _without_ignored(text: str) -> str:

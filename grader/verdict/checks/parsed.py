@@ -15,8 +15,17 @@ if TYPE_CHECKING:
 
 
 def file_of(evidence: Evidence, path: str) -> SourceFile | None:
-    """Return a file of the package; None if it does not exist or is a folder."""
+    """Return a file of the package; None if it does not exist or is a folder.
+
+    A file of a package beside it has that package's name before its path.
+    """
     found = evidence.submission.file(path)
+    if found is None:
+        name, _, rest = path.partition("/")
+        beside = (one for one in evidence.submission.packages if one.name == name)
+        if name != evidence.assignment.package:
+            files = (file for package in beside for file in package.files)
+            found = next((file for file in files if file.path == rest), None)
     return found if found is not None and found.kind == "file" else None
 
 

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import flood, going_on, node_file, resource, traceback_of, words
+from grader.verdict.checks.faults import (
+    file_of_program,
+    flood,
+    going_on,
+    node_file,
+    resource,
+    traceback_of,
+    words,
+)
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Outcome, Passed
 
@@ -30,6 +38,7 @@ def starts(evidence: Evidence) -> Passed:
     """ros2 run starts the node, and the node keeps running."""
     run = evidence.run
     if run.started:
+        _others_start(evidence)
         seconds = f"{run.node_seconds or 0:.1f}"
         said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)
         return Passed(actual=said)
@@ -73,6 +82,28 @@ def _ended(evidence: Evidence) -> Outcome:
         variant="spins" if source is not None and source.calls_of("spin") else "",
         words=words(evidence),
     )
+
+
+def _others_start(evidence: Evidence) -> None:
+    """Raise the failure of another program of the scenario that ended before the clock began."""
+    for program in evidence.run.others:
+        if program.started:
+            continue
+        error, where = traceback_of(evidence, program)
+        raise Failed(
+            "run.died_at_start" if error else "run.exits_at_once",
+            expected=say("the node starts and runs until Ctrl+C"),
+            actual=say("{node} stopped on startup with {error}", node=program.node, error=error)
+            if error
+            else say(
+                "{node} ended by itself at once, with status {status}",
+                node=program.node,
+                status=str(program.status),
+            ),
+            where=where or file_of_program(evidence, program),
+            params={"error": error.partition(":")[0], "text": error} if error else {},
+            words=words(evidence),
+        )
 
 
 def _no_node(evidence: Evidence, actual: str) -> Failed:

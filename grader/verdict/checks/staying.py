@@ -5,8 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
+from grader.run.run import Program
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
+from grader.verdict.checks.faults import (
+    ended_program,
+    file_of_program,
+    flood,
+    node_file,
+    resource,
+    traceback_of,
+    words,
+)
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -23,14 +32,17 @@ def stays(evidence: Evidence) -> Passed:
             raise resource(evidence, expected)
         if run.flooded:
             raise flood(evidence, expected)
-        if run.ended_by_itself:
-            error, where = traceback_of(evidence, run)
-            status = say("status {status}", status=str(run.status))
+        program = ended_program(run)
+        if program is not None:
+            error, where = traceback_of(evidence, program)
+            shown = error or say("status {status}", status=str(program.status))
             raise Failed(
                 "run.ended_early",
                 expected=expected,
-                actual=say("the node ended by itself ({error})", error=error or status),
-                where=where or node_file(evidence),
+                actual=say("{node} ended by itself ({error})", node=program.node, error=shown)
+                if isinstance(program, Program)
+                else say("the node ended by itself ({error})", error=shown),
+                where=where or file_of_program(evidence, program),
                 variant="callback",
                 params={"error": error.partition(":")[0]},
             )
