@@ -212,6 +212,18 @@ def test_a_second_program_that_dies_is_told(
     assert "Traceback" in report.evidence.transcript.partition("^C")[0]
 
 
+@pytest.mark.prefix
+@pytest.mark.full
+def test_a_second_program_that_never_spins_is_told(tmp_path: Path) -> None:
+    report = marked(
+        tmp_path, relay=RELAY.replace("rclpy.spin(Relay())", "n = Relay()\n    input()")
+    )
+    told = next(found for found in report.checks if found.status == "failed")
+    assert (told.id, told.mistakes[0].id) == ("run.spins", "run.never_spins")
+    assert told.actual.startswith("/relay does not answer")
+    assert told.where is not None and told.where.file == "relaying/relaying/relay.py"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

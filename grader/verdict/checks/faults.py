@@ -59,7 +59,11 @@ def file_of_program(evidence: Evidence, program: Run | Program) -> Where:
     """Return the file of a program's node as the place of a fault without a line."""
     if not isinstance(program, Program):
         return node_file(evidence)
-    node = evidence.assignment.nodes[program.node]
+    return file_of_node(evidence, evidence.assignment.nodes[program.node])
+
+
+def file_of_node(evidence: Evidence, node: Node) -> Where:
+    """Return the file of a node of the assignment as the place of a fault without a line."""
     return Where(file=_in_package(evidence, node.package, f"{_folder_of(node)}/{node.file}"))
 
 
