@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from grader.course.load import load_assignment
-from grader.run.clock import VirtualClock
+from grader.run.clock import MOST_AT_ONCE, VirtualClock
 from grader.run.observer import SECOND, Observer, Watch
 from grader.run.probe_link import Answer, LogRecord, ProbeLink
 from grader.run.terminal import Terminal
@@ -59,8 +59,11 @@ class Node(ProbeLink):
         text: str = OUTPUT.text,
         period: float = OUTPUT.period,
         barrier: bool | None = True,
+        multiplies: bool = False,
     ) -> None:
         self._console = console
+        self._at_once = 1
+        self._multiplies = multiplies  # whether each timer creates another one
         self._prints = (before, after)
         self._text, self._period, self._barrier = text, period, barrier
         self._count = 0
@@ -74,15 +77,20 @@ class Node(ProbeLink):
             # (after a jump a timer runs once, then at the next multiple of its period)
             period = round(self._period * SECOND)
             self._next = int(more["at"]) // period * period + period
-            text = self._text.format(n=self._count)
-            stamp = time.time_ns()
-            logs.append(LogRecord(20, "node", text, "", "", 1, stamp))
-            line = f"[INFO] [{stamp // SECOND}.{stamp % SECOND:09}] [node]: {text}\r\n"
-            before, after = (words.format(n=self._count) for words in self._prints)
-            pieces = (before, line, after)
-            self._console.pieces += [piece.encode() for piece in pieces if piece]
-            self._count += 1
+            for _ in range(self._at_once):
+                logs.append(self._log())
+            self._at_once *= 1 + self._multiplies
         return Answer(barrier=self._barrier, logs=tuple(logs))
+
+    def _log(self) -> LogRecord:
+        text = self._text.format(n=self._count)
+        stamp = time.time_ns()
+        line = f"[INFO] [{stamp // SECOND}.{stamp % SECOND:09}] [node]: {text}\r\n"
+        before, after = (words.format(n=self._count) for words in self._prints)
+        pieces = (before, line, after)
+        self._console.pieces += [piece.encode() for piece in pieces if piece]
+        self._count += 1
+        return LogRecord(20, "node", text, "", "", 1, stamp)
 
 
 def driven(node: Node, console: SlowConsole) -> Watch:
@@ -141,3 +149,10 @@ def test_a_node_without_services_is_judged_by_the_clock_alone(period: float, rig
     assert watch.clock == "virtual"
     assert not watch.settled
     assert (not watch.early and not watch.missing and len(watch.dues) == OUTPUT.ticks) == right
+
+
+def test_the_clock_is_not_driven_on_when_timers_multiply() -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, multiplies=True), console)
+    assert (watch.clock, watch.early, watch.missing) == ("virtual", [], [])
+    assert len(watch.counted) == sum(2**k for k in range(MOST_AT_ONCE.bit_length() + 1))
