@@ -173,6 +173,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_repeats": {"name": "while"},
     "node.constructor_repeats": {"name": "while", "method": "run", "line": "12"},
     "node.second_node_spun": {"name": "node", "line": "12"},
+    "node.timer_again": {"name": "on_timer", "method": "say_hello"},
+    "node.timer_after_spin": {"name": "node.start()", "line": "12"},
     "node.super_late": {"line": "12"},
     "node.inner_not_called": {"name": "say_hello"},
     "node.placeholder": {"name": "callback"},

@@ -11,7 +11,7 @@ from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import lines, node_count, node_scope, node_timer
+from grader.mistakes.fixes import lines, node_scope, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
 from grader.mistakes.recognised import (
@@ -192,13 +192,6 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
 
 
-def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
-    timers, callback = suspect.source.timers, suspect.source.callback
-    if callback is None or not all(timer.function is callback for timer in timers):
-        return None
-    return suspect.finding("timer_in_callback", timers[0].call)
-
-
 def _cancelled(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         if name.endswith(".cancel"):
@@ -228,11 +221,6 @@ def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     if not (timer.method and other and logging):
         return None
     return suspect.finding("timer_other_callback", timer.call, name=timer.method)
-
-
-def _two(suspect: Suspect) -> RecognisedMistake | None:
-    timers = suspect.source.timers
-    return suspect.finding("two_timers", timers[1].call) if len(timers) > 1 else None
 
 
 def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
@@ -602,30 +590,6 @@ KINDS = (
         ),
     ),
     _node(
-        "timer_in_callback",
-        "timer",
-        msg("The timer is created in its own callback"),
-        msg("The timer calls the callback: as long as there is no timer, nothing calls it."),
-        msg("Move create_timer to __init__."),
-        behind={"run.no_lines": _in_callback},
-        examples=(
-            example(
-                "timer_in_callback",
-                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
-                Replace(
-                    NODE,
-                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
-                    (
-                        "self.create_timer(1.0, self.timer_callback)\n"
-                        "        self.get_logger().info('Hello time: ' + str(self.counter_))"
-                    ),
-                ),
-                fails="run.output",
-                blocks=SILENT,
-            ),
-        ),
-    ),
-    _node(
         "timer_cancelled",
         "timer",
         msg("The timer is cancelled"),
@@ -694,29 +658,6 @@ KINDS = (
                 Replace(NODE, "self.timer_callback)", "self.get_name)"),
                 fails="run.output",
                 blocks=SILENT,
-            ),
-        ),
-    ),
-    _node(
-        "two_timers",
-        "timer",
-        msg("Two timers call the callback"),
-        msg("Each timer calls its callback on its own: two timers make two lines at a time."),
-        msg("Keep only one create_timer."),
-        behind={"run.twice": _two},
-        fixed_by=(node_count.twice,),
-        examples=(
-            example(
-                "two_timers",
-                Replace(
-                    NODE,
-                    "self.create_timer(1.0, self.timer_callback)",
-                    (
-                        "self.create_timer(1.0, self.timer_callback)\n"
-                        "        self.create_timer(1.0, self.timer_callback)"
-                    ),
-                ),
-                fails="run.output",
             ),
         ),
     ),
