@@ -35,6 +35,7 @@ BACK_TO_SOLUTION = (
     *("number_added_outside", "marker_without_slash", "node_in_init_and_empty_file"),
     *("called_by_hand_before_counter", "python_logging_not_set_up", "python_logger_of_the_node"),
     *("tabs_and_spaces", "timer_again_in_callback"),
+    *("asyncio_sleep_in_callback", "thread_logs_in_loop", "daemon_thread_logs_in_loop"),
     *("python_logging_bare", "shell_line_without_prompt", "shell_line_that_is_python"),
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
@@ -77,6 +78,7 @@ OTHERWISE = {
     "try_without_except": "    except KeyboardInterrupt:\n        pass\n    node.destroy_node()\n",
     "adds_before_text": "self.get_logger().info(text)\n        self.counter_ = self.counter_ + 1\n",
     "timer_in_timers": "self.timers_ = self.create_timer(",
+    "thread_beside_timer": "threading.Thread(target=self.wait, daemon=True)\n",
     "timer_started_after_spin": "        node.start()\n        rclpy.spin(node)\n    except",
     "timer_created_after_try": (
         "        node.timer_ = node.create_timer(1.0, node.timer_callback)\n"

@@ -54,8 +54,8 @@ def _has_end(loop: Loop) -> bool:
     return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))
 
 
-def calls_of_methods(source: NodeSource, function: Function) -> Iterator[tuple[ast.Call, Function]]:
-    """Yield the calls in a function of the node's own methods, with the method."""
+def calls_of_methods(source: NodeSource, function: ast.AST) -> Iterator[tuple[ast.Call, Function]]:
+    """Yield the calls in a part of the source of the node's own methods, with the method."""
     for call, _ in calls_in(function):
         method = source.methods.get(own_name(call.func))
         if method is not None:

@@ -1,0 +1,201 @@
+"""Mistakes in which Python's threads or its asyncio do what a timer of ROS does."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_threads
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.imported import full_name
+from grader.package.source.names import calls_in
+from grader.package.source.place import function_at, statement_at
+from grader.package.source.threads import own_threads
+
+
+def _thread(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a thread that runs a method of the node which logs in a loop."""
+    source = suspect.source
+    for thread in own_threads(source):
+        if source.methods.get(thread.target.name) is thread.target and thread.logs(source):
+            loop = "while" if isinstance(thread.loop, ast.While) else "for"
+            found = suspect.finding("thread_for_timer", thread.call, name=thread.target.name)
+            words = {**found.words, "loop": loop, "line": thread.loop.lineno}
+            return replace(found, variant="daemon" if thread.daemon else "", words=words)
+    return None
+
+
+def _goes_on(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a thread that keeps the program running."""
+    for thread in own_threads(suspect.source):
+        if not thread.daemon:
+            return suspect.finding("thread_goes_on", thread.call, name=thread.target.name)
+    return None
+
+
+def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for asyncio in the line that needs an event loop."""
+    del match
+    module, line = raised.module, raised.line
+    statement, function = statement_at(module, line), function_at(module, line)
+    if statement is None or function is None:
+        return None
+    for call, _ in calls_in(statement):
+        if full_name(module, call.func).startswith("asyncio."):
+            written = f"{ast.unparse(call.func)}(…)"
+            found = raised.finding("asyncio_used", at=statement, name=written)
+            looped = any(isinstance(n, ast.While | ast.For) for n in module.around(statement))
+            sleeps = full_name(module, call.func) == "asyncio.sleep"
+            variant = ("loop" if looped else "") if sleeps else "other"
+            return replace(found, variant=variant, words={**found.words, "method": function.name})
+    return None
+
+
+IMPORT = Replace(NODE, "import rclpy\nfrom", "import threading\nimport time\nimport rclpy\nfrom")
+TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
+LOOP = f"        while True:\n    {LOG_LINE}    {STEP_LINE}            time.sleep(1.0)\n"
+THREAD = """\
+        self.thread = threading.Thread(target=self.timer_callback)
+        self.thread.start()
+"""
+_node = Family("node", links.EXECUTORS)
+KINDS = (
+    _node(
+        "thread_for_timer",
+        "spin",
+        msg("A thread of your own does the work of a timer"),
+        msg(
+            "The thread that this line creates runs {name}() beside rclpy.spin. It does not follow "
+            "ROS time: in a simulation or a replay it runs at the wrong speed. Ctrl+C ends "
+            "rclpy.spin, but not this thread, and Python waits for it."
+        ),
+        msg(
+            "Write self.create_timer({period}, self.{name}) instead of the thread, and delete the "
+            "line that starts it. In {name}, delete the {loop} on line {line} and the sleep in it, "
+            "and indent its other lines as far as the {loop} is indented now."
+        ),
+        whys={
+            "daemon": msg(
+                "The thread that this line creates runs {name}() beside rclpy.spin. It does not "
+                "follow ROS time: in a simulation or a replay it runs at the wrong speed, and it "
+                "does not stop when time stops."
+            )
+        },
+        behind={
+            "run.never_spins": _thread,
+            "run.ignores_interrupt": _thread,
+            "run.by_hand": _thread,
+            "run.wrong_period": _thread,
+        },
+        fixed_by=(node_threads.timer,),
+        examples=(
+            example(
+                "thread_logs_in_loop",
+                IMPORT,
+                Replace(NODE, TIMER, THREAD),
+                Replace(NODE, LOG_LINE + STEP_LINE, LOOP),
+                fails="run.spins",
+                also={"run.interrupt": "node.thread_for_timer"},
+            ),
+            example(
+                "daemon_thread_logs_in_loop",
+                IMPORT,
+                Replace(
+                    NODE,
+                    TIMER,
+                    "        threading.Thread(target=self.timer_callback, daemon=True).start()\n",
+                ),
+                Replace(NODE, LOG_LINE + STEP_LINE, LOOP),
+                fails="run.spins",
+            ),
+        ),
+    ),
+    _node(
+        "thread_goes_on",
+        "shutdown",
+        msg("A thread goes on after Ctrl+C"),
+        msg(
+            "Ctrl+C ends rclpy.spin, but not the thread that runs {name}. Python ends only when all "
+            "threads have ended, unless they are daemon threads."
+        ),
+        msg("Write daemon=True as the last argument of Thread."),
+        behind={"run.ignores_interrupt": _goes_on},
+        fixed_by=(node_threads.daemon,),
+        examples=(
+            example(
+                "thread_beside_timer",
+                IMPORT,
+                Replace(
+                    NODE,
+                    TIMER,
+                    f"{TIMER}        self.thread = threading.Thread(target=self.wait)\n"
+                    "        self.thread.start()\n",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def wait(self):\n"
+                    "        while True:\n"
+                    "            time.sleep(1.0)\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "asyncio_used",
+        "callback",
+        msg("rclpy does not run asyncio"),
+        msg(
+            "{name} needs an event loop of asyncio. rclpy.spin is none: it calls an async callback, "
+            "but it runs nothing of asyncio. The timer waits from one call to the next."
+        ),
+        msg(
+            "Delete this line, and write def {method} without async. import asyncio is not needed "
+            "any more."
+        ),
+        fixes={
+            "loop": msg(
+                "Delete the loop around this line and this line, and write def {method} without "
+                "async. A timer calls a method again and again: self.create_timer({period}, "
+                "self.{callback})"
+            ),
+            "other": msg(
+                "Do without asyncio: write def {method} without async, and call the functions "
+                "directly. What must come later belongs in the callback of a timer."
+            ),
+        },
+        raised={r"RuntimeError: no running event loop": _asyncio},
+        fixed_by=(node_threads.without_asyncio,),
+        examples=(
+            example(
+                "asyncio_sleep_in_callback",
+                Replace(NODE, "import rclpy\nfrom", "import asyncio\nimport rclpy\nfrom"),
+                Replace(NODE, "    def timer_callback", "    async def timer_callback"),
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        await asyncio.sleep(0.1)\n"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "asyncio_task_in_callback",
+                Replace(NODE, "import rclpy\nfrom", "import asyncio\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "    def timer_callback(self):\n",
+                    "    def timer_callback(self):\n"
+                    "        asyncio.create_task(self.hello())\n\n"
+                    "    async def hello(self):\n",
+                ),
+                fails="run.output",
+                blocks=("run.logger", "run.period", "run.interrupt"),
+            ),
+        ),
+    ),
+)
