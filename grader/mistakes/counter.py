@@ -125,7 +125,18 @@ def _place_of_text(suspect: Suspect) -> Where:
 def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     if not re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text):
         return None
-    return suspect.finding("f_prefix", _place_of_text(suspect))
+    return suspect.finding("f_prefix", _string_of(suspect) or _place_of_text(suspect))
+
+
+def _string_of(suspect: Suspect) -> ast.Constant | None:
+    """Return the string of the callback that is the logged text, if it is the only one."""
+    callback = suspect.source.callback
+    found = [
+        n
+        for n in (ast.walk(callback) if callback is not None else ())
+        if isinstance(n, ast.Constant) and n.value == suspect.text
+    ]
+    return found[0] if len(found) == 1 else None
 
 
 def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
@@ -415,6 +426,16 @@ KINDS = (
                 "f_prefix_missing",
                 Replace(
                     NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"
+                ),
+                fails="run.output",
+            ),
+            example(
+                "f_prefix_missing_in_variable",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        text = 'Hello time: {self.counter_}'\n"
+                    "        self.get_logger().info(text)\n",
                 ),
                 fails="run.output",
             ),

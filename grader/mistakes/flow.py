@@ -18,7 +18,7 @@ from grader.mistakes.example import (
     STEP_LINE,
     example,
 )
-from grader.mistakes.fixes import lines
+from grader.mistakes.fixes import lines, node_loops
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -42,7 +42,12 @@ def _loops(suspect: Suspect) -> RecognisedMistake | None:
     for block in _blocks(suspect):
         if isinstance(block, ast.For | ast.While) and suspect.source.logs(block):
             word = "for" if isinstance(block, ast.For) else "while"
-            return suspect.finding("loop_in_callback", block, name=word)
+            found = suspect.finding("loop_in_callback", block, name=word)
+            number = block.target if isinstance(block, ast.For) else None
+            inside = {dotted(n) for log in suspect.source.logs(block) for n in ast.walk(log)}
+            if isinstance(number, ast.Name) and number.id in inside:
+                found = replace(found, variant="counts", words={**found.words, "number": number.id})
+            return found
     return None
 
 
@@ -192,9 +197,28 @@ KINDS = (
             "rounds in one call, at the same time."
         ),
         msg("Remove this {name}, and indent its lines as far as the {name} is indented now."),
-        behind={"run.twice": _loops},
-        fixed_by=(lines.unwrapped,),
+        fixes={
+            "counts": msg(
+                "Remove this {name}, and indent its lines as far as the {name} is indented now. "
+                "Without it there is no {number}: write {counter} = {start} in __init__, log "
+                "{counter} instead of {number}, and write {counter} += {step} below the line that "
+                "logs."
+            )
+        },
+        behind={"run.twice": _loops, "run.wrong_step": _loops},
+        fixed_by=(lines.unwrapped, node_loops.counted_by_calls),
         examples=(
+            example(
+                "loop_logs_its_number",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        for i in range(10):\n"
+                    "            self.get_logger().info('Hello time: ' + str(i))\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "loop_logs_ten",
                 Replace(

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_order
+from grader.mistakes.fixes import node_order, node_scope
 from grader.mistakes.kind import Family
+from grader.mistakes.objects import OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
 ENDS = ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit")
@@ -47,8 +52,42 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
             if not isinstance(node, ast.Try) or _all_harmless(node.body):
                 continue
             for handler in filter(_hides, node.handlers):
-                return suspect.finding("error_hidden", suspect.place_at(handler))
+                found = suspect.finding("error_hidden", suspect.place_at(handler))
+                return _with_attribute(suspect, found, node.body)
     return None
+
+
+def _with_attribute(
+    suspect: Suspect, found: RecognisedMistake, body: list[ast.stmt]
+) -> RecognisedMistake:
+    """Add the misspelt attribute in a try, if there is one: that is the hidden error."""
+    source = suspect.source
+    own = source.attributes | set(source.methods)
+    plain = source.is_one_class and [dotted(b) for b in _bases(source)] in (
+        ["Node"],
+        ["rclpy.node.Node"],
+    )
+    for part in (n for statement in body for n in ast.walk(statement)):
+        name = own_name(part)
+        if not plain or not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Load):
+            continue
+        if not name or name in own | {*OF_NODE, *NODE_METHODS} or name in _of_class(source):
+            continue
+        close = nearest(name, own)
+        if close:
+            params: dict[str, str | int] = {"name": name, "written": close, "line": part.lineno}
+            words = {**found.words, **params}
+            return replace(found, params=params, words=words, variant="attribute")
+    return found
+
+
+def _bases(source: NodeSource) -> list[ast.expr]:
+    return source.node_class.bases if source.node_class is not None else []
+
+
+def _of_class(source: NodeSource) -> set[str]:
+    """Return the names that the class itself sets."""
+    return {name for statement in source.class_body for name in targets_of(statement)}
 
 
 def _all_harmless(body: list[ast.stmt]) -> bool:
@@ -140,6 +179,13 @@ KINDS = (
             "Remove this except (and its try), and run the node again: now the traceback shows "
             "the line with the error."
         ),
+        fixes={
+            "attribute": msg(
+                "Write self.{written} instead of self.{name} on line {line}: no line sets "
+                "self.{name}, and this except hides the AttributeError. Then remove the except "
+                "(and its try)."
+            )
+        },
         behind={
             "run.no_lines": _swallows,
             "run.constant_counter": _swallows,
@@ -148,7 +194,22 @@ KINDS = (
             "run.ended_early": _swallows,
             "run.no_node": _swallows,
         },
+        fixed_by=(node_scope.hidden_attribute,),
         examples=(
+            example(
+                "misspelt_attribute_hidden",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        try:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.count))\n"
+                    "            self.counter_ += 1\n"
+                    "        except Exception:\n"
+                    "            pass\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "error_hidden_in_callback",
                 Replace(

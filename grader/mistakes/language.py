@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -223,7 +224,8 @@ def _time(suspect: Suspect) -> RecognisedMistake | None:
     shown = _shown(suspect, callback) if callback is not None else set()
     for call in source.calls_of(*CLOCKS, within=callback) if callback is not None else ():
         if call in shown:
-            return suspect.finding("time_for_count", call, name=ast.unparse(call.func)[:60])
+            found = suspect.finding("time_for_count", call, name=ast.unparse(call.func)[:60])
+            return replace(found, variant="ros" if "get_clock" in str(found.words["name"]) else "")
     return None
 
 
@@ -532,7 +534,17 @@ KINDS = (
             "The number says how often the callback was called: {start} first, then {step} more "
             "each time. {name} is the time that a clock shows, and no count."
         ),
-        msg("Log the counter, and add {step} to it in each callback."),
+        msg(
+            "Write {counter} = {start} in __init__. Log {counter} in the callback instead of the "
+            "time, and write {counter} += {step} below the line that logs."
+        ),
+        whys={
+            "ros": msg(
+                "The number says how often the callback was called: {start} first, then {step} "
+                "more each time. {name} is the time that a clock shows, and no count. Here ROS "
+                "time began at 0; on your terminal the number is that of the seconds since 1970."
+            )
+        },
         behind={
             "run.constant_counter": _time,
             "run.wrong_start": _time,

@@ -68,7 +68,7 @@ def _words(call: ast.Call, spin: ast.Call) -> dict[str, str]:
 
 def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
     timers, callback = suspect.source.timers, suspect.source.callback
-    if callback is None or not all(timer.function is callback for timer in timers):
+    if callback is None or not timers or any(t.function is not callback for t in timers):
         return None
     return suspect.finding("timer_in_callback", timers[0].call)
 
@@ -129,6 +129,16 @@ KINDS = (
                 fails="run.output",
             ),
         ),
+    ),
+    _node(
+        "timer_hides_method",
+        "timer",
+        msg("The timer is assigned to the name of its own callback"),
+        msg(
+            "It works, because create_timer gets the method before the name is assigned. From then "
+            "on, self.{name} is the timer, and the method can no longer be called by this name."
+        ),
+        msg("Use another name for the timer, for example self.timer_."),
     ),
     _node(
         "timer_after_spin",

@@ -79,6 +79,14 @@ OTHERWISE = {
     "adds_before_text": "self.get_logger().info(text)\n        self.counter_ = self.counter_ + 1\n",
     "timer_in_timers": "self.timers_ = self.create_timer(",
     "thread_beside_timer": "threading.Thread(target=self.wait, daemon=True)\n",
+    "f_prefix_missing_in_variable": "        text = f'Hello time: {self.counter_}'\n",
+    "counter_given_to_function": "str(self.counter_))\n        self.counter_ += 1\n\n",
+    "counter_of_method_not_kept": "        self.counter_ = self.add_one(self.counter_)\n",
+    "misspelt_attribute_hidden": "info('Hello time: ' + str(self.counter_))\n",
+    "loop_logs_its_number": (
+        "        self.get_logger().info('Hello time: ' + str(self.counter))\n"
+        "        self.counter += 1\n\n"
+    ),
     "timer_started_after_spin": "        node.start()\n        rclpy.spin(node)\n    except",
     "timer_created_after_try": (
         "        node.timer_ = node.create_timer(1.0, node.timer_callback)\n"

@@ -9,7 +9,7 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
-from grader.package.source.counter import starts_of
+from grader.package.source.counter import starts_of, texts_of
 from grader.package.source.module import Module
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.node import NodeSource
@@ -27,12 +27,21 @@ def f_prefix(case: Case) -> Files | None:
     if node is None or call is None:
         return None
     module = node.module_of(call)
-    logged = module.text.plain_string(call.args[0]) or ""
+    given = _text_in_variable(node, call) or call.args[0]
+    logged = module.text.plain_string(given) or ""
     names = PLACE.findall(logged)
     if not names or logged.count("{") != len(names) or not set(names) <= set(starts_of(node)):
         return None
-    start = module.text.span(call.args[0])[0]
+    start = module.text.span(given)[0]
     return case.changed(module, Splice(start, start, "f"))
+
+
+def _text_in_variable(node: NodeSource, call: ast.Call) -> ast.expr | None:
+    """Return what the only line before a log call gives to the variable that it logs."""
+    function = node.function_around(call)
+    texts = texts_of(function, call) if function is not None else []
+    alone = isinstance(call.args[0], ast.Name) and len(texts) == 1
+    return texts[0].value if alone else None
 
 
 def text(case: Case) -> Files | None:

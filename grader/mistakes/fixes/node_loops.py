@@ -8,12 +8,14 @@ from dataclasses import replace
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
+from grader.package.edit.text import Splice, indent_of
 from grader.package.source.endless import Loop, calls_of_methods, sleeps_in
 from grader.package.source.module import Function, Module
 from grader.package.source.names import own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, function_at
+
+FREE = ("counter", "counter_", "own_counter", "calls_of_callback")  # names for a new counter
 
 
 def without_loop(case: Case) -> Files | None:
@@ -116,3 +118,33 @@ def _without_sleep(case: Case, path: str, name: str) -> Files | None:
             return None
         splices.append(module.text.without(statement.lineno))
     return case.changed(module, *splices) if splices else case.files
+
+
+def counted_by_calls(case: Case) -> Files | None:
+    """Log a counter of the node instead of the loop's number, once in each call."""
+    found, node = _loop(case), case.node
+    init = node.super_init if node is not None else None
+    if found is None or node is None or init is None:
+        return None
+    module, loop, _ = found
+    number = (
+        loop.target.id if isinstance(loop, ast.For) and isinstance(loop.target, ast.Name) else ""
+    )
+    text, output = module.text, case.assignment.output
+    used = [n for s in loop.body for n in ast.walk(s) if isinstance(n, ast.Name) and n.id == number]
+    counter = next(f"self.{name}" for name in FREE if name not in node.attributes | {*node.methods})
+    if not used or not module.has(init) or any(text.code(n) != number for n in used):
+        return None
+    last = loop.body[-1]
+    step = f"{indent_of(text.line(last.lineno))}{counter} += {output.step}"
+    start = f"{indent_of(text.line(init.lineno))}{counter} = {output.start}"
+    made = case.changed(
+        module,
+        *(text.swap(n, counter) for n in used),
+        text.before((last.end_lineno or last.lineno) + 1, step),
+        text.before((init.end_lineno or init.lineno) + 1, start),
+    )
+    if made is None or init.lineno > loop.lineno:
+        return None
+    there = replace(case.finding, line=loop.lineno + 1)
+    return lines.unwrapped(replace(case, files=made, finding=there))

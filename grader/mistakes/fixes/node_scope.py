@@ -209,3 +209,20 @@ def definition(case: Case) -> Files | None:
     if module.text.text[at : at + len(name)] != name:
         return None
     return case.changed(module, Splice(at, at + len(name), close))
+
+
+def hidden_attribute(case: Case) -> Files | None:
+    """Correct the misspelt attribute whose error an except hides."""
+    node, params = case.node, case.finding.params
+    name, close = (str(params.get(key, "")) for key in ("name", "written"))
+    if node is None or not name or not close:
+        return None
+    module = node.module_at(case.finding.file)
+    found = [
+        n
+        for n in module.nodes
+        if isinstance(n, ast.Attribute)
+        and own_name(n) == name
+        and module.text.code(n) == f"self.{name}"
+    ]
+    return case.changed(module, *(module.text.swap(n, f"self.{close}") for n in found))
