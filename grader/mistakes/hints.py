@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import compared, nearest
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, own_name
 from grader.package.source.second_node import second_node
 
 GUARD = "__main__"
@@ -21,11 +21,23 @@ def hints(tree: ast.Module) -> list[str]:
             found += _guard(node)
         elif isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.shutdown":
             found.append(_advice("node.shutdown_not_called", node.lineno))
+        elif isinstance(node, ast.Assign) and (name := _hidden_method(node)):
+            found.append(_advice("node.timer_hides_method", node.lineno, {"name": name}))
     second = second_node(tree)
     if second is not None:
         values: Mapping[str, Value] = {"name": second.name, "line": second.line}
         found.append(_advice("node.second_node_spun", second.spin.lineno, values))
     return found
+
+
+def _hidden_method(made: ast.Assign) -> str:
+    """Return the callback whose name a timer gets: self.f = self.create_timer(1.0, self.f)."""
+    call = made.value
+    if not isinstance(call, ast.Call) or dotted(call.func) != "self.create_timer":
+        return ""
+    given = {own_name(n) for n in (*call.args, *(keyword.value for keyword in call.keywords))}
+    names = given & {own_name(target) for target in made.targets}
+    return next(iter(names - {""}), "")
 
 
 def _guard(node: ast.Compare) -> list[str]:

@@ -1,4 +1,4 @@
-"""The advice on a node that is created in the call of spin beside another one."""
+"""The advice on what works and can be better: a second node, a timer under its callback's name."""
 
 from __future__ import annotations
 
@@ -40,3 +40,18 @@ def test_the_second_node_is_named() -> None:
 )
 def test_a_node_that_may_be_meant_gets_no_advice(body: str) -> None:
     assert advice(body) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "advised"),
+    [
+        ("self.on_timer = self.create_timer(1.0, self.on_timer)", True),
+        ("self.on_timer = self.create_timer(1.0, callback=self.on_timer)", True),
+        ("self.timer = self.create_timer(1.0, self.on_timer)", False),
+        ("self.on_timer = self.create_timer(self.period, self.tick)", False),
+    ],
+)
+def test_a_timer_under_its_callbacks_name_gets_advice(line: str, advised: bool) -> None:
+    found = hints(ast.parse(line))
+    assert len(found) == advised
+    assert all("self.on_timer is the timer" in text for text in found)
