@@ -25,7 +25,7 @@ from grader.mistakes.recognised import (
 )
 from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, dotted, last_part, own_name
+from grader.package.source.names import calls_in, dotted, own_name
 from grader.package.source.place import function_at
 
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
@@ -233,82 +233,8 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
-def _rates(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a rate that sleeps on the thread that must spin."""
-    rates = {
-        target
-        for node in suspect.source.all_nodes
-        if isinstance(node, ast.Assign) and dotted(node.value).endswith("create_rate()")
-        for target in map(dotted, node.targets)
-    }
-    threads = any(last_part(name) == "Thread" for _, name in suspect.source.calls)
-    for call, name in suspect.source.calls if not threads else []:
-        before, _, method = name.rpartition(".")
-        if method == "sleep" and (before in rates or before.endswith("create_rate()")):
-            found = suspect.finding("rate_sleep", call, name=name)
-            around = suspect.source.module_of(call).around(call)
-            looped = any(isinstance(part, ast.While | ast.For) for part in around)
-            return replace(found, variant="" if looped else "alone")
-    return None
-
-
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
-    _node(
-        "rate_sleep",
-        "timer",
-        msg("A rate waits forever"),
-        msg(
-            "rclpy.spin wakes a rate. While {name}() waits, nothing spins, so nothing ever wakes "
-            "it."
-        ),
-        msg(
-            "Remove the rate and its loop. A timer calls the callback again and again: "
-            "self.create_timer({period}, self.{callback})"
-        ),
-        links.EXECUTORS,
-        fixes={
-            "alone": msg(
-                "Remove this line, and the line that creates the rate. The timer already calls "
-                "{callback} in each period."
-            )
-        },
-        behind={
-            "run.no_lines": _rates,
-            "run.stops": _rates,
-            "run.no_node": _rates,
-            "run.never_spins": _rates,
-        },
-        examples=(
-            example(
-                "rate_in_callback",
-                Replace(
-                    NODE,
-                    "self.counter_ += 1",
-                    "self.counter_ += 1\n        self.create_rate(1.0).sleep()",
-                ),
-                fails="run.output",
-                blocks=("run.period",),
-            ),
-            example(
-                "rate_sleeps_in_main",
-                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
-                Replace(
-                    NODE,
-                    "        rclpy.spin(node)\n",
-                    (
-                        "        rate = node.create_rate(1.0)\n"
-                        "        while rclpy.ok():\n"
-                        "            node.timer_callback()\n"
-                        "            rate.sleep()\n"
-                    ),
-                ),
-                fails="run.spins",
-                also={"run.output": "node.rate_sleep"},
-                blocks=("run.period",),
-            ),
-        ),
-    ),
     _node(
         "timer_at_class_level",
         "timer",

@@ -87,6 +87,7 @@ OTHERWISE = {
         "        self.get_logger().info('Hello time: ' + str(self.counter))\n"
         "        self.counter += 1\n\n"
     ),
+    "rate_sleeps_in_main": "    try:\n        rclpy.spin(node)\n    except KeyboardInterrupt:",
     "timer_started_after_spin": "        node.start()\n        rclpy.spin(node)\n    except",
     "timer_created_after_try": (
         "        node.timer_ = node.create_timer(1.0, node.timer_callback)\n"
@@ -103,7 +104,6 @@ OTHERWISE = {
 NOT_FIXED = (
     *("error_hidden_in_callback", "error_hidden_in_main", "returns_if_zero", "rate_in_callback"),
     *(
-        "rate_sleeps_in_main",
         "start_outside_init",
         "printf_in_callback",
         "to_string",
