@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import joined, say
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import (
+    FRAME,
     file_of_program,
     flood,
     going_on,
@@ -130,6 +131,23 @@ def _catches_interrupt(evidence: Evidence) -> bool:
     return any("KeyboardInterrupt" in ast.unparse(named) for named in types)
 
 
+def _outside_of_try(evidence: Evidence) -> list[str]:
+    """Return why Ctrl+C ends a node that does not spin with a traceback, in spite of its except."""
+    _, found, trace = evidence.run.transcript.rpartition("Traceback (most recent call last):")
+    source = source_of_node(evidence)
+    frames = FRAME.findall(trace) if found and evidence.has_failed("run.spins") else []
+    lines = [int(n) for path, n in frames if source is not None and path in source.paths]
+    if not lines or "\nKeyboardInterrupt" not in trace:
+        return []
+    return [
+        say(
+            "The traceback after Ctrl+C comes from line {line}: the except KeyboardInterrupt is not "
+            "around it, but around rclpy.spin, which this node does not reach.",
+            line=lines[-1],
+        )
+    ]
+
+
 @check(
     "run.interrupt",
     stage=RUN,
@@ -160,7 +178,8 @@ def interrupt(evidence: Evidence) -> Passed:
     if run.status in (0, 130, 254) or run.signal == 2:
         caught = say("try: … except KeyboardInterrupt: around rclpy.spin avoids the traceback.")
         bare = run.status == 254 and not _catches_interrupt(evidence)
-        return Passed(actual=actual, advice=[caught] if bare else [])
+        advice = [caught] if bare else _outside_of_try(evidence)
+        return Passed(actual=actual, advice=advice)
     if run.status is not None and run.status > SIGNALLED:
         crashed = say(
             "The program crashed in ROS's own clean-up after Ctrl+C: do not leave a thread "
