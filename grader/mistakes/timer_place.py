@@ -108,7 +108,7 @@ KINDS = (
                 Replace(
                     NODE,
                     STEP_LINE,
-                    f"{STEP_LINE}        self.create_timer(1.0, self.timer_callback)\n",
+                    f"{STEP_LINE}        self.create_timer(1.0, self.timer_callback)  # next\n",
                 ),
                 fails="run.output",
             ),

@@ -24,10 +24,12 @@ def _statement(case: Case) -> tuple[Module, ast.stmt] | None:
 
 
 def _own_lines(module: Module, statement: ast.stmt) -> range | None:
-    """Return the lines of a statement; None if something else is on one of them."""
+    """Return the lines of a statement; None if something else than a comment is on one of them."""
     last = statement.end_lineno or statement.lineno
-    written = "\n".join(module.text.line(n) for n in range(statement.lineno, last + 1))
-    alone = written.strip() == module.text.code(statement).replace(module.text.newline, "\n")
+    written = "\n".join(module.text.line(n) for n in range(statement.lineno, last + 1)).strip()
+    code = module.text.code(statement).replace(module.text.newline, "\n")
+    rest = written.removeprefix(code).lstrip()
+    alone = written.startswith(code) and (not rest or rest.startswith("#"))
     return range(statement.lineno, last + 1) if alone else None
 
 
