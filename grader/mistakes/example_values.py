@@ -190,6 +190,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.super_late": {"line": "12"},
     "node.inner_not_called": {"name": "say_hello"},
     "node.placeholder": {"name": "callback"},
+    "node.spin_of_object": {"name": "app", "type": "App", "attribute": "node"},
 }
 """What differs in the texts of one mistake."""
 

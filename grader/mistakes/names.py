@@ -50,7 +50,14 @@ def _close_method(raised: Raised, match: re.Match[str]) -> str:
     return nearest(name, known, cutoff=0.7)
 
 
+def _is_written(raised: Raised, name: str) -> bool:
+    """Whether a file of the student has a name: one that only rclpy writes is not misspelt."""
+    return any(name in module.text.text for module in raised.source.modules)
+
+
 def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not _is_written(raised, match["name"]):
+        return None
     close = _close_method(raised, match)
     return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
 
@@ -150,7 +157,7 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         found = raised.finding("attribute_unknown", name=match["name"])
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
     suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
-    close = suggested[1] if suggested else ""
+    close = suggested[1] if suggested and _is_written(raised, match["name"]) else ""
     return raised.finding("attribute_unknown", name=match["name"], close=close)
 
 

@@ -98,6 +98,8 @@ OTHERWISE = {
     "while_in_constructor": "self.counter_ = 0\n        self.create_timer(1.0, self.timer_callback)\n\n",
     "period_set_after_timer": "self.period_ = 1.0\n        self.create_timer(self.period_,",
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",
+    "object_with_a_node_is_spun": "        rclpy.spin(node.node)\n",
+    "object_with_a_node_in_executor": "        executor.add_node(app.node)\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
 # Only the student knows what these should be.
@@ -110,6 +112,7 @@ NOT_FIXED = (
         "none_called",
     ),
     *("init_defined_twice", "callback_defined_twice", "init_twice_without_counter"),
+    "object_without_node_is_spun",
     *("while_logs_in_constructor", "own_file_beside_setup"),
     *("node_of_ros_1", "loginfo_of_rospy", "helper_not_handed_in", "loop_catches_everything"),
 )

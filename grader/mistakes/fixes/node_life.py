@@ -11,6 +11,7 @@ from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.second_node import second_node
+from grader.package.source.spun_object import given_to_spin
 
 IMPORT = "from rclpy.node import Node"
 
@@ -295,3 +296,15 @@ def first_node(case: Case) -> Files | None:
     if module is None or found is None or found.spin.lineno != case.finding.line:
         return None
     return case.changed(module, module.text.swap(found.spin.args[0], found.name))
+
+
+def node_of_object(case: Case) -> Files | None:
+    """Spin the node that an object has, instead of the object."""
+    module, params = case.module, case.finding.params
+    attribute, made_by = str(params.get("attribute", "")), str(params.get("type", ""))
+    if module is None or not attribute:
+        return None
+    spun = given_to_spin(module.tree, case.finding.line, made_by)
+    if spun is None:
+        return None
+    return case.changed(module, module.text.swap(spun, f"{module.text.code(spun)}.{attribute}"))
