@@ -254,3 +254,17 @@ def test_a_link_in_place_of_the_package_is_reported(tmp_path: Path) -> None:
     found = take(tmp_path / "given")
     assert found.problem_mistake == "package.link"
     assert PACKAGE in found.problem
+
+
+def test_a_package_that_was_created_inside_itself_is_not_to_be_put_beside_it(
+    tmp_path: Path,
+) -> None:
+    make(tmp_path / "one")
+    make(tmp_path / "one" / PACKAGE / PACKAGE)
+    (hint,) = take(tmp_path).hints
+    assert "of the same name inside this one" in hint
+    assert "side by side" not in hint
+    make(tmp_path / "two")
+    make(tmp_path / "two" / PACKAGE / "other", "other")
+    (hint,) = take(tmp_path / "two").hints
+    assert "Put packages side by side in src" in hint

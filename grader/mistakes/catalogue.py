@@ -16,6 +16,7 @@ from grader.mistakes import (
     counter,
     counter_passed,
     counter_start,
+    created_wrong,
     ends,
     entry_function,
     entry_points,
@@ -59,6 +60,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
         kind.id: kind
         for module in (
             submission,
+            created_wrong,
             package,
             node_file,
             build,

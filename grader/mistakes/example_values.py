@@ -145,6 +145,17 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.period_not_number": {"name": "1.0,", "written": "1.0"},
     "node.threading_timer": {"line": "13"},
+    "package.created_inside": {
+        "inner": "my_package/my_package",
+        "path": "my_package/my_package/my_package/my_node.py",
+        "wanted": "my_package/my_node.py",
+        "entry": "my_node = my_package.my_node:main",
+    },
+    "package.created_as_cmake": {
+        "missing": "setup.cfg",
+        "node_file": "my_node.py",
+        "entry": "my_node = my_package.my_node:main",
+    },
     "package.marker_missing": {"close": "resources"},
     "node.for_ros_1": {"name": "loginfo", "written": "self.get_logger().info(…)"},
     "node.own_module_missing": {

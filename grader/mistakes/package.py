@@ -12,7 +12,6 @@ from grader.mistakes.example import (
     INNER,
     MANIFEST,
     MARKER,
-    NO_FILE,
     SETUP,
     UNBUILT,
     UNINSTALLED,
@@ -414,32 +413,6 @@ KINDS = (
                 Replace(MANIFEST, "</build_type>", "</build_typ>"),
                 fails="package.manifest",
                 blocks=UNBUILT,
-            ),
-            example(
-                "cmake_package",
-                Delete(SETUP),
-                Delete(CFG),
-                Delete("resource"),
-                Delete(INNER),
-                Write(
-                    "CMakeLists.txt",
-                    (
-                        "cmake_minimum_required(VERSION 3.8)\n"
-                        "project(my_robot_controller)\n"
-                        "find_package(ament_cmake REQUIRED)\n"
-                        "ament_package()\n"
-                    ),
-                ),
-                Replace(MANIFEST, "ament_python", "ament_cmake"),
-                fails="package.manifest",
-                also={
-                    "package.marker": "package.marker_missing",
-                    "package.setup_cfg": "package.setup_cfg_missing",
-                    "source.node_file": "source.no_node_file",
-                    "entry_point.mapping": "setup.missing",
-                },
-                blocks=(*NO_FILE, *UNBUILT),
-                note="--build-type forgotten",
             ),
             example(
                 "build_type_missing",

@@ -18,6 +18,7 @@ from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import ended_program, raised_in
 from grader.verdict.checks.parsed import names_in
+from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
 from grader.verdict.own_modules import own_module
@@ -81,7 +82,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
     diagnosis = Diagnosis.of(failed)
     symptom = failed.mistake.id
     if symptom not in SYMPTOMS and symptom not in RAISES and not symptom.startswith("run."):
-        return diagnosis
+        return _following(diagnosis, evidence)
     try:
         found = _root(symptom, diagnosis, evidence)
     except RecursionError:  # (a hostile source; the check's own diagnosis is kept)
@@ -91,6 +92,15 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
     _show_line(diagnosis, evidence)
     diagnosis.mistakes.sort(key=lambda mistake: RANK[mistake.id])
     diagnosis.consequence_of = _same_root(diagnosis, evidence)
+    return diagnosis
+
+
+def _following(diagnosis: Diagnosis, evidence: Evidence) -> Diagnosis:
+    """Leave the fix to an earlier check, if its mistake is the cause of this one."""
+    cause = followed(diagnosis.mistakes[0].id, evidence)
+    if cause:
+        diagnosis.consequence_of = cause
+        diagnosis.fix = say("This follows from {check}. Fix {check} first.", check=cause)
     return diagnosis
 
 

@@ -52,7 +52,8 @@ def patch_for(result: CheckResult, submission: Submission, assignment: Assignmen
     Checks that need a run are not evaluated again: their fix relies on the form of the mistake.
     """
     finding = finding_of(result)
-    if finding is None or submission.root is None:
+    follows = result.consequence_of and result.id in STATIC
+    if finding is None or submission.root is None or follows:
         return ""
     old = Files.of(submission)
     if finding.check in STATIC:

@@ -134,7 +134,16 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
             )
         )
     inner = [c for c in candidates if chosen in _around(c, candidates)]
-    if inner:
+    if inner and inner[0].name == chosen.name:
+        hints.append(
+            say(
+                "There is another package of the same name inside this one ({path}): ros2 pkg "
+                "create was run inside the package. colcon stops at the outer one and never builds "
+                "the inner one. Move your own code out of the inner one, and delete it.",
+                path=shown(inner[0].path),
+            )
+        )
+    elif inner:
         hints.append(
             say(
                 "There is another package inside this one ({path}): colcon stops at the outer "

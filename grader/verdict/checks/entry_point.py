@@ -18,6 +18,7 @@ from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.values import Table
 from grader.report.model import Where
 from grader.verdict.checks import entry_faults
+from grader.verdict.checks.inner_package import entry_in_inner_package
 from grader.verdict.checks.parsed import file_of, node_path, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
 
@@ -53,7 +54,8 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if not named:
         if not points.is_static:
             return None
-        raise entry_faults.missing(evidence, points, setup)
+        created_inside = entry_in_inner_package(evidence)
+        raise created_inside or entry_faults.missing(evidence, points, setup)
     entry = named[0]
     if "".join(entry.target.split()) != assignment.target:
         raise entry_faults.other_target(evidence, entry)

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import Message, Value, say
+from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import meant, nearest, with_difference
 from grader.base.shown import shown
 from grader.package.source.broken_xml import TAGS, XmlFault, xml_fault
@@ -50,7 +50,7 @@ def check_manifest(evidence: Evidence) -> Passed:
     _check_rules(manifest)
     _check_name(evidence, manifest)
     _check_setup_name(evidence)
-    _check_build_type(manifest)
+    _check_build_type(evidence, manifest)
     asked = any(use.kind == "package.depends" for use in evidence.assignment.checks)
     return Passed(actual=f"{manifest.name}, ament_python", advice=_advice(manifest, asked=asked))
 
@@ -256,7 +256,7 @@ def _check_build_type_place(manifest: Manifest) -> None:
         raise _build_type(element, say("<build_type> is outside of <export>"))
 
 
-def _check_build_type(manifest: Manifest) -> None:
+def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
     elements = manifest.effective("build_type", within="export")
     if not elements:
         _check_tag_name(manifest, "build_type", within="export")
@@ -265,8 +265,35 @@ def _check_build_type(manifest: Manifest) -> None:
         many = say("there are {count} <build_type> tags", count=len(elements))
         raise _build_type(elements[1], many)
     if elements[0].text != "ament_python":
+        _check_created(evidence, elements[0])
         said = f"<build_type>{shown(elements[0].text)}</build_type>"
         raise _build_type(elements[0], with_difference(said, elements[0].text, "ament_python"))
+
+
+def _check_created(evidence: Evidence, element: Element) -> None:
+    """Raise Failed if the whole package was created for C++, and not only this line is wrong."""
+    assignment = evidence.assignment
+    files = ("setup.py", "setup.cfg", f"resource/{assignment.package}")
+    missing = [path for path in files if evidence.submission.file(path) is None]
+    has_cmake = evidence.submission.file("CMakeLists.txt") is not None
+    if not missing or not has_cmake or "cmake" not in element.text:
+        return
+    raise _failed(
+        "package.created_as_cmake",
+        joined(
+            f"<build_type>{shown(element.text)}</build_type>",
+            say("there is a CMakeLists.txt, but no {files}", files=", ".join(missing)),
+            by=", ",
+        ),
+        element.line,
+        expected=BUILD_TYPE,
+        params={"missing": missing[0]},
+        words={
+            "package": assignment.package,
+            "node_file": assignment.node_file,
+            "entry": f"{assignment.executable} = {assignment.target}",
+        },
+    )
 
 
 def _build_type(element: Element | None, actual: str) -> Failed:

@@ -22,6 +22,7 @@ from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.declare import INTAKE, check
+from grader.verdict.checks.inner_package import node_in_inner_package
 from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -162,6 +163,9 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     inside = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
     inside = [p for p in inside if file_of(evidence, p)]
     elsewhere = inside or list(submission.node_files)
+    created_inside = node_in_inner_package(evidence, inside[0]) if inside else None
+    if created_inside is not None:
+        return created_inside
     if elsewhere:
         place = shown(elsewhere[0])
         actual_place = say("it is in {path}", path=place)
