@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
-from grader.mistakes.fixes import node_life, node_names
+from grader.mistakes.fixes import node_life, node_main, node_names
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.guard import guarded_code
 from grader.package.source.names import calls_in
 from grader.package.source.sleeps import SLEEPS
 
@@ -30,7 +32,10 @@ def _close_function(raised: Raised) -> str:
 def _function_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["function"] != raised.assignment.function or _close_function(raised):
         return None
-    return raised.finding("main_missing")
+    guard = guarded_code(raised.source.entry.tree)
+    if guard is None:
+        return raised.finding("main_missing")
+    return replace(raised.finding("main_missing", at=guard), variant="guarded")
 
 
 def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -74,10 +79,31 @@ KINDS = (
         LOOKED_FOR,
         msg("Define it: def {function}(args=None):"),
         links.DEVELOPING,
+        whys={
+            "guarded": msg(
+                "The entry point ends in :{function}, so Python looks for a function {function} at "
+                "the top level of the module. The lines below this guard run only if the file is "
+                "started directly: ros2 run imports the file, and __name__ is not '__main__' then."
+            )
+        },
+        fixes={
+            "guarded": msg(
+                "Put these lines into the function: write def {function}(args=None): instead of "
+                "this line. Then write at the end of the file, without indentation, "
+                "if __name__ == '__main__': and below it, indented, {function}()"
+            )
+        },
         seen=r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>main)'",
         raised={NO_FUNCTION: _function_missing},
-        fixed_by=(node_names.main,),
+        fixed_by=(node_main.out_of_guard, node_names.main),
         examples=(
+            example(
+                "main_under_guard",
+                Replace(NODE, "def main(args=None):", "if __name__ == '__main__':"),
+                Replace(NODE, "args=args", ""),
+                Replace(NODE, "\n\nif __name__ == '__main__':\n    main()\n", ""),
+                fails="run.starts",
+            ),
             example(
                 "main_missing",
                 Replace(NODE, "def main(", "def run("),

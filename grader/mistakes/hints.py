@@ -7,14 +7,15 @@ from collections.abc import Mapping
 
 from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import compared, nearest
+from grader.package.source.guard import called_on_import
 from grader.package.source.names import dotted, own_name
 from grader.package.source.second_node import second_node
 
 GUARD = "__main__"
 
 
-def hints(tree: ast.Module) -> list[str]:
-    """Return advice on a source file."""
+def hints(tree: ast.Module, function: str = "main") -> list[str]:
+    """Return advice on a source file; `function` is that of the entry point."""
     found: list[str] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Compare) and dotted(node.left) == "__name__":
@@ -27,6 +28,9 @@ def hints(tree: ast.Module) -> list[str]:
     if second is not None:
         values: Mapping[str, Value] = {"name": second.name, "line": second.line}
         found.append(_advice("node.second_node_spun", second.spin.lineno, values))
+    call = called_on_import(tree, function)
+    if call is not None:
+        found.append(_advice("node.main_at_import", call.lineno, {"name": function}))
     return found
 
 

@@ -9,20 +9,21 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
-from grader.mistakes.fixes import node_life
+from grader.mistakes.fixes import node_life, node_main
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.guard import called_on_import
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.second_node import second_node
 
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 GUARD = msg(
-    "ros2 run imports the file and then calls {name} itself. A call at the end of the file runs "
-    "during the import, before that."
+    "ros2 run imports the file and then calls {name} itself. This call runs during the import, "
+    "before that: {name} is called twice."
 )
 
 
@@ -126,11 +127,10 @@ def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
 
 def _main_at_import(suspect: Suspect) -> RecognisedMistake | None:
     function = suspect.function
-    for statement in suspect.source.entry.tree.body:
-        call = statement.value if isinstance(statement, ast.Expr) else None
-        if isinstance(call, ast.Call) and function and dotted(call.func) == function.name:
-            return suspect.finding("main_at_import", call, name=function.name)
-    return None
+    call = called_on_import(suspect.source.entry.tree, function.name) if function else None
+    if call is None or function is None:
+        return None
+    return suspect.finding("main_at_import", call, name=function.name)
 
 
 def _main_twice(suspect: Suspect) -> RecognisedMistake | None:
@@ -309,6 +309,7 @@ KINDS = (
         GUARD,
         msg("Write if __name__ == '__main__': above this line, and indent the line."),
         behind={"run.ignores_interrupt": _main_at_import},
+        fixed_by=(node_main.under_guard,),
         examples=(
             example(
                 "main_at_import",

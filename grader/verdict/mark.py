@@ -25,6 +25,7 @@ from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence
+from grader.verdict.follows import without_repeated
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
 
@@ -169,7 +170,8 @@ def _decide(
             evidence.results[result.id] = result.model_copy(update={"patch": patch})
         listener(events.CheckFinished(evidence.results[result.id]))
     stages.finish()
-    return [evidence.results[use.id] for use in evidence.assignment.checks]
+    results = [evidence.results[use.id] for use in evidence.assignment.checks]
+    return without_repeated(results, evidence)
 
 
 class _Stages:

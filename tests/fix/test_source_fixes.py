@@ -100,6 +100,8 @@ OTHERWISE = {
     "set_up_before_attribute": "self.period_ = 1.0\n        self.set_up()\n",
     "object_with_a_node_is_spun": "        rclpy.spin(node.node)\n",
     "object_with_a_node_in_executor": "        executor.add_node(app.node)\n",
+    "main_under_guard": "try_shutdown()\n\n\nif __name__ == '__main__':\n    main()\n",
+    "main_at_import": "\n\nif __name__ == '__main__':\n    main()\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
 # Only the student knows what these should be.

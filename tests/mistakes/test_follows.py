@@ -35,3 +35,11 @@ def test_the_check_with_the_cause_is_named(
 def test_two_mistakes_of_their_own_have_two_fixes(tmp_path: Path) -> None:
     for check in mark(write(BY_NAME["as_created"], tmp_path)).checks:
         assert check.consequence_of == ""
+
+
+def test_the_missing_function_is_told_once(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["main_under_guard"], tmp_path))
+    assert report.check("entry_point.mapping").advice == []
+    assert report.check("run.starts").where is not None
+    report = mark(write(BY_NAME["node_empty"], tmp_path))
+    assert report.check("entry_point.mapping").advice == []

@@ -103,7 +103,7 @@ def _advice(evidence: Evidence) -> list[str]:
     module, _, function = evidence.assignment.target.partition(":")
     path = module.replace(".", "/") + ".py"
     file = file_of(evidence, path)
-    if file is None or path != node_path(evidence):
+    if file is None or path != node_path(evidence) or not file.data.strip():
         return []
     try:
         names = _top_names(parse_python(file.data).tree)

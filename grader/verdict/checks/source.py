@@ -68,7 +68,7 @@ def node_file(evidence: Evidence) -> Passed:
             where=Where(file=folder),
             words={"path": path, "folder": folder},
         )
-    advice = hints(parsed.tree)
+    advice = hints(parsed.tree, evidence.assignment.function)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
         no_init = _no_init(inner, nearest("__init__.py", names_in(evidence, inner), cutoff=0.75))
