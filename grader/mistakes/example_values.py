@@ -201,6 +201,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.super_late": {"line": "12"},
     "node.inner_not_called": {"name": "say_hello"},
     "node.placeholder": {"name": "callback"},
+    "node.circular_import": {
+        "name": "PREFIX",
+        "path": "my_package/my_node.py",
+        "there": "my_package/helpers.py",
+        "line": "5",
+    },
     "node.spin_of_object": {"name": "app", "type": "App", "attribute": "node"},
 }
 """What differs in the texts of one mistake."""

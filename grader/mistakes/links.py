@@ -36,6 +36,7 @@ SETUP_CFG = "https://setuptools.pypa.io/en/latest/userguide/declarative_config.h
 COLCON_IGNORE = "https://colcon.readthedocs.io/en/released/user/configuration.html"
 PYTHON_ERRORS = "https://docs.python.org/3/tutorial/errors.html"
 PYTHON_CLASSES = "https://docs.python.org/3/tutorial/classes.html"
+PYTHON_MODULES = "https://docs.python.org/3/tutorial/modules.html"
 PYTHON_STRINGS = "https://docs.python.org/3/tutorial/inputoutput.html"
 PYTHON_SYNTAX = "https://docs.python.org/3/tutorial/errors.html#syntax-errors"
 

@@ -18,6 +18,7 @@ from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import ended_program, raised_in
 from grader.verdict.checks.parsed import names_in
+from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.outcome import Failed
@@ -111,6 +112,7 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
             return (
                 _not_installed(error, evidence)
                 or own_module(error, where, evidence)
+                or circular_import(error, where, evidence)
                 or _raised(error, where, evidence)
             )
     source = source_of_node(evidence)

@@ -115,6 +115,7 @@ NOT_FIXED = (
     ),
     *("init_defined_twice", "callback_defined_twice", "init_twice_without_counter"),
     "object_without_node_is_spun",
+    *("files_import_each_other", "helper_imports_the_node"),
     *("while_logs_in_constructor", "own_file_beside_setup"),
     *("node_of_ros_1", "loginfo_of_rospy", "helper_not_handed_in", "loop_catches_everything"),
 )

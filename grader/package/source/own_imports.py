@@ -32,19 +32,24 @@ def own_imports(module: Module) -> Iterator[OwnImport]:
 
     What `from a import b` binds can be a name of the module a or the module a.b: both are yielded.
     """
-    package = module.path.partition("/")[0]
     for node in module.nodes:
-        if isinstance(node, ast.ImportFrom):
-            parts = _parts(node, module.path)
-            for alias in node.names if parts[:1] == (package,) else ():
-                bound = alias.asname or alias.name
-                yield OwnImport(parts, alias.name, bound)
-                yield OwnImport((*parts, alias.name), "", bound)
-        elif isinstance(node, ast.Import):
-            for alias in node.names:
-                parts = tuple(alias.name.split("."))
-                if parts[0] == package:
-                    yield OwnImport(parts, "", alias.asname or alias.name)
+        yield from imports_of(node, module.path)
+
+
+def imports_of(node: ast.AST, path: str) -> Iterator[OwnImport]:
+    """Yield what a statement of the file at a path imports from its own package."""
+    package = path.partition("/")[0]
+    if isinstance(node, ast.ImportFrom):
+        parts = _parts(node, path)
+        for alias in node.names if parts[:1] == (package,) else ():
+            bound = alias.asname or alias.name
+            yield OwnImport(parts, alias.name, bound)
+            yield OwnImport((*parts, alias.name), "", bound)
+    elif isinstance(node, ast.Import):
+        for alias in node.names:
+            parts = tuple(alias.name.split("."))
+            if parts[0] == package:
+                yield OwnImport(parts, "", alias.asname or alias.name)
 
 
 def _parts(node: ast.ImportFrom, path: str) -> tuple[str, ...]:
