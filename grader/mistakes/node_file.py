@@ -293,7 +293,24 @@ KINDS = (
         why=msg(
             "Python reads source files as UTF-8; a single invalid byte makes the file unreadable."
         ),
-        fix=msg("Save the file as UTF-8. In VS Code: click the encoding at the bottom right."),
+        fix=msg(
+            "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
+            "Encoding' first, and the encoding in which the text is readable, such as 'Western "
+            "(Windows 1252)' or 'Korean (EUC-KR)'. Then click it again, and choose 'Save with "
+            "Encoding' and 'UTF-8'. If you save before you reopen, the text is lost."
+        ),
+        fixes={
+            "korean": msg(
+                "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
+                "Encoding' first, and 'Korean (EUC-KR)': the text is readable again. Then click it "
+                "again, and choose 'Save with Encoding' and 'UTF-8'. If you save before you "
+                "reopen, the text is lost. Korean text itself is fine in a UTF-8 file."
+            ),
+            "saved": msg(
+                "Save the file as UTF-8. In VS Code: click the encoding at the bottom right, then "
+                "choose 'Save with Encoding' and 'UTF-8'."
+            ),
+        },
         link=links.PYTHON_SYNTAX,
         seen=r"SyntaxError: \(unicode error\)|SyntaxError: Non-UTF-8 code",
         fixed_by=(syntax.node,),
@@ -306,6 +323,19 @@ KINDS = (
                 fails="source.node_file",
                 blocks=UNSTARTED,
                 note="latin-1 from an old editor",
+            ),
+            example(
+                "korean_in_cp949",
+                Write(
+                    NODE,
+                    (
+                        "#!/usr/bin/env python3\n\n\ndef main():\n"
+                        '    """1초마다 시간을 출력한다."""\n'
+                    ).encode("cp949"),
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+                note="saved by an editor on Korean Windows",
             ),
         ),
     ),

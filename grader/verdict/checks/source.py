@@ -17,6 +17,7 @@ from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.node import read_module
 from grader.package.source.node_class import derives_from_node
+from grader.package.source.other_encoding import kind_of_encoding
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.package.source.slips import slip_of
@@ -243,7 +244,7 @@ def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
         expected=say("a file that Python can read"),
         actual=joined(text, code, by=", "),
         where=Where(file=path, line=fault.line),
-        variant=fault.kind,
+        variant=kind_of_encoding(found) if fault.kind == "encoding" else fault.kind,
         params={"error": str(text), "kind": fault.kind},
     )
 
