@@ -268,3 +268,25 @@ def test_a_package_that_was_created_inside_itself_is_not_to_be_put_beside_it(
     make(tmp_path / "two" / PACKAGE / "other", "other")
     (hint,) = take(tmp_path / "two").hints
     assert "Put packages side by side in src" in hint
+
+
+@pytest.mark.parametrize("folder", [".", PACKAGE])
+def test_a_build_inside_the_package_is_told_of(folder: str, tmp_path: Path) -> None:
+    make(tmp_path / "src" / PACKAGE)
+    for name in ("build", "install", "log"):
+        there = tmp_path / "src" / PACKAGE / folder / name
+        there.mkdir(parents=True)
+        (there / "COLCON_IGNORE").touch()
+    (hint,) = take(tmp_path).hints
+    place = "" if folder == "." else f"{PACKAGE}/"
+    assert f"rm -r {place}build {place}install {place}log" in hint
+    assert take(tmp_path / "src" / PACKAGE).hints == (hint,)
+
+
+def test_a_build_in_the_workspace_or_by_setup_py_gets_no_advice(tmp_path: Path) -> None:
+    make(tmp_path / "src" / PACKAGE)
+    for name in ("build", "install", "log"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "COLCON_IGNORE").touch()
+    (tmp_path / "src" / PACKAGE / "build" / "lib").mkdir(parents=True)
+    assert take(tmp_path).hints == ()

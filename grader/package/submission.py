@@ -12,6 +12,7 @@ from grader.package.intake.archive_limits import ArchiveLimits, Spent
 from grader.package.intake.archive_nested import look_inside
 from grader.package.intake.archive_problems import ArchiveError
 from grader.package.intake.built import edited_copy, newer_copy
+from grader.package.intake.built_inside import built_inside
 from grader.package.intake.choose import Choice, choose, find_candidates
 from grader.package.intake.contents import TooLargeError, read_package
 from grader.package.intake.given import cannot_be_read, digest_of_file, open_place, resolved
@@ -71,6 +72,8 @@ def take_in(
             choice = Choice(None, problem=too_large(error.reason, root))
             root, files = None, ()
     copy = newer_copy(tree, root, package=package, node_file=node_file) if root else ""
+    inside = built_inside(tree.made, root) if root else None
+    advice = [edited_copy(copy, f"{package}/{node_file}")] if copy else []
     files, modes = with_modes(tree, root, files)
     problem = choice.problem
     return Submission(
@@ -88,7 +91,7 @@ def take_in(
         problem=problem.text if problem else "",
         problem_mistake=problem.mistake if problem else "",
         problem_fix=problem.fix if problem else "",
-        hints=(*choice.hints, *([edited_copy(copy, f"{package}/{node_file}")] if copy else [])),
+        hints=(*choice.hints, *advice, *([inside] if inside else [])),
         node_files=_named(tree, node_file),
         links_out=tuple(tree.links_out),
         copies=choice.copies,
