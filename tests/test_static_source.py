@@ -153,7 +153,7 @@ def test_a_misnamed_init_file_is_to_be_renamed_and_not_made(bench: Bench) -> Non
     ("above", "what"),
     [
         ("Python\n", "label"),
-        ("```python\n", "label"),
+        ("```python\n", "fence"),
         ("Bash\n\n", "label"),
         ("$ code .\n", "command"),
     ],

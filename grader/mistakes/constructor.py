@@ -162,7 +162,10 @@ KINDS = (
             "rclpy.init() works in a with statement from ROS 2 kilted on; before, it returns "
             "nothing."
         ),
-        msg("Write rclpy.init(args=args) on a line of its own, without with."),
+        msg(
+            "Write rclpy.init(args=args) on a line of its own, without with, and indent the lines "
+            "below it less, as far as this line."
+        ),
         links.RCLPY,
         seen=r"'NoneType' object does not support the context manager protocol"
         r"|AttributeError: __enter__",

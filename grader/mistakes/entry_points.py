@@ -307,11 +307,18 @@ KINDS = (
         stage="entry point",
         title=msg("console_scripts is written twice, and only the last one counts"),
         why=msg(
-            "A dictionary has each key once: the console_scripts on line {line} replaces the one "
-            "with this entry, without a message."
+            "A dictionary has each key once: this console_scripts replaces the one above it, with "
+            "the entry on line {line}, without a message."
         ),
-        fix=msg("Put all entries into one list, with a comma after each."),
+        fix=msg("Delete this console_scripts with its empty list, then build again."),
+        fixes={
+            "entries": msg(
+                "Put its entries into the list with line {line}, with a comma after each. Delete "
+                "this console_scripts, then build again."
+            )
+        },
         link=links.ENTRY_POINTS,
+        fixed_by=(entries.without_group,),
         examples=(
             example(
                 "group_twice",
@@ -322,6 +329,17 @@ KINDS = (
                 ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
+            ),
+            example(
+                "group_twice_with_entries",
+                Replace(
+                    SETUP,
+                    "        ],\n    },",
+                    "        ],\n        'console_scripts': [\n"
+                    "            'other = my_robot_controller.my_first_node:main',\n"
+                    "        ],\n    },",
+                ),
+                fails="entry_point.mapping",
             ),
         ),
     ),

@@ -54,6 +54,16 @@ SHEBANG = msg(
     "The first line tells Linux which program reads the file when you start it as ./{file}. "
     "Without it, the shell tries to run the Python code itself. (ros2 run does not need it.)"
 )
+CRLF = msg(
+    "The first line tells Linux which program reads the file when you start it as ./{file}. The "
+    "Windows line end is read as part of the program's name, and the start fails: "
+    "/usr/bin/env: 'python3\\r': No such file or directory. (ros2 run does not need this line.)"
+)
+OTHER_PROGRAM = msg(
+    "The first line tells Linux which program reads the file when you start it as ./{file}. "
+    "A program that is not installed, or that is not Python 3, cannot: for example "
+    "/usr/bin/env: 'python': No such file or directory. (ros2 run does not need this line.)"
+)
 FIRST = msg("Write as line 1: #!/usr/bin/env python3")
 
 
@@ -72,12 +82,14 @@ def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     )
 
 
-def _first_line(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
+def _first_line(
+    slug: str, title: str, fix: str, why: str = SHEBANG, **parts: Unpack[Parts]
+) -> Kind:
     return Kind(
         id=f"source.{slug}",
         stage="first line",
         title=title,
-        why=SHEBANG,
+        why=why,
         fix=fix,
         link=links.FIRST_NODE,
         **parts,
@@ -658,6 +670,7 @@ KINDS = (
         msg(
             "Change CRLF to LF (in VS Code: at the bottom right), or run: sed -i 's/\\r$//' {path}"
         ),
+        CRLF,
         seen=r"python3(?:\\r|\r|\^M)['\u2019]?: No such file or directory",
         fixed_by=(first_line.line_ends,),
         examples=(
@@ -688,6 +701,7 @@ KINDS = (
         "wrong_shebang",
         msg("Line 1 names a program other than Python 3"),
         FIRST,
+        OTHER_PROGRAM,
         fixed_by=(first_line.shebang,),
         examples=(
             example(

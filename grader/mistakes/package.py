@@ -604,6 +604,10 @@ KINDS = (
         why=TWO_SECTIONS,
         fix=msg("Write {key}={wanted}"),
         fixes={
+            "both": msg(
+                "Write both lines with the package's name: below [develop] script_dir={wanted}, "
+                "and below [install] install_scripts={wanted}"
+            ),
             "key": msg("Write below [{section}]: {key}={wanted}"),
             "heading": msg("Write [{section}] instead of [{close}]."),
             "section": msg("Add two lines: [{section}] and below it {key}={wanted}"),

@@ -36,6 +36,10 @@ PASTED = {
     "sign": msg("Type that sign again, with the keyboard set to English."),
     "tag": msg("Remove {found}: it belongs to the web page, not to the code."),
     "label": msg("Delete the line '{found}': it belongs to the web page, not to the code."),
+    "fence": msg(
+        "Delete the line '{found}', and the other line of this kind above or below the code, if "
+        "there is one. In a chat or a web page they mark where the code begins and ends."
+    ),
     "prompt": msg(
         "Remove {found} from the start of the lines: it is the prompt of Python, not code."
     ),
@@ -182,6 +186,7 @@ def description(slip: Slip | Pasted) -> Message:
         "sign": say("a sign that Python does not know: {found}", found=found),
         "tag": say("a part of a web page: {found}", found=found),
         "label": say("a line of a web page: {found}", found=found),
+        "fence": say("a line of a web page: {found}", found=found),
         "prompt": say("the prompt of Python: {found}", found=found),
         "command": say("a command for the terminal: {found}", found=found),
         "heredoc": say("the end of a command of the shell: {found}", found=found),

@@ -43,7 +43,7 @@ PASTED = [
     ("a = 1<br/>\nb = 2<br>\n", "tag", 1, "a = 1\nb = 2\n"),
     ('<span class="k">a</span> = 1\n', "tag", 1, "a = 1\n"),
     ("if 2 &gt; 1:\n    a = 1\n", "tag", 1, "if 2 > 1:\n    a = 1\n"),
-    ("```python\r\na = 1\r\n```\r\n", "label", 1, "a = 1\r\n"),
+    ("```python\r\na = 1\r\n```\r\n", "fence", 1, "a = 1\r\n"),
     ("Copy code\na = 1\n", "label", 1, "a = 1\n"),
     (">>> if 1:\n...     a = 1\n", "prompt", 1, "if 1:\n    a = 1\n"),
     ("a = 1\ncd ~/ros2_ws && colcon build\nb = 2\n", "command", 2, "a = 1\nb = 2\n"),

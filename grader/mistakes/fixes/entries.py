@@ -19,6 +19,7 @@ from grader.package.source.setup_py import read_setup_py
 
 GROUP = "console_scripts"
 ROUNDS = 5
+TWICE = 2
 
 
 def comma(case: Case) -> Files | None:
@@ -197,6 +198,26 @@ def regrouped(case: Case) -> Files | None:
         return None
     at = text.start_of(case.finding.line or 0) + line.find(wrong)
     return case.with_data(case.finding.file, text.spliced([Splice(at, at + len(wrong), GROUP)]))
+
+
+def without_group(case: Case) -> Files | None:
+    """Delete the second console_scripts, if its list is empty."""
+    setup = read_setup_call(case)
+    points = setup.argument("entry_points") if setup is not None else None
+    if setup is None or not isinstance(points, ast.Dict):
+        return None
+    pairs = [(k, v) for k, v in zip(points.keys, points.values) if k and _is_group(k)]
+    if len(pairs) != TWICE:
+        return None
+    key, value = pairs[1]
+    source, last = setup.source, value.end_lineno or value.lineno
+    first, end = source.start_of(key.lineno), source.end_of(last)
+    written = source.text[source.span(key)[0] : source.span(value)[1]]
+    alone = source.text[first:end].strip().rstrip(",") == written
+    if not alone or not isinstance(value, ast.List) or value.elts or "#" in written:
+        return None
+    new = source.spliced([Splice(first, source.start_of(last + 1), "")])
+    return case.with_data(FILE, new) if new is not None and can_parse(new) else None
 
 
 def _is_group(key: ast.expr | None) -> bool:

@@ -104,8 +104,8 @@ KINDS = (
     "nothing",
     "sign",
 )
-VARIANTS = {"shell": "command", "entity": "tag", "nothing": "blank", "fence": "label"}
-WHOLE_LINES = frozenset({"label", "command", "heredoc", "editor"})
+VARIANTS = {"shell": "command", "entity": "tag", "nothing": "blank"}
+WHOLE_LINES = frozenset({"label", "fence", "command", "heredoc", "editor"})
 INSIDE = {
     quotes: re.compile(rf"(?:[^\\\r\n{quotes}]|\\(?:\r\n|.))*", re.DOTALL)
     for quotes in ("'", '"', SINGLE + "'", DOUBLE + '"')

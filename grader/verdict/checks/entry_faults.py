@@ -106,8 +106,7 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
     entries = points.group("console_scripts")
     lost = [entry for entry in points.lost if entry.name == wanted]
     if lost:
-        line = str(points.lines.get("console_scripts", ""))
-        return _failed(evidence, lost[0], "setup.group_twice", line=line)
+        return _group_twice(evidence, points, lost[0])
     same = [e for e in entries if "".join(e.target.split()) == evidence.assignment.target]
     names = [entry.name for entry in entries]
     close = nearest(wanted, names, cutoff=0.7)
@@ -131,6 +130,19 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
         if holds_it or nearest("console_scripts", [group], cutoff=0.75):
             return _other_group(evidence, points, group)
     return _no_entry(evidence, points, setup)
+
+
+def _group_twice(evidence: Evidence, points: EntryPoints, entry: Entry) -> Failed:
+    """Return the fault of a second console_scripts, which replaces the one with the entry."""
+    failed = _failed(
+        evidence,
+        entry,
+        "setup.group_twice",
+        variant="entries" if points.group("console_scripts") else "",
+        line=str(entry.line),
+    )
+    failed.where = Where(file=entry.file, line=points.lines.get("console_scripts"))
+    return failed
 
 
 def _other_group(evidence: Evidence, points: EntryPoints, group: str) -> Failed:

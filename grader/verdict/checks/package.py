@@ -43,6 +43,18 @@ def found(evidence: Evidence) -> Passed:
     return Passed(actual=actual, advice=submission.hints)
 
 
+def _both_are_wrong(cfg: SetupCfg, wanted: str) -> bool:
+    """Whether both sections have a setting, and neither is right."""
+    pairs = (("develop", "script_dir"), ("install", "install_scripts"))
+    given = [
+        cfg.sections.get(section, {}).get(name)
+        for section, key in pairs
+        for name in (key, key.replace("_", "-"))
+    ]
+    values = [setting.value.rstrip("/") for setting in given if setting is not None]
+    return len(values) > 1 and wanted not in values
+
+
 @check("package.manifest", stage=INTAKE, depends=["package.found"])
 def manifest(evidence: Evidence) -> Passed:
     """package.xml is valid, its name is the package's, and its build type is ament_python."""
@@ -213,7 +225,7 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         ]
     line, close = cfg.lines.get(section), ""
     if setting is not None:
-        line, variant = setting.line, ""
+        line, variant = setting.line, "both" if _both_are_wrong(cfg, wanted) else ""
         value = shown(setting.value)
         said: str = say("[{section}] has {key}={value}", section=section, key=key, value=value)
         actual = with_difference(said, setting.value, wanted)
