@@ -35,7 +35,7 @@ def hints(tree: ast.Module, function: str = "main") -> list[str]:
 
 
 def _hidden_method(made: ast.Assign) -> str:
-    """Return the callback whose name a timer gets: self.f = self.create_timer(1.0, self.f)."""
+    """Return the callback whose name a timer gets: self.f = self.create_timer(period, self.f)."""
     call = made.value
     if not isinstance(call, ast.Call) or dotted(call.func) != "self.create_timer":
         return ""

@@ -15,7 +15,7 @@ from grader.package.source.names import own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, function_at
 
-FREE = ("counter", "counter_", "own_counter", "calls_of_callback")  # names for a new counter
+FREE = ("counter", "count", "own_counter", "calls_of_callback")  # names for a new counter
 
 
 def without_loop(case: Case) -> Files | None:
