@@ -175,6 +175,10 @@ def _not_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
             continue
         value = node_timer.value_of(raised.source, timer.period)
         number = node_timer.number_of(value)
+        if match["type"] == "Parameter" and isinstance(value, ast.Call):
+            code = raised.source.module_of(value).text.code(value)
+            params = {"name": code, "written": f"{code}.value"}
+            return raised.finding("parameter_object", at=value, params=params)
         if value is None or not number:
             return raised.finding("period_not_number", at=timer.call, type=match["type"])
         code = raised.source.module_of(value).text.code(value)

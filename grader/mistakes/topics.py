@@ -7,8 +7,11 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted, last_part
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
@@ -142,6 +145,20 @@ KINDS = (
         msg("Write self.get_parameter('…').value."),
         links.PARAMETERS,
         raised={OPERAND: _parameter_object},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "period_is_parameter",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.declare_parameter('period', 1.0)\n"
+                    "        period = self.get_parameter('period')\n"
+                    "        self.create_timer(period,",
+                ),
+                fails="run.starts",
+            ),
+        ),
     ),
     _topic(
         "int_in_float",

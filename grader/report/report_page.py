@@ -247,7 +247,7 @@ def _foot(
     if failed:
         page.field(say("next"), _next(most_stopping(failed, report.checks), own_code=own_code))
     if report.observed.command:
-        page.code(say("command"), [one_line(report.observed.command, most=4_000)])
+        page.code(say("ran"), [one_line(report.observed.command, most=4_000)])
     if path is not None:
         page.code(say("report"), [one_line(str(path), most=4_000)])
     if more:

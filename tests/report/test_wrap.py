@@ -57,7 +57,7 @@ def test_no_name_and_no_path_that_fits_is_cut(width: int) -> None:
     unmarked = "\n".join(line for line in LOG.splitlines() if "node = " not in line)
     for name in names_in(rationale, most=most) | names_in(unmarked, most=most):
         assert any(name in line for line in page.splitlines()), name
-    assert max(map(len, page.splitlines())) <= max(width, len(f"  command   {failing_command()}"))
+    assert max(map(len, page.splitlines())) <= max(width, len(f"  ran       {failing_command()}"))
 
 
 def failing_command() -> str:

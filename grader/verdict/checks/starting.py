@@ -131,6 +131,18 @@ def _catches_interrupt(evidence: Evidence) -> bool:
     return any("KeyboardInterrupt" in ast.unparse(named) for named in types)
 
 
+def _uncaught(evidence: Evidence) -> str:
+    """Return what avoids the traceback of a node that does not catch Ctrl+C."""
+    source = source_of_node(evidence)
+    if source is not None and any(name == "rclpy.shutdown" for _, name in source.calls):
+        return say(
+            "try: … except KeyboardInterrupt: pass around rclpy.spin avoids the traceback. Write "
+            "rclpy.try_shutdown() instead of rclpy.shutdown() then: after Ctrl+C, ROS has already "
+            "shut down."
+        )
+    return say("try: … except KeyboardInterrupt: pass around rclpy.spin avoids the traceback.")
+
+
 def _outside_of_try(evidence: Evidence) -> list[str]:
     """Return why Ctrl+C ends a node that does not spin with a traceback, in spite of its except."""
     _, found, trace = evidence.run.transcript.rpartition("Traceback (most recent call last):")
@@ -176,9 +188,8 @@ def interrupt(evidence: Evidence) -> Passed:
         status=str(run.status),
     )
     if run.status in (0, 130, 254) or run.signal == 2:
-        caught = say("try: … except KeyboardInterrupt: around rclpy.spin avoids the traceback.")
         bare = run.status == 254 and not _catches_interrupt(evidence)
-        advice = [caught] if bare else _outside_of_try(evidence)
+        advice = [_uncaught(evidence)] if bare else _outside_of_try(evidence)
         return Passed(actual=actual, advice=advice)
     if run.status is not None and run.status > SIGNALLED:
         crashed = say(
