@@ -50,17 +50,17 @@ KINDS = (
         fix=msg(
             "Keep the outer package. In its folder: 1) move your code out of the inner one: "
             "mv {path} {wanted}; 2) add '{entry}', to console_scripts in the outer setup.py; "
-            "3) delete the inner one: rm -r {inner}; 4) build again in the workspace."
+            "3) delete the rest of the inner one: rm -r {extra}; 4) build again in the workspace."
         ),
         fixes={
             "has_entry": msg(
                 "Keep the outer package. In its folder: 1) move your code out of the inner one: "
-                "mv {path} {wanted}; 2) delete the inner one: rm -r {inner}; 3) build again in "
+                "mv {path} {wanted}; 2) delete the rest of the inner one: rm -r {extra}; 3) build again in "
                 "the workspace."
             ),
             "entry": msg(
                 "Keep the outer package. In its folder: 1) add '{entry}', to console_scripts in "
-                "the outer setup.py; 2) delete the inner one: rm -r {inner}; 3) build again in "
+                "the outer setup.py; 2) delete the rest of the inner one: rm -r {extra}; 3) build again in "
                 "the workspace."
             ),
         },

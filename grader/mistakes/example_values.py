@@ -147,6 +147,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.threading_timer": {"line": "13"},
     "package.created_inside": {
         "inner": "my_package/my_package",
+        "extra": "my_package/my_package",
         "path": "my_package/my_package/my_package/my_node.py",
         "wanted": "my_package/my_node.py",
         "entry": "my_node = my_package.my_node:main",

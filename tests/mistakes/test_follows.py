@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 
+from grader.verdict.static import evaluate_static
+from grader.verdict.take_in import take_in_for
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
+from tests.marking import ASSIGNMENT
 from tests.recorded import mark
 
 BY_NAME = {package.name: package for package in BROKEN}
@@ -43,3 +49,31 @@ def test_the_missing_function_is_told_once(tmp_path: Path) -> None:
     assert report.check("run.starts").where is not None
     report = mark(write(BY_NAME["node_empty"], tmp_path))
     assert report.check("entry_point.mapping").advice == []
+
+
+@pytest.mark.parametrize("shallow", [False, True], ids=["in the inner folder", "in the package"])
+@pytest.mark.parametrize("helper", [False, True], ids=["", "with a helper"])
+def test_the_commands_for_a_package_created_inside_lose_nothing(
+    shallow: bool, helper: bool, tmp_path: Path
+) -> None:
+    package = write(BY_NAME["created_inside_itself"], tmp_path)
+    folder = package / ASSIGNMENT.folder
+    inner = folder / ASSIGNMENT.folder
+    if shallow:  # ros2 pkg create was run in the package: the inner one is the folder of the code
+        inner.rename(tmp_path / "inner")
+        shutil.copytree(tmp_path / "inner", folder, dirs_exist_ok=True)
+        inner = folder
+    code = inner / ASSIGNMENT.folder
+    if helper:
+        (code / "helper.py").write_text("NAME = 'x'\n")
+    results = evaluate_static(take_in_for(ASSIGNMENT, package), ASSIGNMENT)
+    told = next(result for result in results if result.id == "source.node_file")
+    assert told.mistakes[0].id == "package.created_inside"
+    commands = re.findall(r"(?:mv|rm -r) [^;]+", told.fix)
+    assert [command.split()[0] for command in commands] == ["mv", "rm"]
+    for command in commands:
+        subprocess.run(["bash", "-ec", command], cwd=package, check=True)
+    assert (folder / ASSIGNMENT.node_file).is_file()
+    assert (folder / "__init__.py").is_file()
+    assert [path.parent for path in package.rglob("package.xml")] == [package]
+    assert (code / "helper.py").is_file() == helper

@@ -139,7 +139,8 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
             say(
                 "There is another package of the same name inside this one ({path}): ros2 pkg "
                 "create was run inside the package. colcon stops at the outer one and never builds "
-                "the inner one. Move your own code out of the inner one, and delete it.",
+                "the inner one. Move your own code out of the inner one, and delete its package.xml, "
+                "setup.py, setup.cfg and resource.",
                 path=shown(inner[0].path),
             )
         )

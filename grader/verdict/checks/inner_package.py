@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 CREATED_INSIDE = "package.created_inside"
+CREATED = ("package.xml", "setup.py", "setup.cfg", "CMakeLists.txt", "resource", "test")
+"""What `ros2 pkg create` makes beside the folder of the code."""
 
 
 def _inner_package(evidence: Evidence) -> str:
@@ -41,7 +43,7 @@ def node_in_inner_package(evidence: Evidence, path: str) -> Failed | None:
         where=Where(file=shown(path)),
         variant="has_entry" if _names_target(evidence, "setup.py") else "",
         params={"inner": shown(inner), "path": shown(path)},
-        words={"wanted": wanted, "entry": _entry(evidence)},
+        words={"wanted": wanted, "entry": _entry(evidence), "extra": _extra(evidence, inner)},
     )
 
 
@@ -63,8 +65,25 @@ def entry_in_inner_package(evidence: Evidence) -> Failed | None:
         where=Where(file=shown(path), line=line),
         variant="entry",
         params={"inner": shown(inner)},
-        words={"entry": _entry(evidence)},
+        words={"entry": _entry(evidence), "extra": _extra(evidence, inner)},
     )
+
+
+def _extra(evidence: Evidence, inner: str) -> str:
+    """Return what is to be deleted of an inner package, without the student's own code.
+
+    If the command was run in the package's folder, the inner package is the folder of its code.
+    """
+    folder = evidence.assignment.folder
+    inside = [f.path for f in evidence.submission.files if f.path.startswith(f"{inner}/")]
+    code = f"{inner}/{folder}"
+    expendable = (f"{code}/__init__.py", f"{code}/{evidence.assignment.node_file}")
+    gone = [f"{inner}/{name}" for name in CREATED]
+    if all(path in expendable for path in inside if path.startswith(f"{code}/")):
+        gone.append(code)
+    there = [path for path in gone if any(p == path or p.startswith(f"{path}/") for p in inside)]
+    covered = all(any(p == path or p.startswith(f"{path}/") for path in there) for p in inside)
+    return " ".join(map(shown, [inner] if covered and inner != folder else there))
 
 
 def _names_target(evidence: Evidence, path: str) -> bool:
