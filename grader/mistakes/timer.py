@@ -211,10 +211,12 @@ def _stopped(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
-    timer = suspect.source.timers[0]
-    if timer.seconds is None or not timer.seconds >= LONG > suspect.output.period:
+    given = suspect.source.timers[0].period
+    value = node_timer.value_of(suspect.source, given) if given is not None else None
+    number = value.value if isinstance(value, ast.Constant) else None
+    if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
         return None
-    return suspect.finding("period_milliseconds", timer.call, written=f"{timer.seconds:g}")
+    return suspect.finding("period_milliseconds", value, written=f"{number:g}")
 
 
 def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
@@ -570,6 +572,13 @@ KINDS = (
             example(
                 "period_in_milliseconds",
                 Replace(NODE, "(1.0,", "(1000.0,"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "constant_in_milliseconds",
+                Replace(NODE, "\n\nclass MyFirstNode", "PERIOD = 1000\n\n\nclass MyFirstNode"),
+                Replace(NODE, "(1.0,", "(PERIOD,"),
                 fails="run.output",
                 blocks=SILENT,
             ),

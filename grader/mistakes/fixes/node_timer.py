@@ -154,14 +154,7 @@ def period(case: Case) -> Files | None:
     timer = node.timer_call if node else None
     if node is None or timer is None or not timer.args:
         return None
-    given: ast.expr | None = timer.args[0]
-    if isinstance(given, ast.Name):
-        found = [
-            s.value
-            for s in node.own_nodes
-            if isinstance(s, ast.Assign) and [ast.unparse(t) for t in s.targets] == [given.id]
-        ]
-        given = found[0] if len(found) == 1 else None
+    given = value_of(node, timer.args[0])
     wanted = case.assignment.output.period
     if not isinstance(given, ast.Constant) or given.value == wanted:
         return None
