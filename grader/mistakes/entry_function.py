@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes import node_life, node_main, node_names
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.guard import guarded_code
 from grader.package.source.names import calls_in
@@ -50,6 +51,15 @@ def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     if match["function"] != raised.assignment.function:
         return None
     return raised.finding("main_wants_args", at=raised.source.main)
+
+
+def _main_takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The function uses `args`, as the tutorial's does, and has no such parameter."""
+    main = raised.source.main
+    if main is None or match["name"] != "args" or ast.unparse(main.args):
+        return None
+    inside = raised.line is not None and main.lineno <= raised.line <= (main.end_lineno or 0)
+    return raised.finding("main_takes_none", at=main) if inside else None
 
 
 def _main_empty(suspect: Suspect) -> RecognisedMistake | None:
@@ -145,6 +155,22 @@ KINDS = (
             example(
                 "main_wants_args",
                 Replace(NODE, "def main(args=None)", "def main(args)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "main_takes_none",
+        "start",
+        msg("The entry point's function uses args, but does not take it"),
+        msg("A function knows a name that it gets only if its parentheses have it."),
+        msg("Write def {function}(args=None): on this line."),
+        raised={NAME_ERROR: _main_takes_none},
+        fixed_by=(node_life.main_takes_arguments,),
+        examples=(
+            example(
+                "main_takes_none",
+                Replace(NODE, "def main(args=None)", "def main()"),
                 fails="run.starts",
             ),
         ),
