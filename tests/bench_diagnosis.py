@@ -15,10 +15,8 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from grader.verdict import evaluate
-from grader.verdict import mark as runner
-from grader.verdict.diagnose import diagnose
-from grader.verdict.fix import patch_for
+from grader.verdict import diagnose as diagnosing
+from grader.verdict import fix as fixing
 from tests.bench import bound
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -56,8 +54,8 @@ def main() -> int:
         for package in BROKEN[:: asked.every]:
             watch = Stopwatch()
             with (
-                mock.patch.object(evaluate, "diagnose", watch.on(diagnose)),
-                mock.patch.object(runner, "patch_for", watch.on(patch_for)),
+                mock.patch.object(diagnosing, "diagnose", watch.on(diagnosing.diagnose)),
+                mock.patch.object(fixing, "patch_for", watch.on(fixing.patch_for)),
             ):
                 mark(write(package, Path(folder)))
             taken[package.name] = watch.seconds
