@@ -203,7 +203,8 @@ def bare_run(ros: Ros, submission: Submission) -> Cost:
     with Bubblewrap(ros, Limits()) as sandbox:
         build(sandbox, submission, package=ASSIGNMENT.package)
         script = f". {ros.inside}/setup.bash; . install/local_setup.bash; exec "
-        script += ros2_run(ASSIGNMENT).replace("use_sim_time:=true", "use_sim_time:=false")
+        script += ros2_run(ros.distro, ASSIGNMENT.package, ASSIGNMENT.executable)
+        script += " --ros-args -p use_sim_time:=false"
         before = machine_cpu()
         begin = time.monotonic()
         terminal = Terminal(sandbox.console(["bash", "-c", script]), most=100_000)

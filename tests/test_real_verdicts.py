@@ -32,6 +32,18 @@ KINDS = (
 )
 # what their replays in `make test` leave to the real programs: the build, and Ctrl+C
 SOON = ("setup_import_error", "ignores_interrupt")
+IMPORTS = "import threading\nimport time\n\nimport rclpy"
+# sleep() returns at the first Ctrl+C, so that a second one does not come together with it
+WAITS = """\
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
+    try:
+        time.sleep(600)
+    except KeyboardInterrupt:
+        time.sleep(0.5)
+        rclpy.try_shutdon()
+"""
 DOZEN = [p for p in HOSTILE[:: max(1, len(HOSTILE) // 12)] if p.name not in WAITED_FOR]
 
 
@@ -75,6 +87,20 @@ def test_the_solution_gets_full_marks_on_kilted_too(tmp_path: Path) -> None:
     report = mark(write(RIGHT[0], tmp_path), distro="kilted")
     assert report.score == 100, summary(report)
     assert report.environment.rclpy == "9.1.2"
+
+
+@pytest.mark.full
+def test_kilteds_second_ctrl_c_does_not_hide_an_error_in_the_clean_up(tmp_path: Path) -> None:
+    """Its `ros2 run` sends Ctrl+C on, though the terminal has sent it to the node as well."""
+    root = write(RIGHT[0], tmp_path)
+    node = root / "my_robot_controller" / "my_first_node.py"
+    text = node.read_text(encoding="utf-8")
+    before, main, _ = text.partition("def main(args=None):\n")
+    node.write_text(f"{before.replace('import rclpy', IMPORTS, 1)}{main}{WAITS}", encoding="utf-8")
+    report = mark(root, distro="kilted")
+    failed = [check for check in report.checks if check.status == "failed"]
+    assert [check.id for check in failed] == ["run.interrupt"], summary(report)
+    assert failed[0].mistakes[0].id == "node.method_misspelt"
 
 
 @pytest.mark.long

@@ -27,7 +27,7 @@ class Distro:
 
     `lock` is the lock file of its wheels prefix, None if PyPI has no wheels; `documentation` is a
     URL; `dds_profile` is the environment variable that names a Fast DDS profile; `turtlesim` is the
-    package of turtlesim's interfaces.
+    package of turtlesim's interfaces; `forwards_interrupt`: `ros2 run` sends Ctrl+C on to the node.
     """
 
     name: str
@@ -42,12 +42,18 @@ class Distro:
     digest: str = ""
     rclpy: str = ""
     turtlesim: str = "turtlesim_msgs"
+    forwards_interrupt: bool = False
     lock: Path | None = None
 
     @property
     def pinned_image(self) -> str:
         """The official image, with its digest if distros.toml has one (docker/pin.sh)."""
         return f"{self.image}@{self.digest}" if self.digest else self.image
+
+    def not_before(self, name: str) -> bool:
+        """Whether this is the distro of that name or a newer one."""
+        names = list(distros())
+        return names.index(self.name) >= names.index(name)
 
 
 @lru_cache(maxsize=1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -11,11 +10,20 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan, Start, Stimulus
+from grader.ros.distro import Distro
 from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
 from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
-from grader.run.run import COMPLETE_SECONDS, END_SECONDS, Program, Run, press_ctrl_c, start
+from grader.run.run import (
+    COMPLETE_SECONDS,
+    END_SECONDS,
+    Program,
+    Run,
+    press_ctrl_c,
+    ros2_run,
+    start,
+)
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Sandbox
 
@@ -33,11 +41,11 @@ MOST_FEEDBACK = 1_000  # of a goal
 MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes
 
 
-def command_of(assignment: Assignment, begin: Start) -> str:
+def command_of(assignment: Assignment, begin: Start, distro: Distro) -> str:
     """Return the `ros2 run` command that starts a node of a plan."""
     node = assignment.nodes[begin.node]
-    words = ["ros2", "run", node.package or assignment.package, node.executable]
-    return shlex.join([*words, "--ros-args", *begin.arguments()])
+    package = node.package or assignment.package
+    return ros2_run(distro, package, node.executable, "--ros-args", *begin.arguments())
 
 
 def full_name(assignment: Assignment, begin: Start) -> str:
@@ -63,7 +71,7 @@ def conduct(
     """
     limits = sandbox.limits
     seen = Observations(plan.clock.period)
-    commands = [command_of(assignment, begin) for begin in plan.start]
+    commands = [command_of(assignment, begin, sandbox.ros.distro) for begin in plan.start]
     others = [Program(one.node, line) for one, line in zip(plan.start, commands)][1:]
     run = Run(command=commands[0], name=plan.name, seen=seen, others=others)
     probe.until = until - limits.stop_seconds - END_SECONDS

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
+from grader.ros.distro import Distro
 from grader.run.clock import STILL, ForeignClock, VirtualClock, watch_wall
 from grader.run.observations import Observations
 from grader.run.observer import Event, Observer, Watch, number_reader
@@ -101,11 +102,15 @@ class Run:
         return self.ended_by_itself and not self.nodes and unrunnable
 
 
-def ros2_run(assignment: Assignment, *, plain: bool = False) -> str:
-    """Return the student's `ros2 run` command, with `use_sim_time` added unless it is `plain`."""
-    words = ["ros2", "run", assignment.package, assignment.executable]
-    more = [] if plain else ["--ros-args", "-p", "use_sim_time:=true"]
-    return shlex.join([*words, *more])
+def ros2_run(distro: Distro, package: str, executable: str, *arguments: str) -> str:
+    """Return the `ros2 run` command for a program that gets one Ctrl+C.
+
+    Where `ros2 run` sends Ctrl+C on, the program gets a session of its own, in which that of the
+    terminal does not reach it. A second one would stop the clean-up of most nodes somewhere, and
+    what is wrong after that place would be seen or not by chance.
+    """
+    prefix = ["--prefix", "setsid"] if distro.forwards_interrupt else []
+    return shlex.join(["ros2", "run", *prefix, package, executable, *arguments])
 
 
 def observe(
@@ -129,7 +134,8 @@ def observe(
     flooded it, or if the node still runs beyond its time limit when the probe fails.
     """
     limits = sandbox.limits
-    run = Run(command=ros2_run(assignment))
+    words = (assignment.package, assignment.executable, "--ros-args", "-p", "use_sim_time:=true")
+    run = Run(command=ros2_run(sandbox.ros.distro, *words))
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
     begin = time.monotonic()
@@ -198,7 +204,8 @@ def counts_plainly(
     output = assignment.output
     number = number_reader(output)
     network = sandbox.probe(["cat"])  # it has a network of its own until its input ends
-    terminal = start(sandbox, ros2_run(assignment, plain=True), network)
+    command = ros2_run(sandbox.ros.distro, assignment.package, assignment.executable)
+    terminal = start(sandbox, command, network)
     try:
         wanted = [output.start, output.start + output.step]
         until = min(until, time.monotonic() + patience)
