@@ -50,7 +50,8 @@ class Example:
     `fails` is the check that reports the mistake, `also` are others that fail, with the mistake
     that they report. `blocks` are checks that are skipped because of what the build or the run
     does; with them, and with a failed check, all that depend on them are skipped. If not
-    `blocking`, the checks that depend on `fails` are evaluated all the same.
+    `blocking`, the checks that depend on `fails` are evaluated all the same. `right_from` is the
+    distro from which on the package is right, "" if there is none; `note` says why.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Example:
     also: Mapping[str, str] = field(default_factory=dict)
     blocks: tuple[str, ...] = ()
     blocking: bool = True
+    right_from: str = ""
     note: str = ""
 
 
@@ -69,6 +71,7 @@ def example(
     also: Mapping[str, str] | None = None,
     blocks: tuple[str, ...] = (),
     blocking: bool = True,
+    right_from: str = "",
     note: str = "",
 ) -> Example:
     """Return an example; its name is a valid folder name, and unique."""
@@ -79,5 +82,6 @@ def example(
         also=also or {},
         blocks=blocks,
         blocking=blocking,
+        right_from=right_from,
         note=note,
     )

@@ -389,6 +389,7 @@ KINDS = (
         raised={
             r"'(?P<type>int|float|str)' object is not callable": _value_called,
             r"TypeError: (?P<type>[\w.'\"-]{1,60}) is not a callable object": _value_passed,
+            r"UnboundLocalError: .{0,60}'(?P<type>arg_name)'": _value_passed,
             r"'(?P<type>NoneType|bool)' object is not callable": _constant_called,
         },
         examples=(

@@ -48,6 +48,7 @@ NOT_A_NUMBER = (
 )
 NOT_CALLABLE = (
     r"TypeError: (?:'(?P<type>\w{1,120})' object is not callable|.{1,60} is not a callable object)"
+    r"|UnboundLocalError: .{0,60}'arg_name'"  # kilted's rclpy, of a callback like 0 or None
 )
 METHOD_AS_VALUE = (
     r"unsupported operand type\(s\) for .{1,3}: '(?P<type>method)' and"
@@ -358,7 +359,7 @@ KINDS = (
         msg("The timer calls what create_timer gets, and a string cannot be called."),
         msg("Write {written} instead of {name}: the callback itself, without quotes."),
         links.FIRST_NODE,
-        raised={"'str' object is not callable": _callback_text},
+        raised={"'str' object is not callable|' is not a callable object": _callback_text},
         fixed_by=(lines.written,),
         examples=(
             example(

@@ -97,7 +97,7 @@ class Matrix:
         return {
             "mutants": len(self.rows),
             "named": len(named),
-            "automatic": len(self.rows) - len(named),
+            "automatic": sum(not row.mutant.named for row in self.rows),
             "equivalent": len(self.rows) - len(wrong),
             "failed_where_they_must": sum(row.hit for row in wrong),
             "that_must_fail": len(wrong),

@@ -48,6 +48,7 @@ from grader.base.yaml_model import TAG, Fault, Keys, broken, error_of, model_fau
 from grader.course.assignment import OWN
 from grader.mistakes.kind import Kind
 from grader.package.edit import tree
+from grader.ros.distro import Distro
 from grader.validate.mutant import Mutant
 
 MUTANTS = "mutants.yaml"
@@ -89,10 +90,16 @@ class MutantsFile:
 
 
 def read_mutants(
-    path: Path, *, checks: Iterable[str], kinds: Mapping[str, Kind], beside: bool = False
+    path: Path,
+    *,
+    checks: Iterable[str],
+    kinds: Mapping[str, Kind],
+    distro: Distro,
+    beside: bool = False,
 ) -> MutantsFile:
     """Read mutants.yaml; `kinds` are the catalogue's mistakes by id.
 
+    The mutants are marked on `distro`: an example that is right there becomes an equivalent mutant.
     `beside`: the solution has other packages beside the one that the paths are relative to.
 
     Raises AssignmentError; each line of its message reads `file:line: what is wrong`.
@@ -103,7 +110,7 @@ def read_mutants(
     except ValidationError as error:
         raise error_of(document, model_faults(error, KEYS)) from None
     checks = tuple(checks)
-    examples = tuple(_examples(kinds, checks)) if content.catalogue else ()
+    examples = tuple(_examples(kinds, checks, distro)) if content.catalogue else ()
     names = [mutant.name for mutant in examples]
     if found := list(_faults(content, checks, tuple(kinds), names)):
         raise error_of(document, found)
@@ -126,15 +133,17 @@ def read_mutants(
     )
 
 
-def _examples(kinds: Mapping[str, Kind], checks: Sequence[str]) -> Iterator[Mutant]:
+def _examples(kinds: Mapping[str, Kind], checks: Sequence[str], distro: Distro) -> Iterator[Mutant]:
     for kind in kinds.values():
         for example in kind.examples:
             if example.fails in checks:
+                right = example.right_from and distro.not_before(example.right_from)
                 yield Mutant(
                     name=example.name,
                     edits=example.edits,
                     families=(example.fails,),
                     mistake=kind.id,
+                    equivalent=example.note if right else "",
                     where=f"catalogue: {kind.id}",
                 )
 

@@ -92,7 +92,8 @@ def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
     written = MutantsFile()
     if path.is_file():
         beside = bool(assignment.others)
-        written = read_mutants(path, checks=ids, kinds=CATALOGUE, beside=beside)
+        distro = options.order.distro
+        written = read_mutants(path, checks=ids, kinds=CATALOGUE, distro=distro, beside=beside)
     seen = {digest(original), *_digests(written.mutants, original)}
     made = []
     for mutant in automatic:

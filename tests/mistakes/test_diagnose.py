@@ -32,6 +32,10 @@ Traceback (most recent call last):
   File "/ws/build/my_robot_controller/my_robot_controller/my_first_node.py", line {line}, in main
 {error}
 """
+FALSE_CALLBACK = (
+    "UnboundLocalError: cannot access local variable 'arg_name' where it is not associated with a "
+    "value"
+)
 
 
 @dataclass
@@ -101,6 +105,43 @@ def test_a_services_type_and_name_in_the_wrong_order(bench: Bench, error: str) -
     shown_text = diagnose(failed("run.died_at_start"), seen)
     assert shown_text.mistakes[0].id == "node.service_arguments"
     assert shown_text.where == Where(file=NODE, line=line)
+
+
+@pytest.mark.parametrize(
+    ("callback", "error", "mistake"),
+    [
+        (
+            "'self.timer_callback'",
+            "TypeError: 'self.timer_callback' is not a callable object",
+            "node.callback_text",
+        ),
+        ("self.counter_", FALSE_CALLBACK, "node.not_callable"),
+        ("0", FALSE_CALLBACK, "node.not_callable"),
+    ],
+)
+def test_kilteds_errors_for_what_is_no_callback(
+    bench: Bench, callback: str, error: str, mistake: str
+) -> None:
+    wrong = f"create_timer(1.0, {callback})"
+    source = RIGHT.replace("create_timer(1.0, self.timer_callback)", wrong)
+    lines = source.splitlines()
+    spin = next(n for n, text in enumerate(lines, 1) if "rclpy.spin(" in text)
+    seen = evidence(bench, source, TRACEBACK.format(line=spin, error=error))
+    shown_text = diagnose(failed("run.ended_early"), seen)
+    timer = next(n for n, text in enumerate(lines, 1) if wrong in text)
+    assert shown_text.mistakes[0].id == mistake
+    assert shown_text.where == Where(file=NODE, line=timer)
+
+
+def test_kilteds_error_for_a_callback_with_the_name_of_an_attribute(bench: Bench) -> None:
+    source = RIGHT.replace("timer_callback", "counter_")
+    lines = source.splitlines()
+    spin = next(n for n, text in enumerate(lines, 1) if "rclpy.spin(" in text)
+    seen = evidence(bench, source, TRACEBACK.format(line=spin, error=FALSE_CALLBACK))
+    shown_text = diagnose(failed("run.ended_early"), seen)
+    method = next(n for n, text in enumerate(lines, 1) if "def counter_" in text)
+    assert shown_text.mistakes[0].id == "node.name_shared"
+    assert shown_text.where == Where(file=NODE, line=method)
 
 
 def test_the_same_root_cause_at_another_check_is_a_consequence(bench: Bench) -> None:

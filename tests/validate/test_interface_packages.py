@@ -51,7 +51,9 @@ def solution() -> Tree:
 def read(folder: Path, path: str, to: str) -> MutantsFile:
     file = folder / "mutants.yaml"
     file.write_text(MUTANTS % (path, to))
-    return read_mutants(file, checks=["message.fields"], kinds=CATALOGUE, beside=True)
+    return read_mutants(
+        file, checks=["message.fields"], kinds=CATALOGUE, distro=ORDER.distro, beside=True
+    )
 
 
 def test_the_packages_are_submitted_side_by_side(solution: Tree) -> None:

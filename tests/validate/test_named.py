@@ -10,8 +10,10 @@ import pytest
 from grader.base.errors import AssignmentError
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.tree import Chmod, Copy, Delete, Move, Replace, Write
+from grader.ros.distro import find_distro
 from grader.validate.named import MutantsFile, read_mutants
 
+JAZZY = find_distro("jazzy")
 CHECKS = ("package.found", "source.exec_bit")
 MISTAKES = {name: CATALOGUE[name] for name in ("package.empty", "source.not_executable")}
 GOOD = """\
@@ -28,7 +30,7 @@ mutants:
 def read(folder: Path, text: str) -> MutantsFile:
     path = folder / "mutants.yaml"
     path.write_text(text)
-    return read_mutants(path, checks=CHECKS, kinds=MISTAKES)
+    return read_mutants(path, checks=CHECKS, kinds=MISTAKES, distro=JAZZY)
 
 
 def edits(*lines: str) -> str:
@@ -160,7 +162,7 @@ def test_examples_of_the_catalogue_are_mutants_too(tmp_path: Path) -> None:
 def test_examples_for_a_check_that_the_assignment_lacks_are_left_out(tmp_path: Path) -> None:
     path = tmp_path / "mutants.yaml"
     path.write_text(GOOD + "catalogue: true\n")
-    mutants = read_mutants(path, checks=["source.exec_bit"], kinds=MISTAKES).mutants
+    mutants = read_mutants(path, checks=["source.exec_bit"], kinds=MISTAKES, distro=JAZZY).mutants
     assert [mutant.name for mutant in mutants] == ["exec_bit_missing", "no_bit"]
 
 
@@ -168,3 +170,15 @@ def test_a_mutant_has_no_name_of_the_catalogue(tmp_path: Path) -> None:
     text = GOOD.replace("no_bit", "exec_bit_missing") + "catalogue: true\n"
     with pytest.raises(AssignmentError, match="two mutants 'exec_bit_missing'"):
         read(tmp_path, text)
+
+
+@pytest.mark.parametrize(("distro", "right"), [("jazzy", False), ("kilted", True)])
+def test_what_is_right_on_a_distro_is_equivalent_there(
+    distro: str, right: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "mutants.yaml"
+    path.write_text("schema: 1\ncatalogue: true\n")
+    read = read_mutants(path, checks=["run.starts"], kinds=CATALOGUE, distro=find_distro(distro))
+    (mutant,) = (one for one in read.mutants if one.name == "context_manager_of_kilted")
+    assert bool(mutant.equivalent) is right
+    assert mutant.named
