@@ -540,6 +540,27 @@ KINDS = (
                 blocks=UNSTARTED,
             ),
             example(
+                "plus_between_texts_missing",
+                Replace(NODE, "'Hello time: ' + str", "'Hello time: ' str"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "break_without_loop",
+                Replace(NODE, "        pass\n", "        break\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+                note="only the compiler refuses it",
+            ),
+            example(
+                "windows_path_in_docstring",
+                Replace(
+                    NODE, "import rclpy\n", '"""Saved in C:\\Users\\kim\\ros."""\nimport rclpy\n'
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "bracket_missing",
                 Replace(NODE, "str(self.counter_))", "str(self.counter_)"),
                 fails="source.node_file",

@@ -85,6 +85,7 @@ LANGUAGE = {
     "except": msg("Python has try: and except …: for errors, and raise instead of throw."),
     "choice": msg("Python has no ? : for a choice. Write: a if condition else b"),
     "backtick": msg("A text is in quotes, ' or \", not in backticks."),
+    "assign": msg("Python assigns with =. Write: {wanted}"),
     "braces": msg(
         "Python has no braces around a block. Write a colon at the end of the line above the "
         "block, and indent each line of the block by 4 spaces."
@@ -152,6 +153,69 @@ SIGNS = {
     ),
     "line_above": msg(
         "Indent this line as far as line {line}: the lines of one block begin in the same column."
+    ),
+    "assign_swapped": msg("The name that gets the value is on the left of the =. Write: {wanted}"),
+    "assign_left": msg(
+        "Only the name that gets the value is on the left of the =: one word, or self. and one word."
+    ),
+    "name_parts": msg("A name is one word, without spaces and without -. Write: {wanted}"),
+    "word_as_name": msg(
+        "{wanted} is a word of Python and cannot be a name. Choose another name, for example "
+        "my_{wanted}."
+    ),
+    "parameter_dot": msg(
+        "The brackets of a def contain plain names. Remove the part with the dot: the method "
+        "reaches all attributes through self."
+    ),
+    "import_dot": msg("Dots separate the parts of a module's name. Write: {wanted}"),
+    "import_nothing": msg("The name at the end of this line is missing: write it."),
+    "call_brackets": msg("A call has brackets. Write: {wanted}"),
+    "handler_comma": msg(
+        "except takes one class, or several in brackets; as gives the error a name. Write: {wanted}"
+    ),
+    "plus_missing": msg("A + joins the parts of a text. Write: {wanted}"),
+    "comma_missing": msg("A comma separates two values. Write: {wanted}"),
+    "colon_missing": msg("A line that begins a block ends with a colon. Write: {wanted}"),
+    "loop_word": msg(
+        "{wanted} works only inside a loop (for, while), and this line is in none. Delete it, or "
+        "write pass if its block has no other line."
+    ),
+    "global_late": msg(
+        "Move this line up: it comes before all lines of the function that use the name."
+    ),
+    "global_parameter": msg("{wanted} is a parameter of the function already. Delete this line."),
+    "nonlocal": msg(
+        "nonlocal is for a function inside a function. Write self. before the name of a variable "
+        "of the node, and global for a variable of the file."
+    ),
+    "outside_function": msg(
+        "{wanted} works only inside a function, and this line is in none. Indent it as far as the "
+        "lines of its function."
+    ),
+    "await_outside": msg(
+        "await and async work only inside an async def, and a node needs neither. Delete that word."
+    ),
+    "backslash": msg(
+        "In a text, a backslash and a letter are a code, and Python does not know this one. Write "
+        "an r before the quotes ({wanted}…), or / instead of each backslash."
+    ),
+    "argument_order": msg(
+        "In a call, values without a name come first, and those with name= after them."
+    ),
+    "argument_twice": msg("The call has {wanted}= twice. Delete one of the two."),
+    "parameter_twice": msg("The def has the name {wanted} twice. Rename or delete one of the two."),
+    "parameter_order": msg(
+        "In a def, names without = come first (self before all others), and those with = after "
+        "them."
+    ),
+    "number_letters": msg(
+        "A number consists of digits and at most one point, without a unit. A name does not begin "
+        "with a digit."
+    ),
+    "number_zeros": msg("Remove the zeros at the start of the number."),
+    "dict_braces": msg(
+        "Keys with their values (key: value) are between braces. Write {{ and }} instead of the "
+        "brackets around them."
     ),
     "text_without_end": msg(
         "A text in three quotes begins in this line and has no end. Write {wanted} where the text "

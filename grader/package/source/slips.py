@@ -15,6 +15,7 @@ from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip,
 from grader.package.source.code_only import code_only
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
+from grader.package.source.slip_statements import STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
 from grader.package.source.slip_try import try_block
 
@@ -171,6 +172,7 @@ RULES = (
     _rule("except", r"^(?P<start>[ \t]*)throw\b", r"\g<start>raise"),
     _rule("choice", r"\?", None),
     _rule("backtick", r"`", None),
+    _rule("assign", r"^(?P<start>[ \t]*[A-Za-z_][\w.]*[ \t]*):=", r"\g<start>="),
 )  # fmt: skip
 
 
@@ -352,5 +354,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _quotes, _keys, tab, try_block, *BLOCK_LOOKS, _other_sign, two_statements,
+    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _quotes, _keys, tab, try_block,
+    *STATEMENT_LOOKS, *BLOCK_LOOKS, _other_sign, two_statements,
 )  # fmt: skip

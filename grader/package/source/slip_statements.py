@@ -1,0 +1,286 @@
+"""Slips that Python's own message names: assignments, imports, calls, parameters, numbers, words."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Callable, Iterator
+
+from grader.package.edit.text import Splice, indent_of
+from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
+
+Look = Callable[[Broken], Slip | None]
+PLACE = r"[A-Za-z_][\w.]{0,120}"
+ASSIGNED = re.compile(
+    r"^(?P<start>[ \t]*)(?P<left>[^=]+?)[ \t]*=(?!=)[ \t]*(?P<right>[^=]+?)[ \t]*$"
+)
+CONDITION = re.compile(r"[ \t]*(?:if|elif|while|assert|return|and|or)\b")
+NAME_PARTS = re.compile(
+    r"^[ \t]*(?P<word>def|class)[ \t]+(?P<name>[A-Za-z_]\w*(?:[ \t]*-[ \t]*\w+|[ \t]+\w+)+)[ \t]*(?=[(:])"
+)
+INHERITS = re.compile(r"\b(?:extends|implements|inherits|from)\b")  # words of other languages
+WORD_AS_NAME = (
+    re.compile(r"^[ \t]*(?:def|class)[ \t]+(?P<name>[A-Za-z]+)[ \t]*[(:]"),
+    re.compile(r"\.(?P<name>[a-z]+)\b"),
+    re.compile(r"^[ \t]*(?P<name>[a-z]+)[ \t]*=(?!=)"),
+)
+PARAMETERS = re.compile(r"^[ \t]*def[ \t]+\w+[ \t]*\([^)]*\b\w+\.\w")
+FROM_PARTS = re.compile(r"^[ \t]*from[ \t]+[\w.]+(?P<blank>[ \t]+)(?!import\b)[\w.]+[ \t]+import\b")
+NO_NAME = re.compile(r"^[ \t]*(?:from[ \t]+[\w.]+[ \t]+)?import(?:[ \t]+[\w.]+[ \t]+as)?[ \t]*$")
+CALL_WITHOUT = re.compile(rf"^[ \t]*(?P<name>{PLACE})(?P<blank>[ \t]+)(?P<given>[\w'\"].*?)[ \t]*$")
+HANDLER = re.compile(r"^[ \t]*except[ \t]+(?P<types>[\w.]+[ \t]*,[ \t]*(?P<last>\w+))[ \t]*:")
+OPERANDS = re.compile(
+    r"(?P<before>[\w'\")\]}])(?P<blank>[ \t]+(?:\r\n|\r|\n)?[ \t]*|(?:\r\n|\r|\n)[ \t]*)(?=[\w'\"])"
+)
+TEXTS = re.compile(r"(?:\.(?:info|warn|warning|error|debug|fatal)|\bprint|\bstr)\(")
+
+
+def _says(pattern: str, variant: str) -> Look:
+    """Return a look for faults whose message matches; a group in it is what is wanted."""
+
+    def look(text: Broken) -> Slip | None:
+        match = re.search(pattern, text.fault.text)
+        if match is None:
+            return None
+        wanted = match[1] if match.re.groups else ""
+        shown = text.source.line(text.number).strip()
+        return Slip("signs", variant, text.number, shown, wanted)
+
+    return look
+
+
+def _assigned(text: Broken) -> Slip | None:
+    """Return an assignment whose left side is no place for a value."""
+    told = re.search("cannot assign to|illegal expression for augmented", text.fault.text)
+    match = ASSIGNED.match(text.line)
+    if told is None or match is None or CONDITION.match(text.line) or not _balanced(match["left"]):
+        return None
+    written = text.source.line(text.number)
+    if re.fullmatch(PLACE, match["right"]) and not keyword.iskeyword(match["right"]):
+        (start, middle), (begin, end) = match.span("left"), match.span("right")
+        left = text.within(start, middle, written[begin:end])
+        right = text.within(begin, end, written[start:middle])
+        new = text.changed(left, right)
+        return text.slip("signs", "assign_swapped", written, left, right, fixed=new)
+    return text.slip("signs", "assign_left", written)
+
+
+def _balanced(code: str) -> bool:
+    return all(code.count(a) == code.count(b) for a, b in ("()", "[]", "{}"))
+
+
+def _name_parts(text: Broken) -> Slip | None:
+    """Return a name of a function or a class with a space or a minus in it."""
+    match = NAME_PARTS.match(text.line)
+    if match is None or INHERITS.search(match["name"]):
+        return None
+    parts = re.split(r"[ \t-]+", match["name"])
+    name = "_".join(parts)
+    if match["word"] == "class":
+        name = "".join(part[:1].upper() + part[1:] for part in parts)
+    splice = text.within(*match.span("name"), name)
+    new = text.changed(splice)
+    return text.slip("signs", "name_parts", text.line, splice, fixed=new) if new else None
+
+
+def _word_as_name(text: Broken) -> Slip | None:
+    """Return a word of Python where a name belongs."""
+    for pattern in WORD_AS_NAME:
+        match = pattern.search(text.line)
+        if match is not None and keyword.iskeyword(match["name"]):
+            other = text.within(match.end("name"), match.end("name"), "_")
+            if text.changed(other) is not None:
+                shown = text.source.line(text.number).strip()
+                return Slip("signs", "word_as_name", text.number, shown, match["name"])
+    return None
+
+
+def _parameters(text: Broken) -> Slip | None:
+    """Return a function with an attribute among its parameters."""
+    if PARAMETERS.match(text.line) is None:
+        return None
+    return text.slip("signs", "parameter_dot", text.source.line(text.number))
+
+
+def _import(text: Broken) -> Slip | None:
+    """Return an import with a space for a dot, or without a name at its end."""
+    written = text.source.line(text.number)
+    match = FROM_PARTS.match(text.line)
+    if match is not None:
+        splice = text.within(*match.span("blank"), ".")
+        new = text.changed(splice)
+        return text.slip("signs", "import_dot", written, splice, fixed=new) if new else None
+    return text.slip("signs", "import_nothing", written) if NO_NAME.match(text.line) else None
+
+
+def _call(text: Broken) -> Slip | None:
+    """Return a call without brackets, on a line of its own."""
+    match = CALL_WITHOUT.match(text.line)
+    if match is None or keyword.iskeyword(match["name"]):
+        return None
+    if "." not in match["name"] and match["name"] != "print":
+        return None
+    written = text.source.line(text.number)
+    end = match.end("given")
+    splices = (text.within(*match.span("blank"), "("), text.within(end, end, ")"))
+    new = text.changed(*splices)
+    return text.slip("signs", "call_brackets", written, *splices, fixed=new) if new else None
+
+
+def _handler(text: Broken) -> Slip | None:
+    """Return an except with a comma: before a variable, or between two classes."""
+    match = HANDLER.match(text.line)
+    if match is None:
+        return None
+    start, end = match.span("types")
+    types = text.line[start:end]
+    if match["last"][:1].isupper():
+        splice = text.within(start, end, f"({types})")
+    else:
+        splice = text.within(start, end, re.sub(r"[ \t]*,[ \t]*", " as ", types))
+    new = text.changed(splice)
+    return text.slip("signs", "handler_comma", text.line, splice, fixed=new) if new else None
+
+
+def _between(text: Broken) -> Slip | None:
+    """Return two values with nothing between them: a comma or a + is missing."""
+    if "forgot a comma" not in text.fault.text:
+        return None
+    for splice, variant in _ways(text):
+        new = text.changed(splice)
+        if new is not None:
+            return text.slip("signs", variant, text.source.line(text.number), splice, fixed=new)
+    return None
+
+
+def _ways(text: Broken) -> Iterator[tuple[Splice, str]]:
+    """Yield what could stand between the values of the line, and of it and the next one."""
+    start, end = text.code.start_of(text.number), text.code.end_of(text.number + 1)
+    code = text.code.text[start:end]
+    for match in list(OPERANDS.finditer(code))[: MOST_TRIES * 2]:
+        if match.start("blank") > len(text.line):
+            break
+        at = start + match.start("blank")
+        quoted = {match["before"], code[match.end()]} & {"'", '"'}
+        if quoted and TEXTS.search(code[: match.end()]) and match["blank"].strip("\r\n"):
+            yield Splice(at, at + len(match["blank"]), " + "), "plus_missing"
+        yield Splice(at, at, ","), "comma_missing"
+
+
+def _colon(text: Broken) -> Slip | None:
+    """Return a line that begins a block and does not end with a colon."""
+    if "expected ':'" not in text.fault.text:
+        return None
+    ends = len(text.line.rstrip())
+    splice = text.within(ends, ends, ":")
+    new = text.changed(splice)
+    written = text.source.line(text.number)
+    return text.slip("signs", "colon_missing", written, splice, fixed=new) if new else None
+
+
+# what the parser accepts, and the compiler refuses
+
+ESCAPE = re.compile(r"\\[uUxN]")
+QUOTE = re.compile(r"(?<![\w'\"])(?P<quote>'''|\"\"\"|'|\")")
+LATE = re.compile(
+    r"name '(?P<name>\w+)' is (?:used prior to|assigned to before) global declaration"
+)
+
+
+def _loop_word(text: Broken) -> Slip | None:
+    """Return a break or continue without a loop around it."""
+    match = re.search("'(break|continue)' (?:outside loop|not properly in loop)", text.fault.text)
+    if match is None:
+        return None
+    alone = re.fullmatch(rf"[ \t]*{match[1]}[ \t]*;?[ \t]*", text.line)
+    start = len(indent_of(text.line))
+    splice = text.within(start, start + len(match[1]), "pass")
+    new = text.changed(splice) if alone is not None and _begins_block(text) else None
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "loop_word", text.number, shown, match[1], new)
+
+
+def _begins_block(text: Broken) -> bool:
+    above = (text.code.line(number) for number in range(text.number - 1, 0, -1))
+    return next((line for line in above if line.strip()), "").rstrip().endswith(":")
+
+
+def _global_late(text: Broken) -> Slip | None:
+    """Return a global below the first use of its name in the function."""
+    match = LATE.search(text.fault.text)
+    if match is None:
+        return None
+    written, width = text.source.line(text.number), len(indent_of(text.line))
+    for number in range(text.number - 1, 0, -1):
+        if re.match(r"[ \t]*(?:async[ \t]+)?def\b", text.code.line(number)):
+            indent = " " * width
+            if len(indent_of(text.code.line(number))) < width:
+                row = text.source.before(number + 1, indent + written.strip())
+                new = text.changed(row, text.source.without(text.number))
+                shown = written.strip()
+                return Slip("signs", "global_late", text.number, shown, "", new, other=number)
+    return None
+
+
+def _backslash(text: Broken) -> Slip | None:
+    """Return a backslash in a text before a letter for which Python expects a code."""
+    if "(unicode error)" not in text.fault.text:
+        return None
+    rows = range(max(1, text.number - 1), len(text.source.lines) + 1)
+    at = next((n for n in rows if ESCAPE.search(text.source.line(n))), None)
+    if at is None:
+        return None
+    shown = text.source.line(at).strip()
+    for number in range(at, max(0, at - MOST_TRIES), -1):
+        for match in reversed(list(QUOTE.finditer(text.source.line(number)))[:MOST_TRIES]):
+            start = text.source.start_of(number) + match.start()
+            new = text.source.spliced([Splice(start, start, "r")])
+            if new is not None and text.changed(Splice(start, start, "r")) is not None:
+                return Slip("signs", "backslash", at, shown, "r" + match["quote"], new)
+    return Slip("signs", "backslash", at, shown, "r" + text.source.quote)
+
+
+# a list with keys
+
+KEY_BEFORE_COLON = re.compile(r"['\"]_*['\"][ \t]*:")
+PAIRS = {"[": "]", "(": ")"}
+
+
+def _list_with_keys(text: Broken) -> Slip | None:
+    """Return a list, or round brackets, around keys with values: a dict has braces."""
+    match = KEY_BEFORE_COLON.search(text.line)
+    if match is None:
+        return None
+    code = text.code.text
+    open_at, depth = text.code.start_of(text.number) + match.start(), 0
+    while open_at > 0 and depth >= 0:
+        open_at -= 1
+        depth += (code[open_at] in ")]}") - (code[open_at] in "([{")
+    if depth >= 0 or code[open_at] not in PAIRS:
+        return None
+    close_at, depth = open_at, 0
+    while close_at < len(code) and (depth > 0 or close_at == open_at):
+        depth += (code[close_at] in "([{") - (code[close_at] in ")]}")
+        close_at += 1
+    if depth or code[close_at - 1] != PAIRS[code[open_at]]:
+        return None
+    new = text.changed(Splice(open_at, open_at + 1, "{"), Splice(close_at - 1, close_at, "}"))
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "dict_braces", text.number, shown, "", new) if new is not None else None
+
+
+STATEMENT_LOOKS: tuple[Look, ...] = (
+    _assigned, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
+    _loop_word, _global_late, _backslash, _list_with_keys,
+    _says(r"name '(\w+)' is parameter and (?:global|nonlocal)", "global_parameter"),
+    _says(r"(?:no binding for nonlocal '\w+'|nonlocal declaration not allowed)", "nonlocal"),
+    _says(r"'(return|yield)' outside function", "outside_function"),
+    _says(r"'(?:await|async \w+)' outside", "await_outside"),
+    _says(r"positional argument follows keyword", "argument_order"),
+    _says(r"keyword argument repeated: (\w+)", "argument_twice"),
+    _says(r"duplicate argument '(\w+)' in function", "parameter_twice"),
+    _says(r"(?:non-default argument|parameter without a default) follows", "parameter_order"),
+    _says(r"invalid decimal literal", "number_letters"),
+    _says(r"leading zeros in decimal", "number_zeros"),
+    _word_as_name,
+)  # fmt: skip
