@@ -131,8 +131,56 @@ def _start_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     return raised.finding("method_twice", at=found[-1], name="__init__", line=line)
 
 
+def _class_replaced(suspect: Suspect) -> RecognisedMistake | None:
+    """A second class of the same name replaces the one that has the callback."""
+    for module in suspect.source.modules:
+        tops = [s for s in module.tree.body if isinstance(s, ast.ClassDef)]
+        for own in suspect.source.family:
+            same = [s for s in tops if s.name == own.name]
+            if len(same) > 1 and own in same:
+                line = same[-2].lineno
+                return suspect.finding("class_twice", same[-1], name=own.name, line=line)
+    return None
+
+
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
+    _node(
+        "class_twice",
+        "class",
+        msg("The file defines the node's class twice"),
+        msg(
+            "A file has one class of each name. The second class {name} replaces the one in line "
+            "{line}, of which nothing runs."
+        ),
+        msg("Delete the class that you do not need, with all its lines."),
+        behind=dict.fromkeys(
+            (
+                "run.no_lines",
+                "run.wrong_text",
+                "run.constant_counter",
+                "run.wrong_node_name",
+                "run.wrong_period",
+            ),
+            _class_replaced,
+        ),
+        examples=(
+            example(
+                "class_defined_twice",
+                Replace(
+                    NODE,
+                    "\n\ndef main(",
+                    "\n\nclass MyFirstNode(Node):\n"
+                    "    def __init__(self):\n"
+                    "        super().__init__('my_first_node')\n"
+                    "        self.get_logger().info('Hello from ROS2')\n\n\n"
+                    "def main(",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
     _node(
         "variable_for_self",
         "class",

@@ -18,7 +18,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import function_at, place_of
 from grader.report.model import Where
 
@@ -146,9 +146,23 @@ def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
     by = "% {counter}" if match[0].startswith("%") else ".format({counter})"
     counter = placeholder_values(suspect.assignment, suspect.source)["counter"]
     written = by.format(counter=counter)
-    return suspect.finding(
-        "value_forgotten", _place_of_text(suspect), name=match[0], written=written
-    )
+    other = _other_format(suspect, match[0])
+    place = other if other is not None else _place_of_text(suspect)
+    found = suspect.finding("value_forgotten", place, name=match[0], written=written)
+    return replace(found, variant="other_format" if other is not None else "")
+
+
+def _other_format(suspect: Suspect, sign: str) -> ast.Call | None:
+    """Return the call of .format() on a text with %, which .format() leaves as it is."""
+    if not sign.startswith("%"):
+        return None
+    for node in suspect.source.own_nodes:
+        called = node.func if isinstance(node, ast.Call) else None
+        text = called.value if isinstance(called, ast.Attribute) else None
+        given = text.value if isinstance(text, ast.Constant) else None
+        if isinstance(node, ast.Call) and called_name(node) == "format" and given == suspect.text:
+            return node
+    return None
 
 
 def _without_number(suspect: Suspect) -> RecognisedMistake | None:
@@ -444,16 +458,35 @@ KINDS = (
     _node(
         "value_forgotten",
         "text",
-        msg("The text has a place for a value, but gets no value"),
+        msg("The text shows the place of a value instead of the value"),
         msg("Python replaces {name} in a string only if a value follows the string."),
         msg("Write {written} after the string, or use an f-string: {f_string}"),
         links.PYTHON_STRINGS,
+        whys={
+            "other_format": msg(
+                ".format() puts its values in the place of {{}}, and leaves {name}."
+            )
+        },
+        fixes={
+            "other_format": msg(
+                "Write {{}} instead of {name} in the string, or an f-string: {f_string}"
+            )
+        },
         behind={"run.wrong_text": _value_forgotten},
         fixed_by=(node_words.value,),
         examples=(
             example(
                 "percent_without_value",
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: %d'"),
+                fails="run.output",
+            ),
+            example(
+                "format_with_percent",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %d'.format(self.counter_)",
+                ),
                 fails="run.output",
             ),
             example(

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes import node_life, node_main, node_names
@@ -17,9 +18,17 @@ from grader.package.edit.tree import Replace
 from grader.package.source.guard import guarded_code
 from grader.package.source.names import calls_in
 from grader.package.source.sleeps import SLEEPS
+from grader.report.model import Where
 
 WAITS = ("input", *SLEEPS)
 NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
+MAIN = 'def main(args=None):\n    """Run the node until Ctrl+C."""\n'
+PLACEHOLDER = re.compile(
+    r"^[ \t]*#(?P<words>[^#\r\n]*\b(?:rest of|remains|unchanged|existing code|your code|code here|"
+    r"same as (?:before|above))\b[^#\r\n]*)",
+    re.I,
+)
+"""A comment of a chatbot, or of a tutorial, in the place of code."""
 LOOKED_FOR = msg(
     "The entry point ends in :{function}, so Python looks for a function {function} at the top "
     "level of the module."
@@ -35,8 +44,23 @@ def _function_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake
         return None
     guard = guarded_code(raised.source.entry.tree)
     if guard is None:
-        return raised.finding("main_missing")
+        return _absent(raised)
     return replace(raised.finding("main_missing", at=guard), variant="guarded")
+
+
+def _absent(raised: Raised) -> RecognisedMistake:
+    """Return that there is no function: what the class is called, or what stands in its place."""
+    own = raised.source.node_class
+    made = own.name if own is not None else "MyNode"
+    found = raised.finding("main_missing", made=made)
+    text = raised.source.entry.text
+    for number, row in enumerate(text.lines, 1):
+        match = PLACEHOLDER.search(row)
+        if match is not None:
+            where = Where(file=raised.source.entry.path, line=number)
+            words = {**found.words, "found": shown(match["words"].strip())}
+            return replace(found, variant="placeholder", where=where, words=words)
+    return found
 
 
 def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -87,31 +111,49 @@ KINDS = (
         "start",
         msg("The module does not have the entry point's function"),
         LOOKED_FOR,
-        msg("Define it: def {function}(args=None):"),
+        msg(
+            "Write it at the end of the file: def {function}(args=None): and, indented below it, "
+            "rclpy.init(args=args), node = {made}() and rclpy.spin(node)."
+        ),
         links.DEVELOPING,
         whys={
+            "placeholder": msg(
+                "'{found}' stands for lines that were left out, and is no code. The function "
+                "{function}, to which the entry point leads, is one of them."
+            ),
             "guarded": msg(
                 "The entry point ends in :{function}, so Python looks for a function {function} at "
                 "the top level of the module. The lines below this guard run only if the file is "
                 "started directly: ros2 run imports the file, and __name__ is not '__main__' then."
-            )
+            ),
         },
         fixes={
+            "placeholder": msg(
+                "Write the lines that are left out in its place: def {function}(args=None): and, "
+                "indented below it, rclpy.init(args=args), node = {made}() and rclpy.spin(node)."
+            ),
             "guarded": msg(
                 "Put these lines into the function: write def {function}(args=None): instead of "
                 "this line. Then write at the end of the file, without indentation, "
                 "if __name__ == '__main__': and below it, indented, {function}()"
-            )
+            ),
         },
         seen=r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>main)'",
         raised={NO_FUNCTION: _function_missing},
-        fixed_by=(node_main.out_of_guard, node_names.main),
+        fixed_by=(node_main.out_of_guard, node_names.main, node_main.appended),
         examples=(
             example(
                 "main_under_guard",
                 Replace(NODE, "def main(args=None):", "if __name__ == '__main__':"),
                 Replace(NODE, "args=args", ""),
                 Replace(NODE, "\n\nif __name__ == '__main__':\n    main()\n", ""),
+                fails="run.starts",
+            ),
+            example(
+                "placeholder_for_main",
+                Replace(NODE, BODY_OF_MAIN, "# ... (rest of your code) ..."),
+                Replace(NODE, MAIN, ""),
+                Replace(NODE, "if __name__ == '__main__':\n    main()\n", ""),
                 fails="run.starts",
             ),
             example(

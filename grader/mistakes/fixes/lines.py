@@ -8,6 +8,7 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
+from grader.package.source.code_only import code_only
 from grader.package.source.module import Module
 from grader.package.source.place import block_of
 
@@ -110,3 +111,14 @@ def written(case: Case) -> Files | None:
         return None
     start = module.text.start_of(line)
     return case.changed(module, Splice(start + places[0].start(), start + places[0].end(), new))
+
+
+def written_everywhere(case: Case) -> Files | None:
+    """Write the code that the finding gives instead of the name, in all code of the file."""
+    module = case.module
+    name, new = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
+    if module is None or not name or not new:
+        return None
+    code = code_only(module.text.text)
+    places = [match.span() for match in re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", code)]
+    return case.changed(module, *(Splice(start, end, new) for start, end in places))

@@ -6,6 +6,7 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.guard import called_on_import, guarded_code, names_needed_outside
+from grader.package.source.module import Function
 
 
 def out_of_guard(case: Case) -> Files | None:
@@ -36,3 +37,33 @@ def under_guard(case: Case) -> Files | None:
     start = module.text.start_of(call.lineno)
     guard = f"if __name__ == '__main__':{module.text.newline}    "
     return case.changed(module, Splice(start, start, guard))
+
+
+def appended(case: Case) -> Files | None:
+    """Append the function to a file that has only the node's class."""
+    node, function = case.node, case.assignment.function
+    if node is None or node.node_class is None or not node.module.has(node.node_class):
+        return None
+    module, made = node.entry, node.node_class.name
+    others = [s for s in module.tree.body if isinstance(s, Function)]
+    outside = node.makes_node() or node.calls_of("init", "spin") or guarded_code(module.tree)
+    if module is not node.module or others or outside or "rclpy" not in module.imports:
+        return None
+    rows = (
+        f"def {function}(args=None):",
+        "    rclpy.init(args=args)",
+        f"    node = {made}()",
+        "    try:",
+        "        rclpy.spin(node)",
+        "    except KeyboardInterrupt:",
+        "        pass",
+        "    finally:",
+        "        node.destroy_node()",
+        "        rclpy.try_shutdown()",
+        "",
+        "",
+        "if __name__ == '__main__':",
+        f"    {function}()",
+    )
+    after = len(module.text.lines) + 1
+    return case.changed(module, module.text.before(after, "", "", *rows))

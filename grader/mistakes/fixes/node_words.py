@@ -8,7 +8,10 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
+from grader.package.source.commented import commented
+from grader.package.source.commented import uncommented as uncommented_in
 from grader.package.source.counter import logged_counter
+from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 
@@ -89,15 +92,40 @@ def options(case: Case) -> Files | None:
 def value(case: Case) -> Files | None:
     """Give the place in the text its value: the counter."""
     node = case.node
-    logged = logged_counter(node) if node is not None else None
-    call = node.log_call if node is not None else None
-    if node is None or logged is None or call is None:
+    if node is None:
         return None
-    module = node.module_of(call)
+    for found in node.calls_of("format"):
+        text = found.func.value if isinstance(found.func, ast.Attribute) else None
+        written = node.module_of(found).text.plain_string(text) or ""
+        if text is not None and len(re.findall(r"%[dis]", written)) == written.count("%") == 1:
+            module = node.module_of(text)
+            code = re.sub(r"%[dis]", "{}", module.text.code(text))
+            return case.changed(module, module.text.swap(text, code))
+    logged, call = logged_counter(node), node.log_call
+    if logged is None or call is None:
+        return None
+    return _with_value(case, node.module_of(call), call, logged[1])
+
+
+def _with_value(case: Case, module: Module, call: ast.Call, counter: str) -> Files | None:
+    """Write the counter behind the only place for a value in the text of a call."""
     text = module.text.plain_string(call.args[0]) or ""
     percent, braces = len(re.findall(r"%[dis]", text)), len(re.findall(r"\{0?\}", text))
     if (percent, braces) not in ((1, 0), (0, 1)) or text.count("%") != percent:
         return None
     at = module.text.span(call.args[0])[1]
-    new = f" % {logged[1]}" if percent else f".format({logged[1]})"
+    new = f" % {counter}" if percent else f".format({counter})"
     return case.changed(module, Splice(at, at, new))
+
+
+def uncommented(case: Case) -> Files | None:
+    """Write the statement of a comment on a line of its own."""
+    module, line = case.module, case.finding.line
+    written = str(case.finding.params.get("written", ""))
+    if module is None or not written:
+        return None
+    for found in commented(module.text, re.escape(written)):
+        if found.line == line and found.code == written:
+            new = uncommented_in(module.text, found)
+            return case.with_data(module.path, new) if new is not None else None
+    return None

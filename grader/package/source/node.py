@@ -227,8 +227,13 @@ class NodeSource:
 
     @property
     def log_call(self) -> ast.Call | None:
-        """The only call of the node's logger, if it has exactly one argument."""
+        """The only call of the node's logger, or of several the callback's only one.
+
+        It must have exactly one argument.
+        """
         found = self.own_logs
+        if len(found) != 1 and self.callback is not None:
+            found = [call for call in self.logs(self.callback) if self.is_own_log(call)]
         return found[0] if len(found) == 1 and len(found[0].args) == 1 else None
 
     def prints(self, part: ast.AST) -> list[ast.Call]:
