@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 import unicodedata
 from collections.abc import Collection, Iterable
 from itertools import islice
@@ -15,6 +16,8 @@ from grader.base.shown import shown
 LONGEST = 100  # characters of a marked text; a terminal line has as many
 LONGEST_RUN = 12  # characters; a longer difference is another word, not a typo
 ALIKE = 0.6  # of 1; below this ratio, marks are of no use
+OTHER_WORD = 3  # characters; a word with as many wrong ones, a third of it, is marked as a whole
+WORD = re.compile(r"\w+")
 MOST_NAMES = 2_000  # of a folder, that are compared
 
 
@@ -94,6 +97,10 @@ def marks(found: str, wanted: str) -> str:
     for tag, start, end, *_ in codes:
         if tag != "equal":
             line[start : max(end, start + 1)] = "^" * max(end - start, 1)
+    for word in WORD.finditer(found):
+        start, end = word.span()
+        if line[start:end].count("^") >= max(OTHER_WORD, (end - start) / 3):
+            line[start:end] = "^" * (end - start)
     return "".join(line).rstrip()
 
 

@@ -85,9 +85,9 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
         if check.fault:
             page.code(say("details"), last_lines(check.fault, lines=2 * lines)[0])
     _field(page, say("fix"), check.fix, lines, style="bold")
-    if check.patch.strip():
+    if check.patch.strip() and not check.consequence_of:  # (that check shows the same change)
         patch = shown_patch(check.patch, page.translate)
-        page.code(say("change"), first_lines(patch, lines=2 * lines, translate=page.translate))
+        page.code(say("change"), first_lines(patch, lines=4 * lines, translate=page.translate))
     for advice in check.advice:
         _field(page, say("also"), advice, lines)
     if check.consequence_of:

@@ -28,6 +28,8 @@ from grader.base.nearest import (
         ("my_frist_node", "my_first_node", "    ^^"),
         ("test_nod", "test_node", "        ^"),
         ("mein", "main", " ^"),
+        ("my_first_node", "test_node", "^^^^^^^^^^^^^"),
+        ("a.node:MyFirstNode", "a.node:main", "       ^^^^^^^^^^^"),
     ],
 )
 def test_the_difference_is_marked_at_its_place(found: str, wanted: str, line: str) -> None:

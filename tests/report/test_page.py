@@ -221,6 +221,15 @@ def test_commands_paths_and_patches_are_not_wrapped(width: int) -> None:
     assert any(line.endswith(str(path)) for line in lines)
 
 
+def test_a_change_of_a_whole_function_is_shown_whole_and_once() -> None:
+    lines = [f"+line {number}" for number in range(40)]
+    first = check("run.spins", "failed", patch="\n".join(lines))
+    second = check("run.output", "failed", patch="\n".join(lines), consequence_of="run.spins")
+    page = render_report(report(first, second))
+    for line in lines:
+        assert page.count(f"{line}\n") == 1
+
+
 def test_a_grader_failure_is_not_shown_as_the_students() -> None:
     page = render_report(
         report(status="error", message="no sandbox\nInstall bubblewrap.", checks=[], score=0)
