@@ -99,7 +99,7 @@ def assert_verdict(package: Package, report: Report) -> None:
         check = report.check(check_id)
         assert check.expected, check_id
         assert check.actual, check_id
-        assert check.rationale, check_id
+        assert check.rationale or check.consequence_of, check_id
         assert check.fix, check_id
         if mistake is not None:
             assert check.mistakes[0].id == mistake, check.actual

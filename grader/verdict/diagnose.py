@@ -97,10 +97,10 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
 
 
 def _following(diagnosis: Diagnosis, evidence: Evidence) -> Diagnosis:
-    """Leave the fix to an earlier check, if its mistake is the cause of this one."""
+    """Leave reason and fix to an earlier check, if its mistake is the cause of this one."""
     cause = followed(diagnosis.mistakes[0].id, evidence)
     if cause:
-        diagnosis.consequence_of = cause
+        diagnosis.consequence_of, diagnosis.rationale = cause, ""
         diagnosis.fix = say("This follows from {check}. Fix {check} first.", check=cause)
     return diagnosis
 
@@ -120,8 +120,6 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
         return None
     if symptom == "run.wrong_node_name" and source.super_init is not None:
         diagnosis.where = place_of(source, source.super_init)
-    if symptom == "run.wrong_period" and source.timers:
-        diagnosis.where = place_of(source, source.timers[0].call)
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     return behind_symptom(symptom, Suspect(source, evidence.assignment, text, diagnosis.where))
 

@@ -20,17 +20,31 @@ FOLLOWS = {
 }
 """By the mistake that is the cause: those that disappear with it, or are to be fixed after it."""
 
-REPEATED = {"entry_point.mapping": ("node.main_missing", "node.main_misspelt")}
-"""By the kind of check: the mistakes that say the same as its advice, with more about the cause."""
+REPEATED = {
+    "entry_point.mapping": ("", ("node.main_missing", "node.main_misspelt")),
+    "source.node_file": ("/__init__.py", ("source.no_init_file", "package.created_as_cmake")),
+}
+"""By the kind of check: the mistakes that say the same as its advice, with more about the cause.
+
+The text before them is in that advice in every language; "" is in any.
+"""
 
 
 def without_repeated(results: Sequence[CheckResult], evidence: Evidence) -> list[CheckResult]:
     """Return the results without the advice that a failed check replaces."""
     found = {one.id for result in results if result.status == "failed" for one in result.mistakes}
-    replaced = {
-        use.id for use in evidence.assignment.checks if found & {*REPEATED.get(use.kind, ())}
-    }
-    return [r.model_copy(update={"advice": []}) if r.id in replaced else r for r in results]
+    replaced: dict[str, str] = {}
+    for use in evidence.assignment.checks:
+        part, mistakes = REPEATED.get(use.kind, ("", ()))
+        if found.intersection(mistakes):
+            replaced[use.id] = part
+    return [_without(r, replaced[r.id]) if r.id in replaced else r for r in results]
+
+
+def _without(result: CheckResult, part: str) -> CheckResult:
+    """Return a result without the advice that contains a text."""
+    kept = [text for text in result.advice if part not in text]
+    return result.model_copy(update={"advice": kept})
 
 
 def followed(mistake: str, evidence: Evidence) -> str:

@@ -36,6 +36,7 @@ def test_the_check_with_the_cause_is_named(
     assert result.consequence_of == cause
     assert result.fix == f"This follows from {cause}. Fix {cause} first."
     assert result.patch == ""
+    assert result.rationale == ""  # (that of the cause says it)
 
 
 def test_two_mistakes_of_their_own_have_two_fixes(tmp_path: Path) -> None:
@@ -49,6 +50,15 @@ def test_the_missing_function_is_told_once(tmp_path: Path) -> None:
     assert report.check("run.starts").where is not None
     report = mark(write(BY_NAME["node_empty"], tmp_path))
     assert report.check("entry_point.mapping").advice == []
+
+
+@pytest.mark.parametrize("name", ["init_missing", "cmake_package_with_node"])
+def test_the_missing_init_file_is_told_once(name: str, tmp_path: Path) -> None:
+    package = write(BY_NAME[name], tmp_path)
+    (package / ASSIGNMENT.folder / "__init__.py").unlink(missing_ok=True)
+    report = mark(package)
+    advice = [text for check in report.checks for text in check.advice]
+    assert [text for text in advice if "__init__.py" in text] == []
 
 
 @pytest.mark.parametrize("shallow", [False, True], ids=["in the inner folder", "in the package"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import statistics
 from collections.abc import Sequence
 from itertools import pairwise
@@ -10,8 +11,11 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from grader.base.i18n.message import say
+from grader.mistakes.fixes.node_timer import value_of
+from grader.package.source.names import dotted
 from grader.package.source.place import place_of
 from grader.package.source.sleeps import longest_sleep
+from grader.report.model import Where
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.checks.instants import stops_before, wrong_gaps
@@ -189,12 +193,32 @@ def _advice(evidence: Evidence) -> list[str]:
 
 
 def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
-    watch = evidence.run.watch
+    where, name = _place_of_period(evidence)
+    known = {"value": name} if name else {}
     return Failed(
         "run.wrong_period",
         expected=expected,
         actual=actual,
-        where=line_of(evidence, watch.counted[0].record),
+        where=where,
+        variant="named" if name else "",
         params={"period": round(seconds, 3)},
-        words=words(evidence),
+        words={**words(evidence), **known},
     )
+
+
+def _place_of_period(evidence: Evidence) -> tuple[Where, str]:
+    """Return where the period of the first timer is written, and its name if it has one.
+
+    A name whose value is right already is not the reason: then it is the call of create_timer.
+    """
+    source = source_of_node(evidence)
+    if source is None or not source.timers:
+        return line_of(evidence, evidence.run.watch.counted[0].record), ""
+    timer = source.timers[0]
+    name = dotted(timer.period) if timer.period is not None else ""
+    value = value_of(source, timer.period) if timer.period is not None and name else None
+    number = value.value if isinstance(value, ast.Constant) else None
+    right = number == evidence.assignment.output.period
+    if value is None or right or type(number) not in (int, float):
+        return place_of(source, timer.call), ""
+    return place_of(source, value), name
