@@ -6,10 +6,13 @@ import ast
 import re
 from dataclasses import replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.fixes import node_clock
+from grader.mistakes.fixes.node_clock import count_of
 from grader.mistakes.kind import Family
+from grader.mistakes.placeholders import as_sum
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
@@ -225,8 +228,24 @@ def _time(suspect: Suspect) -> RecognisedMistake | None:
     for call in source.calls_of(*CLOCKS, within=callback) if callback is not None else ():
         if call in shown:
             found = suspect.finding("time_for_count", call, name=ast.unparse(call.func)[:60])
-            return replace(found, variant="ros" if "get_clock" in str(found.words["name"]) else "")
+            return _counted_instead(suspect, found)
     return None
+
+
+def _counted_instead(suspect: Suspect, found: RecognisedMistake) -> RecognisedMistake:
+    """Return a finding of a time with the line that logs a count instead."""
+    source, callback = suspect.source, suspect.source.callback
+    logs = source.logs(callback) if callback is not None else []
+    counter, counts = count_of(source)
+    words: dict[str, Value] = {
+        **found.words,
+        "counter": counter,
+        "written": f"{ast.unparse(logs[0].func)}({as_sum(suspect.output, counter)})",
+        "line": logs[0].lineno,
+    }
+    of_ros = "get_clock" in str(words["name"])
+    variant = ("ros_counts" if of_ros else "counts") if counts else ("ros" if of_ros else "")
+    return replace(found, variant=variant, words=words)
 
 
 def _shown(suspect: Suspect, callback: Function) -> set[ast.AST]:
@@ -246,6 +265,15 @@ def _targets(node: ast.Assign | ast.AugAssign) -> list[str]:
     return [dotted(n) for target in targets for n in ast.walk(target) if dotted(n)]
 
 
+ROS_TIME = msg(
+    "The number says how often the callback was called: {start} first, then {step} more each time. "
+    "{name} is the time that a clock shows, and no count. Here ROS time began at 0; on your "
+    "terminal the number is that of the seconds since 1970."
+)
+LOG_COUNT = msg(
+    "{counter} counts already. Write {written} in the place of the call that logs (line {line}). "
+    "Delete what reads the clock."
+)
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
@@ -535,23 +563,33 @@ KINDS = (
             "each time. {name} is the time that a clock shows, and no count."
         ),
         msg(
-            "Write {counter} = {start} in __init__. Log {counter} in the callback instead of the "
-            "time, and write {counter} += {step} below the line that logs."
+            "Write {counter} = {start} in __init__. In the callback, write {written} in the place "
+            "of the call that logs (line {line}), and {counter} += {step} below it. Delete what "
+            "reads the clock."
         ),
-        whys={
-            "ros": msg(
-                "The number says how often the callback was called: {start} first, then {step} "
-                "more each time. {name} is the time that a clock shows, and no count. Here ROS "
-                "time began at 0; on your terminal the number is that of the seconds since 1970."
-            )
-        },
+        whys={"ros": ROS_TIME, "ros_counts": ROS_TIME},
+        fixes={"counts": LOG_COUNT, "ros_counts": LOG_COUNT},
         behind={
             "run.constant_counter": _time,
             "run.wrong_start": _time,
             "run.wrong_step": _time,
             "run.wrong_text": _time,
         },
+        fixed_by=(node_clock.count_for_time,),
         examples=(
+            example(
+                "time_in_a_variable",
+                Replace(NODE, "import rclpy\nfrom", "import time\n\nimport rclpy\nfrom"),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    f"        {LOG}\n        self.counter_ += 1\n",
+                    "        now = time.strftime('%H:%M:%S')\n"
+                    "        self.get_logger().info('Hello time: ' + now)\n",
+                ),
+                fails="run.output",
+                note="there is no counter",
+            ),
             example(
                 "time_of_day",
                 Replace(NODE, "import rclpy\nfrom", "import time\n\nimport rclpy\nfrom"),

@@ -11,7 +11,7 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import node_count, node_log, node_words
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, always
+from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted
 
@@ -22,6 +22,25 @@ def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     calls = (call for call, _ in raised.source.calls if raised.source.is_log(call))
     logs = [call for call in calls if len(call.args) > 1]
     return raised.finding("logger_arguments", at=logs[0]) if logs else None
+
+
+def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """get_logger lacks its (): where it is used, or where a variable or an attribute gets it."""
+    del match
+    kept = raised.source.loggers
+    used = [
+        dotted(node.value)
+        for node in raised.module.nodes
+        if isinstance(node, ast.Attribute) and node.lineno == raised.line
+    ]
+    for name in used:
+        value = kept[name].value if name in kept else None
+        if value is not None and not isinstance(value, ast.Call):
+            found = raised.finding("logger_not_called", at=kept[name])
+            written = f"{name} = {ast.unparse(value)}()"
+            words = {**found.words, "name": name, "written": written}
+            return replace(found, variant="kept", words=words)
+    return raised.finding("logger_not_called")
 
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
@@ -86,12 +105,17 @@ KINDS = (
         msg("get_logger is a method: only calling it gives the logger."),
         msg("Write self.get_logger().info(…)."),
         links.LOGGING,
+        whys={
+            "kept": msg(
+                "get_logger is a method: only calling it gives the logger. This line gives {name} "
+                "the method itself, which logs nothing."
+            )
+        },
+        fixes={"kept": msg("Write {written} in this line.")},
         seen=r"AttributeError: '(?:function|method)' object has no attribute "
         r"'(?:info|debug|warn|warning|error|fatal)'",
         raised={
-            r"'(?:function|method)' object has no attribute '(?:info|debug|warn|warning|error|fatal)'": always(
-                "logger_not_called"
-            )
+            r"'(?:function|method)' object has no attribute '(?:info|debug|warn|warning|error|fatal)'": _not_called
         },
         fixed_by=(node_log.logger_call,),
         examples=(
@@ -100,6 +124,18 @@ KINDS = (
                 Replace(NODE, "self.get_logger().info", "self.get_logger.info"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "get_logger_kept_not_called",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.log = self.get_logger\n        self.counter_ = 0\n",
+                ),
+                Replace(NODE, "self.get_logger().info", "self.log.info"),
+                fails="run.output",
+                blocks=DEAD,
+                note="the traceback shows the callback, not the line to change",
             ),
         ),
     ),

@@ -5,14 +5,15 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_rates
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 
 
 def _rates(suspect: Suspect) -> RecognisedMistake | None:
@@ -29,13 +30,54 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
         if method == "sleep" and (before in rates or before.endswith("create_rate()")):
             found = suspect.finding("rate_sleep", call, name=name)
             around = suspect.source.module_of(call).around(call)
-            looped = any(isinstance(part, ast.While | ast.For) for part in around)
-            if not looped:
+            loops = [part for part in around if isinstance(part, ast.While | ast.For)]
+            if not loops:
                 return replace(found, variant="alone")
-            in_main = suspect.source.function_around(call) is suspect.source.main
-            spun = {"node": _spun(suspect, before)}
-            return replace(found, variant="main" if in_main else "", words={**found.words, **spun})
+            spun = _spun(suspect, before)
+            if spun.startswith("self"):
+                spun = next(iter(sorted(suspect.source.node_variables)), "node")
+            found = replace(found, words={**found.words, "node": spun})
+            return _in_loop(suspect, found, loops[0])
     return None
+
+
+def _in_loop(
+    suspect: Suspect, found: RecognisedMistake, loop: ast.While | ast.For
+) -> RecognisedMistake:
+    """Return the finding of a rate in a loop, with what to write in its place."""
+    source = suspect.source
+    function = source.function_around(loop)
+    if function is source.main:
+        return replace(found, variant="main" if _calls_method(source, loop) else "inline")
+    method = function.name if function is not None else ""
+    if function is None or source.methods.get(method) is not function:
+        return replace(found, variant="inline")
+    if method == "__init__":
+        return replace(found, variant="constructor")
+    rows = {found.where.line if found.where else None, loop.lineno, *_rows_of_rates(source)}
+    lines = ", ".join(map(str, sorted(row for row in rows if row)))
+    words: dict[str, Value] = {**found.words, "method": method, "line": lines}
+    if any(timer.method == method for timer in source.timers):
+        return replace(found, variant="timer", words=words)
+    in_main = list(calls_in(source.main)) if source.main is not None else []
+    for call, name in in_main:
+        if last_part(name) == method:
+            owner = call.func.value if isinstance(call.func, ast.Attribute) else None
+            node = ast.unparse(owner) if owner is not None else "node"
+            spins = any(last_part(name) == "spin" for _, name in in_main)
+            words |= {"written": ast.unparse(call), "at": call.lineno, "node": node}
+            return replace(found, variant="method_spun" if spins else "method", words=words)
+    return replace(found, words=words)
+
+
+def _calls_method(source: NodeSource, loop: ast.While | ast.For) -> bool:
+    """Whether a loop calls a method of the node's class."""
+    return any(last_part(name) in source.methods for _, name in calls_in(loop))
+
+
+def _rows_of_rates(source: NodeSource) -> set[int]:
+    """Return the lines that create a rate."""
+    return {call.lineno for call, name in source.calls if last_part(name) == "create_rate"}
 
 
 def _spun(suspect: Suspect, rate: str) -> str:
@@ -46,6 +88,23 @@ def _spun(suspect: Suspect, rate: str) -> str:
     return rate.removesuffix(".create_rate()") or "node"
 
 
+MAIN_CALLS = msg(
+    "Delete the loop and the rate (lines {line}), and keep what the loop does once: a timer repeats "
+    "it. Write self.create_timer({period}, self.{method}) in __init__, and rclpy.spin({node}) in "
+    "{function} in the place of {written} (line {at})."
+)
+IN_METHOD = (
+    Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+    Replace(NODE, "    def timer_callback(self):\n", "    def run(self):\n"),
+    Replace(
+        NODE,
+        f"{LOG_LINE}{STEP_LINE}",
+        "        rate = self.create_rate(1.0)\n"
+        "        while rclpy.ok():\n"
+        f"    {LOG_LINE}    {STEP_LINE}"
+        "            rate.sleep()\n",
+    ),
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -57,15 +116,43 @@ KINDS = (
             "it."
         ),
         msg(
-            "Remove the rate and its loop. A timer calls the callback again and again: "
-            "self.create_timer({period}, self.{callback})"
+            "Remove the rate and its loop. A timer calls the callback again and again: write "
+            "self.create_timer({period}, self.{callback}) in __init__, and rclpy.spin({node}) in "
+            "{function}."
         ),
         links.EXECUTORS,
+        whys={
+            "method": msg(
+                "rclpy.spin wakes a rate. {function} calls {written} in its place, and the loop of "
+                "{method} waits in {name}(): nothing spins, so nothing ever wakes the rate."
+            )
+        },
         fixes={
             "main": msg(
                 "Delete the loop and the line that creates the rate. Write "
                 "self.create_timer({period}, self.{callback}) in __init__: the timer calls it "
                 "again and again. Write rclpy.spin({node}) in {function} in the place of the loop."
+            ),
+            "inline": msg(
+                "Delete the loop and the line that creates the rate. Put what the loop does into "
+                "a method {callback} of the node's class, write self.create_timer({period}, "
+                "self.{callback}) in __init__, and call rclpy.spin with the node in {function}."
+            ),
+            "constructor": msg(
+                "Put what the loop does into a method {callback}. Write self.create_timer({period}, "
+                "self.{callback}) in __init__ instead of the loop, and delete the line that "
+                "creates the rate. rclpy.spin in {function} then calls {callback} again and again."
+            ),
+            "timer": msg(
+                "Delete the loop and the rate (lines {line}), and keep what the loop does once. "
+                "The timer already calls {method} in each period."
+            ),
+            "method": MAIN_CALLS,
+            "method_spun": msg(
+                "Delete the loop and the rate (lines {line}), and keep what the loop does once: "
+                "a timer repeats it. Write self.create_timer({period}, self.{method}) in "
+                "__init__. Delete {written} in {function} (line {at}), so that rclpy.spin is "
+                "reached."
             ),
             "alone": msg(
                 "Remove this line, and the line that creates the rate. The timer already calls "
@@ -78,7 +165,7 @@ KINDS = (
             "run.no_node": _rates,
             "run.never_spins": _rates,
         },
-        fixed_by=(node_rates.spin_for_rate,),
+        fixed_by=(node_rates.spin_for_rate, node_rates.timer_for_loop),
         examples=(
             example(
                 "rate_in_callback",
@@ -103,6 +190,23 @@ KINDS = (
                         "            rate.sleep()\n"
                     ),
                 ),
+                fails="run.spins",
+                also={"run.output": "node.rate_sleep"},
+                blocks=("run.period",),
+            ),
+            example(
+                "rate_sleeps_in_a_method",
+                *IN_METHOD,
+                Replace(NODE, "rclpy.spin(node)", "node.run()"),
+                fails="run.spins",
+                also={"run.output": "node.rate_sleep"},
+                blocks=("run.period",),
+                note="as in ROS 1: main calls the loop, and nothing spins",
+            ),
+            example(
+                "rate_sleeps_before_spin",
+                *IN_METHOD,
+                Replace(NODE, "    try:\n", "    node.run()\n    try:\n"),
                 fails="run.spins",
                 also={"run.output": "node.rate_sleep"},
                 blocks=("run.period",),

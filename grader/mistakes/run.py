@@ -341,6 +341,7 @@ KINDS = (
         msg("The lines come at the wrong times"),
         PERIOD,
         msg("Write create_timer({period}, self.{callback}) once."),
+        fixes={"named": msg("Write {value} = {period}.")},
         fixed_by=(node_timer.period,),
         examples=(
             example("period_half", Replace(NODE, "(1.0,", "(0.5,"), fails="run.period"),
@@ -348,6 +349,21 @@ KINDS = (
             example("period_tenth", Replace(NODE, "(1.0,", "(0.1,"), fails="run.period"),
             example("period_slightly_long", Replace(NODE, "(1.0,", "(1.1,"), fails="run.period"),
             example("period_ten", Replace(NODE, "(1.0,", "(10.0,"), fails="run.period"),
+            example(
+                "period_half_with_name",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0,",
+                    "timer_period = 0.5\n        self.create_timer(timer_period,",
+                ),
+                fails="run.period",
+            ),
+            example(
+                "period_two_with_constant",
+                Replace(NODE, "class MyFirstNode", "PERIOD = 2.0\n\n\nclass MyFirstNode"),
+                Replace(NODE, "(1.0,", "(PERIOD,"),
+                fails="run.period",
+            ),
         ),
     ),
     _run(

@@ -11,6 +11,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.timer import timer_of
 
 NAMES = ("create_timer", "get_logger")
 
@@ -87,7 +88,8 @@ def value_of(node: NodeSource, named: ast.expr) -> ast.expr | None:
     name = dotted(named)
     if not name:
         return named
-    sets = [s for s in node.own_nodes if isinstance(s, ast.Assign) and name in targets_of(s)]
+    kinds = ast.Assign | ast.AnnAssign
+    sets = [s for s in node.own_nodes if isinstance(s, kinds) and name in targets_of(s)]
     return sets[0].value if len(sets) == 1 else None
 
 
@@ -152,9 +154,10 @@ def period(case: Case) -> Files | None:
     """Set the timer's period to the required one."""
     node = case.node
     timer = node.timer_call if node else None
-    if node is None or timer is None or not timer.args:
+    period = timer_of(timer, None).period if timer is not None else None
+    if node is None or period is None:
         return None
-    given = value_of(node, timer.args[0])
+    given = value_of(node, period)
     wanted = case.assignment.output.period
     if not isinstance(given, ast.Constant) or given.value == wanted:
         return None
