@@ -50,6 +50,7 @@ from grader.mistakes import (
     timer,
     timer_place,
     topics,
+    tutorial,
     values,
     which_node,
 )
@@ -88,6 +89,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             entry_function,
             ros_init,
             which_node,
+            tutorial,
             instead_of_ros,
             language,
             constructor,

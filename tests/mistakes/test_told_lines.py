@@ -1,0 +1,170 @@
+"""The advice names the line to change and the code to write there, in other forms of a mistake."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.recognise import behind_error, behind_symptom
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.tutorial import PUBLISHER
+from grader.package.source.node import NodeSource, read_node
+from grader.report.model import Where
+from tests.corpus.broken import BROKEN
+from tests.corpus.build import SOLUTION, write
+from tests.marking import ASSIGNMENT
+from tests.mistakes.other_forms import LOG, START, STEP, TIMER, changed
+from tests.recorded import mark
+from tests.static_bench import NODE
+
+RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
+BY_NAME = {package.name: package for package in BROKEN}
+LOOP = f"""\
+        rate = self.create_rate(1)
+        while rclpy.ok():
+            {LOG}
+    {STEP}            rate.sleep()
+"""
+IN_METHOD = changed(
+    RIGHT, (f"        {TIMER}\n", ""), ("timer_callback(self)", "run(self)"),
+    (f"        {LOG}\n{STEP}", LOOP),
+)  # fmt: skip
+
+
+def source_of(text: str) -> NodeSource:
+    source = read_node({NODE: text.encode()}.get, NODE, "main")
+    assert source is not None
+    return source
+
+
+def behind(symptom: str, text: str) -> RecognisedMistake | None:
+    return behind_symptom(symptom, Suspect(source_of(text), ASSIGNMENT, place=Where(file=NODE)))
+
+
+def told(found: RecognisedMistake | None, text: str) -> tuple[str, str, str]:
+    """Return the mistake's id, the line that is named, and the fix."""
+    assert found is not None
+    assert found.where is not None
+    assert found.where.line is not None
+    values = {**found.params, **found.words}
+    fix = CATALOGUE[found.kind].fix_text(values, found.variant)
+    return found.kind, text.split("\n")[found.where.line - 1].strip(), fix
+
+
+@pytest.mark.parametrize(
+    ("edits", "line"),
+    [
+        ([(START, f"{START}        self.log = self.get_logger\n"),
+          ("self.get_logger().info", "self.log.info")], "self.log = self.get_logger"),
+        ([(LOG, f"out = self.get_logger\n        {LOG.replace('self.get_logger()', 'out')}")],
+         "out = self.get_logger"),
+        ([(START, f"{START}        self.out: object = self.get_logger\n"),
+          ("self.get_logger().info", "self.out.info")], "self.out: object = self.get_logger"),
+    ],
+    ids=["attribute", "variable", "with a type"],
+)  # fmt: skip
+def test_a_logger_that_is_kept_without_brackets(edits: list[tuple[str, str]], line: str) -> None:
+    text = changed(RIGHT, *edits)
+    used = next(n for n, row in enumerate(text.split("\n"), 1) if ".info(" in row)
+    error = "AttributeError: 'function' object has no attribute 'info'"
+    found = behind_error(Raised(error, Where(file=NODE, line=used), source_of(text), ASSIGNMENT))
+    name = line.partition(" ")[0].partition(":")[0]
+    written = f"Write {name} = self.get_logger() in this line."
+    assert told(found, text) == ("node.logger_not_called", line, written)
+
+
+@pytest.mark.parametrize(
+    ("call", "parts"),
+    [
+        ("node.run()", ["rclpy.spin(node) in main in the place of node.run() (line "]),
+        ("node.run()\n        rclpy.spin(node)", ["Delete node.run() in main (line ", "reached"]),
+        ("MyFirstNode().run()", ["rclpy.spin(MyFirstNode()) in main in the place of "]),
+    ],
+    ids=["no spin", "spin below", "without a variable"],
+)
+def test_a_rate_in_a_method_that_main_calls(call: str, parts: list[str]) -> None:
+    text = changed(IN_METHOD, ("rclpy.spin(node)", call))
+    kind, line, fix = told(behind("run.never_spins", text), text)
+    assert (kind, line) == ("node.rate_sleep", "rate.sleep()")
+    rows = text.split("\n")
+    lines = [
+        next(n for n, row in enumerate(rows, 1) if part in row)
+        for part in ("self.create_rate", "while rclpy.ok", "rate.sleep()")
+    ]
+    assert f"(lines {', '.join(map(str, lines))})" in fix
+    assert "Write self.create_timer(1.0, self.run) in __init__" in fix
+    for part in parts:
+        assert part in fix
+
+
+def test_a_rate_in_the_callback_of_a_timer_is_only_removed() -> None:
+    text = changed(RIGHT, (f"        {LOG}\n{STEP}", LOOP))
+    _, _, fix = told(behind("run.stops", text), text)
+    assert fix.endswith("The timer already calls timer_callback in each period.")
+
+
+@pytest.mark.parametrize(
+    ("edits", "counter", "counts"),
+    [
+        ([(START, ""), (STEP, ""), (LOG, "now = time.ctime()\n        "
+          "self.get_logger().info('Hello time: ' + now)")], "self.counter", False),
+        ([(STEP, ""), (LOG, "now = time.ctime()\n        "
+          "self.get_logger().info(f'Hello time: {now}')")], "self.counter_", False),
+        ([("str(self.counter_)", "time.ctime()")], "self.counter_", True),
+        ([(START, "        self.counter = time.time()\n"), (STEP, ""),
+          (LOG, "now = time.time() - self.counter\n        "
+           "self.get_logger().info('Hello time: ' + str(now))")], "self.counter_", False),
+    ],
+    ids=["no counter", "a counter that stays", "a counter that counts", "the name is taken"],
+)  # fmt: skip
+def test_the_whole_line_is_told_if_a_time_is_logged(
+    edits: list[tuple[str, str]], counter: str, *, counts: bool
+) -> None:
+    text = changed(RIGHT, *edits)
+    kind, _, fix = told(behind("run.wrong_text", text), text)
+    row = next(n for n, row in enumerate(text.split("\n"), 1) if ".info(" in row)
+    assert kind == "node.time_for_count"
+    written = f"self.get_logger().info('Hello time: ' + str({counter}))"
+    assert f"rite {written} in the place of the call that logs (line {row})" in fix
+    assert (f"Write {counter} = 0 in __init__" not in fix) == counts
+    assert (f"{counter} += 1" not in fix) == counts
+
+
+def test_a_node_of_a_tutorial_is_told_before_what_differs_in_it(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["tutorial_publisher"], tmp_path))
+    first = report.check("run.node_name")
+    assert first.mistakes[0].id == "node.of_tutorial"
+    assert "(lines 5, 12, 18, 19, 20)" in first.fix
+    assert "self.get_logger().info('Hello time: ' + str(self.i)) in timer_callback" in first.fix
+    assert first.patch.count("\n+") == 4  # (the head of the diff, and three lines)
+    for check in ("run.output", "run.period"):
+        assert report.check(check).consequence_of == "run.node_name"
+
+
+@pytest.mark.parametrize("old", ["Hello World", "Publishing: ", "create_publisher"])
+def test_a_tutorial_that_was_changed_to_the_exercise_is_not_called_one(old: str) -> None:
+    new = {"Hello World": "Hello time", "Publishing: ": "Hi ", "create_publisher": "make"}[old]
+    found = behind("run.wrong_text", PUBLISHER.replace(old, new))
+    assert found is None or found.kind != "node.of_tutorial"
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "fix"),
+    [
+        ("period_half_with_name", "timer_period = 0.5", "Write timer_period = 1.0."),
+        ("period_two_with_constant", "PERIOD = 2.0", "Write PERIOD = 1.0."),
+        ("period_half", "self.create_timer(0.5, self.timer_callback)",
+         "Write create_timer(1.0, self.timer_callback) once."),
+    ],
+)  # fmt: skip
+def test_a_wrong_period_is_where_its_value_is_written(
+    name: str, line: str, fix: str, tmp_path: Path
+) -> None:
+    root = write(BY_NAME[name], tmp_path)
+    found = mark(root).check("run.period")
+    assert found.where is not None
+    rows = (root / NODE).read_text(encoding="utf-8").split("\n")
+    assert rows[(found.where.line or 0) - 1].strip() == line
+    assert found.fix == fix
