@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -131,8 +132,17 @@ def evidence_of(
     return Excerpt("transcript", say("ros2 run printed"), evidence.transcript)
 
 
-def quotation(page: Page, text: str, title: str, *, lines: int, whole: bool) -> None:
-    """Write the end of a program's output; without `whole`, calls inside ROS are folded."""
+FASTER = say("(The grader's clock runs faster than a real one, so the times are closer together.)")
+STAMPED = re.compile(r"^\[[A-Z]+\] \[\d+\.\d{9}\]", re.MULTILINE)
+
+
+def quotation(
+    page: Page, text: str, title: str, *, lines: int, whole: bool, faster: bool = False
+) -> None:
+    """Write the end of a program's output; without `whole`, calls inside ROS are folded.
+
+    `faster`: the node had a clock that runs faster than a real one.
+    """
     text = text if whole else folded(text, translate=page.translate)
     shown, count = last_lines(text, lines=lines, translate=page.translate)
     head = say("What {title}:", title=title)
@@ -144,4 +154,6 @@ def quotation(page: Page, text: str, title: str, *, lines: int, whole: bool) -> 
             count=f"{count:,}",
         )
     page.line((head, "bold"), indent=2)
+    if faster and sum(STAMPED.match(line) is not None for line in shown) > 1:
+        page.line((FASTER, "dim"), indent=2)
     page.quote(shown)

@@ -130,7 +130,8 @@ def _blocks(
         found = evidence_of(check, report.evidence, quotes)
         if found is not None and found.text.strip() and found.title not in quoted:
             quoted.add(found.title)
-            quotation(page, found.text, found.title, lines=lines, whole=verbose)
+            faster = found.log == "transcript" and report.observed.clock == "virtual"
+            quotation(page, found.text, found.title, lines=lines, whole=verbose, faster=faster)
     return frozenset(quoted)
 
 
