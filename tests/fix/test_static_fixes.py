@@ -21,7 +21,7 @@ NOT_FIXED = {
     *("no_manifest", "manifest_empty", "manifest_not_utf8", "cmake_package", "setup_missing"),
     *("cmake_package_with_node", "korean_in_cp949"),
     *("as_created", "node_not_written", "node_empty", "indentation"),
-    *("python_2_print", "not_utf8", "null_bytes", "word_document"),
+    *("not_utf8", "null_bytes", "word_document"),
     *("node_hidden_by_folder", "group_twice_with_entries"),
 }
 NOTHING_TO_MARK = {
