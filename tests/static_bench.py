@@ -10,6 +10,7 @@ import pytest
 
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission, take_in
+from grader.ros.distro import Distro
 from grader.run.workspace import Build
 from grader.verdict.checks.declare import Check
 from grader.verdict.checks.entry_point import mapping_from_source
@@ -93,6 +94,7 @@ class StandIn:
 
     assignment: Assignment
     submission: Submission
+    distro: Distro | None = None
 
     @property
     def asked(self) -> Assignment:

@@ -14,16 +14,26 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 from grader.package.source.sleeps import longest_sleep
 
 DECORATORS = ("staticmethod", "classmethod", "property")
+NO_PARAMETER = (
+    r"(?:(?P<function>[\w.<>]{1,120})\(\) )?takes 0 positional arguments but 1 was given"
+    "|invalid method signature"
+)
 ONLY_SELF = msg("The timer passes no argument to your callback except self.")
 
 
-def _no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    del match
-    return raised.finding("callback_no_self", at=raised.source.callback)
+def _no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A method of the node, or the function that the timer calls, has no parameter at all."""
+    function, callback = match["function"], raised.source.callback
+    called = last_part(function) if function else ""
+    method = raised.source.methods.get(called) if called else callback
+    method = callback if callback is not None and callback.name == called else method
+    if method is None or method.args.args:
+        return None
+    return raised.finding("callback_no_self", at=method)
 
 
 def _parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -93,7 +103,7 @@ KINDS = (
         msg("Write: def {callback}(self):"),
         links.PYTHON_CLASSES,
         seen=r"(?<!__init__\(\) )takes 0 positional arguments but 1 was given|ValueError: invalid method signature",
-        raised={"takes 0 positional arguments but 1 was given|invalid method signature": _no_self},
+        raised={NO_PARAMETER: _no_self},
         fixed_by=(node_timer.callback_self,),
         examples=(
             example(

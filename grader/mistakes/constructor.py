@@ -10,10 +10,10 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
-from grader.mistakes.fixes import node_life, node_scope
+from grader.mistakes.fixes import node_life, node_scope, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
-from grader.mistakes.recognised import Raised, RecognisedMistake, always
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, always
 from grader.package.edit.tree import Replace
 from grader.package.source.names import calls_in, dotted, last_part
 
@@ -63,6 +63,15 @@ def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     inside = [m.name for m in methods.values() if _calls_super(m)]
     near = inside[0] if len(inside) == 1 else nearest("__init__", methods, cutoff=0.7)
     return raised.finding("init_underscores", at=methods[near], name=near) if near else None
+
+
+def _dunder(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A name of Python has one underscore on each side instead of two."""
+    name = match["name"]
+    written = f"__{name.strip('_')}__"
+    if not re.fullmatch(r"_{1,3}[a-z]+_{1,3}", name) or written not in node_words.DUNDERS:
+        return None
+    return raised.finding("single_underscores", name=name, written=written)
 
 
 def _calls_super(method: ast.AST) -> bool:
@@ -219,6 +228,33 @@ KINDS = (
             example(
                 "init_single_underscores",
                 Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "single_underscores",
+        "file",
+        msg("A name of Python has too few underscores"),
+        msg(
+            "Names such as __init__, __name__ and '__main__' have two underscores on both sides. A "
+            "chat or a web page can take one of them away when code is copied."
+        ),
+        msg(
+            "Write {written} instead of {name}, and look for other names of this form in the file."
+        ),
+        links.PYTHON_CLASSES,
+        raised={
+            NAME_ERROR: _dunder,
+            r"has no attribute '(?P<name>_{1,3}[a-z]{1,20}_{1,3})'": _dunder,
+        },
+        fixed_by=(node_words.double_underscores,),
+        examples=(
+            example(
+                "underscores_lost_in_a_chat",
+                Replace(NODE, "__init__(self)", "_init_(self)"),
+                Replace(NODE, "super().__init__", "super()._init_"),
+                Replace(NODE, "__name__ == '__main__'", "_name_ == '_main_'"),
                 fails="run.starts",
             ),
         ),

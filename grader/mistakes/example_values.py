@@ -106,6 +106,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "letter": "c",
         "code": "U+0441",
     },
+    "node.init_arguments": {"written": "rclpy.init(args=args)"},
+    "node.single_underscores": {"name": "_name_", "written": "__name__"},
     "node.main_misspelt": {"name": "mian"},
     "node.waits_first": {"name": "input()"},
     "node.init_underscores": {"name": "_init_"},

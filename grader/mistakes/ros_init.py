@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import node_life
+from grader.mistakes.fixes import lines, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
@@ -42,6 +42,18 @@ def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     inits = [call for call, name in raised.source.calls if name == "rclpy.init"]
     return raised.finding("init_twice", at=inits[1] if len(inits) > 1 else None)
+
+
+def _without_keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call of init on the line has a value that is not given by its name."""
+    del match
+    for call, name in raised.source.calls:
+        if last_part(name) == "init" and len(call.args) == 1 and raised.line == call.lineno:
+            text = raised.source.module_of(call).text
+            function, given = text.code(call.func), text.code(call.args[0])
+            written = f"{function}(args={given})"
+            return raised.finding("init_arguments", at=call, name=text.code(call), written=written)
+    return None
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -87,6 +99,22 @@ KINDS = (
                     "    rclpy.init(args=args)\n    node = MyFirstNode()\n",
                     "    node = MyFirstNode()\n    rclpy.init(args=args)\n",
                 ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "init_arguments",
+        "start",
+        msg("rclpy.init() gets its arguments without their name"),
+        msg("rclpy.init() takes values only by their names, and the arguments are called args."),
+        msg("Write {written}."),
+        raised={r"\binit\(\) takes 0 positional arguments": _without_keyword},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "init_args_without_keyword",
+                Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args)"),
                 fails="run.starts",
             ),
         ),

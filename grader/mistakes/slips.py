@@ -101,6 +101,10 @@ SIGNS = {
     "brace": msg("The brace in the f-string has no end. Write: {wanted}"),
     "brace_alone": msg("Remove the }} that closes no brace, or write the {{ before the value."),
     "brace_wrong": msg("In an f-string, each value is between {{ and }}. Correct the braces."),
+    "quotes_inside": msg(
+        "The values in this f-string have the same quotes as the f-string, which only Python 3.12 "
+        "and later can read. Write: {wanted}"
+    ),
     "global": msg("Delete that line: an attribute (self.…) needs no declaration."),
     "clause_alone": msg(
         "This line needs a line with {wanted}: above it, in the same column. The lines between the "
@@ -151,9 +155,14 @@ SIGNS = {
         "This line ends with a colon, but line {line} is not in its block. Write the lines of the "
         "block below this line, indented by 4 spaces."
     ),
+    "block_comment": msg(
+        "The block below this line has only a comment, and a comment is no statement. Write pass "
+        "below this line, indented by 4 spaces, if nothing is to be done."
+    ),
     "line_above": msg(
         "Indent this line as far as line {line}: the lines of one block begin in the same column."
     ),
+    "entry_parts": msg("An entry is one text, with the = inside its quotes. Write: {wanted}"),
     "assign_swapped": msg("The name that gets the value is on the left of the =. Write: {wanted}"),
     "assign_left": msg(
         "Only the name that gets the value is on the left of the =: one word, or self. and one word."

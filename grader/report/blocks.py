@@ -78,7 +78,9 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
         page.code(say("where"), [one_line(check.where.file) + line])
     _field(page, say("why"), check.rationale, lines)
     if check.status == "inconclusive":
-        busy = say("No points given or taken. Grade again when the machine is less busy.")
+        busy = say(
+            "No points given or taken: the cause is not in the package. Grade again; if it stays, ask the instructor."
+        )
         page.field(say("points"), busy)
     elif check.status == "error":
         ours = say("No points given or taken: this is a fault of the grader. Please report it.")

@@ -122,7 +122,7 @@ def _blocks(
     """Write the block of each check that did not pass; return the titles of the quoted texts."""
     quoted: set[str] = set()
     for check in checks:
-        if check.status in ("passed", "skipped"):
+        if check.status in ("passed", "skipped") or _follows_unknown(check):
             continue
         page.gap()
         block(page, check, lines=lines)
@@ -152,11 +152,16 @@ def _sketches(page: Page, report: Report, check: CheckResult) -> None:
                 page.field("", PATH_KEY)
 
 
+def _follows_unknown(check: CheckResult) -> bool:
+    """Whether a check could not be decided because another one could not."""
+    return check.status == "inconclusive" and bool(check.blocked_by)
+
+
 def _skipped(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     reasons: dict[str, list[str]] = {}
     visible = {check.id for check in checks}
     for check in checks:
-        if check.status != "skipped":
+        if check.status != "skipped" and not _follows_unknown(check):
             continue
         names = [
             one_line(other.id, most=60) if other.id in visible else UNSEEN
@@ -165,6 +170,9 @@ def _skipped(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
         both = joined(*dict.fromkeys(names), by=", ")
         known = say("Skipped because {checks} did not pass", checks=both)
         other = say("Skipped {reason}", reason=one_line(check.actual))
+        if _follows_unknown(check):
+            known = say("Not decided because {checks} could not be decided", checks=both)
+            other = say("Not decided: {reason}", reason=one_line(check.actual))
         reasons.setdefault(known if names else other, []).append(check.id)
     for reason, ids in reasons.items():
         page.gap()

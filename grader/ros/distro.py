@@ -50,6 +50,11 @@ class Distro:
         """The official image, with its digest if distros.toml has one (docker/pin.sh)."""
         return f"{self.image}@{self.digest}" if self.digest else self.image
 
+    @property
+    def python_version(self) -> tuple[int, ...]:
+        """The version of its Python, such as (3, 12)."""
+        return tuple(map(int, self.python.split(".")))
+
     def not_before(self, name: str) -> bool:
         """Whether this is the distro of that name or a newer one."""
         names = list(distros())

@@ -183,5 +183,8 @@ def _skipped(assigned: AssignedCheck, by: str, evidence: Evidence) -> _Result:
     title = titles.get(root) or (CHECKS[root].title if root in CHECKS else root)
     if evidence.is_hidden(root) and assigned.visibility == "visible":
         title = say("a hidden check")
+    if cause is not None and cause.status in ("inconclusive", "error"):
+        unknown = say("not known, because another check could not be decided: {title}", title=title)
+        return _Result(status="inconclusive", blocked_by=root, actual=unknown)
     actual = say("skipped because of: {title}", title=title)
     return _Result(status="skipped", blocked_by=root, actual=actual)

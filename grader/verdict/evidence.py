@@ -9,6 +9,7 @@ from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
+from grader.ros.distro import Distro
 from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import Build
@@ -20,7 +21,8 @@ class Evidence:
     """The evidence of one verdict; `results` has the results of the checks evaluated so far.
 
     `asked` is the assignment as it is, `assignment` the same with the package's own names.
-    `not_blocking` has the failed checks that prevent no other check. The build and the run are made on first access.
+    `not_blocking` has the failed checks that prevent no other check, `distro` is the ROS that the
+    package is for (None: unknown). The build and the run are made on first access.
     """
 
     def __init__(
@@ -37,6 +39,7 @@ class Evidence:
         self.submission = submission
         self.results: dict[str, CheckResult] = {}
         self.not_blocking: set[str] = set()
+        self.distro: Distro | None = None
         self._make_build = build
         self._make_run = run
         self._make_run_of = run_of

@@ -76,6 +76,7 @@ def mark(
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
+        evidence.distro = order.distro
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:
@@ -121,6 +122,7 @@ def replay(
     if known is not None:
         assignment = assignment.on(known)
     evidence = evidence_of(recording, submission, assignment)
+    evidence.distro = known
     return compose(
         evidence,
         _decide(evidence, listener, translate),

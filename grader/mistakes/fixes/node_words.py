@@ -129,3 +129,20 @@ def uncommented(case: Case) -> Files | None:
             new = uncommented_in(module.text, found)
             return case.with_data(module.path, new) if new is not None else None
     return None
+
+
+DUNDERS = ("__init__", "__name__", "__main__")
+"""The names of Python with two underscores on both sides that a first node has."""
+
+
+def double_underscores(case: Case) -> Files | None:
+    """Write the second underscores of Python's names in the whole file."""
+    module = case.module
+    if module is None:
+        return None
+    code, splices = module.text.text, []
+    for name in DUNDERS:
+        for match in re.finditer(rf"(?<!\w)_{{1,3}}{name.strip('_')}_{{1,3}}(?!\w)", code):
+            if match[0] != name:
+                splices.append(Splice(*match.span(), name))
+    return case.changed(module, *splices)

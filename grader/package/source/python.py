@@ -6,12 +6,14 @@ import ast
 import codecs
 import io
 import re
+import sys
 import tokenize
 import warnings
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 from grader.package.source.kept import keep_small
+from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 
 SHEBANG = "#!/usr/bin/env python3"
 """The first line that the course asks for."""
@@ -40,14 +42,21 @@ class PythonFault(Exception):  # noqa: N818 - a fault in the student's file, not
 
 @dataclass(frozen=True)
 class PythonFile:
-    """A file that Python can read."""
+    """A file that Python can read.
+
+    `newer` is the line of the first f-string that only Python 3.12 and later can read, if this
+    Python is older; 0 if there is none.
+    """
 
     text: str
     tree: ast.Module
+    newer: int = 0
 
 
 def parse_python(found: bytes) -> PythonFile:
     """Parse a file's bytes; PythonFault if this interpreter's version of Python cannot.
+
+    An f-string with its own quotes in a value is read as Python 3.12 does.
 
     The tree is shared: nobody may change it.
     """
@@ -70,18 +79,28 @@ def _parse(found: bytes) -> PythonFile:
         raise PythonFault("size", say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
     text = decode(found)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            tree = ast.parse(text)
-            # (the compiler refuses what the parser accepts, e.g. a return outside a function)
-            compile(text, "<file>", "exec", dont_inherit=True)
+        return PythonFile(text, _compiled(text))
     except SyntaxError as error:
-        raise _fault(error, text) from None
+        older = with_older_quotes(text) if sys.version_info < SINCE else None
+        if older is None:
+            raise _fault(error, text) from None
     except (RecursionError, MemoryError, OverflowError, ValueError) as error:
         raise PythonFault(
             "syntax", say("too deeply nested to be read ({error})", error=str(error))
         ) from None
-    return PythonFile(text, tree)
+    try:
+        return PythonFile(text, _compiled(older), newer=first_difference(text, older))
+    except SyntaxError as error:
+        raise _fault(error, text) from None
+
+
+def _compiled(text: str) -> ast.Module:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        tree = ast.parse(text)
+        # (the compiler refuses what the parser accepts, e.g. a return outside a function)
+        compile(text, "<file>", "exec", dont_inherit=True)
+    return tree
 
 
 def can_parse(found: bytes) -> bool:

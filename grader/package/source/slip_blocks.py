@@ -113,6 +113,13 @@ def _not_indented(text: Broken) -> Slip | None:
     if not 0 < head < text.number:
         return None
     width = len(indent_of(text.source.line(head)))
+    between = [text.source.line(n) for n in range(head + 1, text.number)]
+    if any(row.strip() for row in between):
+        indent = indent_of(next(row for row in between if row.strip()))
+        indent = indent if len(indent) > width else " " * (width + 4)
+        new = text.changed(text.source.before(head + 1, f"{indent}pass"))
+        code = text.source.line(head).strip()
+        return Slip("signs", "block_comment", head, code, "", new, other=text.number)
     own = len(indent_of(text.source.line(text.number)))
     if own < width or re.match(r"[ \t]*(?:def|class|@|async|else|elif|except|finally)", text.line):
         return Slip("signs", "block_empty", head, text.source.line(head).strip(), other=text.number)

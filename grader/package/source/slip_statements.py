@@ -55,6 +55,8 @@ def _assigned(text: Broken) -> Slip | None:
     match = ASSIGNED.match(text.line)
     if told is None or match is None or CONDITION.match(text.line) or not _balanced(match["left"]):
         return None
+    if not _balanced(text.code.text[: text.code.start_of(text.number)]):
+        return None  # inside of brackets
     written = text.source.line(text.number)
     if re.fullmatch(PLACE, match["right"]) and not keyword.iskeyword(match["right"]):
         (start, middle), (begin, end) = match.span("left"), match.span("right")
@@ -178,6 +180,24 @@ def _colon(text: Broken) -> Slip | None:
     return text.slip("signs", "colon_missing", written, splice, fixed=new) if new else None
 
 
+ENTRY_PARTS = re.compile(
+    r"^[ \t]*(?P<all>(?P<quote>['\"])(?P<name>[\w-]+)(?P=quote)[ \t]*(?P<sign>[=:])[ \t]*"
+    r"(?P<other>['\"])(?P<place>[\w.]+:\w+)(?P=other)),?[ \t]*$"
+)
+
+
+def _entry_parts(text: Broken) -> Slip | None:
+    """Return an entry of console_scripts that is written as two strings."""
+    written = text.source.line(text.number)
+    match = ENTRY_PARTS.match(written)
+    if match is None:
+        return None
+    quote = match["quote"]
+    splice = text.within(*match.span("all"), f"{quote}{match['name']} = {match['place']}{quote}")
+    new = text.changed(splice)
+    return text.slip("signs", "entry_parts", written, splice, fixed=new) if new else None
+
+
 # what the parser accepts, and the compiler refuses
 
 ESCAPE = re.compile(r"\\[uUxN]")
@@ -270,7 +290,7 @@ def _list_with_keys(text: Broken) -> Slip | None:
 
 
 STATEMENT_LOOKS: tuple[Look, ...] = (
-    _assigned, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
+    _entry_parts, _assigned, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
     _loop_word, _global_late, _backslash, _list_with_keys,
     _says(r"name '(\w+)' is parameter and (?:global|nonlocal)", "global_parameter"),
     _says(r"(?:no binding for nonlocal '\w+'|nonlocal declaration not allowed)", "nonlocal"),

@@ -334,7 +334,7 @@ def _brace(text: Broken) -> Slip | None:
     written = text.source.line(text.number)
     if "f-string" not in text.fault.text and "'{' was never closed" not in text.fault.text:
         return None
-    for match in list(re.finditer(r"f(['\"])[^'\"]*\{[\w.]+(?=\1)", written))[:MOST_TRIES]:
+    for match in list(re.finditer(r"f(['\"])[^'\"{}]*\{[^'\"{}]+(?=\1)", written))[:MOST_TRIES]:
         splice = text.within(match.end(), match.end(), "}")
         new = text.changed(splice)
         if new is not None:

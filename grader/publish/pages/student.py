@@ -133,7 +133,9 @@ def _fields(check: CheckResult, translate: Translator) -> list[Field]:
         if check.where.line is not None:
             where = say("{file}, line {line}", file=where, line=check.where.line)
     open_ = {
-        "inconclusive": say("No points given or taken. Grade again when the machine is less busy."),
+        "inconclusive": say(
+            "No points given or taken: the cause is not in the package. Grade again; if it stays, ask the instructor."
+        ),
         "error": say("No points given or taken: this is a fault of the grader. Please report it."),
     }
     return [

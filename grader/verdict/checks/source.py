@@ -15,6 +15,7 @@ from grader.mistakes.hints import hints
 from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
+from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.node import read_module
 from grader.package.source.node_class import derives_from_node
 from grader.package.source.other_encoding import kind_of_encoding
@@ -60,6 +61,8 @@ def node_file(evidence: Evidence) -> Passed:
         parsed = parse_python(file.data)
     except PythonFault as fault:
         raise _not_python(path, fault, file.data) from None
+    if evidence.distro is not None and evidence.distro.python_version < SINCE:
+        _older_python(path, parsed.text)
     folder = path.removesuffix(".py")
     if evidence.submission.file(f"{folder}/__init__.py") is not None:
         raise Failed(
@@ -79,6 +82,28 @@ def node_file(evidence: Evidence) -> Passed:
         two = say("{other} has a node too, but ros2 run starts {path}.", other=other, path=path)
         advice.insert(0, two)
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _older_python(path: str, text: str) -> None:
+    """Raise the failure of an f-string that the distro's Python cannot read."""
+    older = with_older_quotes(text)
+    if older is None:
+        return
+    line = first_difference(text, older)
+    row = text.splitlines()[line - 1].strip()
+    raise Failed(
+        "source.syntax_error",
+        expected=say("a file that Python can read"),
+        actual=say("in: {code}", code=shown(row)),
+        where=Where(file=path, line=line),
+        variant="quotes_inside",
+        params={"error": "SyntaxError", "kind": "syntax"},
+        words={
+            "found": shown(row),
+            "wanted": shown(older.splitlines()[line - 1].strip()),
+            "line": "",
+        },
+    )
 
 
 def _no_init(inner: str, close: str) -> str:

@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
+from grader.package.source.python import PythonFault, parse_python
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import (
     FRAME,
@@ -18,8 +19,9 @@ from grader.verdict.checks.faults import (
     traceback_of,
     words,
 )
+from grader.verdict.checks.parsed import node_path
 from grader.verdict.node_files import source_of_node
-from grader.verdict.outcome import Blocked, Failed, Outcome, Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -64,6 +66,18 @@ def _ended(evidence: Evidence) -> Outcome:
         manifest = evidence.has_failed("package.manifest")
         return Blocked(by="package.manifest" if manifest else "build.colcon")
     error, where = traceback_of(evidence, run)
+    newer = _newer_line(evidence) if error.startswith("SyntaxError") else 0
+    if newer and evidence.distro is not None:
+        return Inconclusive(
+            say(
+                "line {line} of the node's file needs Python {version}, which ROS {distro} has; this "
+                "grader runs with an older one. Run it with that Python (make setup "
+                "PYTHON=python{version}), or mark in a container.",
+                line=str(newer),
+                version=evidence.distro.python,
+                distro=evidence.distro.name,
+            )
+        )
     if error:
         return Failed(
             "run.died_at_start",
@@ -83,6 +97,17 @@ def _ended(evidence: Evidence) -> Outcome:
         variant="spins" if source is not None and source.calls_of("spin") else "",
         words=words(evidence),
     )
+
+
+def _newer_line(evidence: Evidence) -> int:
+    """Return the line of the node's file that needs a newer Python than this one; 0 if none."""
+    file = evidence.submission.file(node_path(evidence))
+    if file is None or file.kind != "file":
+        return 0
+    try:
+        return parse_python(file.data).newer
+    except PythonFault:
+        return 0
 
 
 def _others_start(evidence: Evidence) -> None:
