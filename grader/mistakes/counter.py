@@ -188,7 +188,30 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
     number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
     if not re.fullmatch(number, suspect.text):
         return None
+    counter = counter_in(suspect)
+    for node in counter.added if counter is not None else ():
+        if counter is not None and not _is_integer(suspect, node.value):
+            new = f"{counter.name} += {suspect.output.step}"
+            code = suspect.source.module_of(node).text.code(node)
+            found = suspect.finding("number_format", node, name=code, written=new)
+            return replace(found, variant="step")
     return suspect.finding("number_format", _place_of_text(suspect))
+
+
+def _is_integer(suspect: Suspect, value: ast.expr) -> bool:
+    """Whether what is added is an integer, or a name that is not set to a float."""
+    if isinstance(value, ast.Constant):
+        return not isinstance(value.value, float)
+    return not _is_float_name(suspect, dotted(value))
+
+
+def _is_float_name(suspect: Suspect, name: str) -> bool:
+    values = (
+        getattr(node, "value", None)
+        for node in suspect.source.own_nodes
+        if isinstance(node, ast.Assign | ast.AnnAssign) and name in targets_of(node)
+    )
+    return any(isinstance(v, ast.Constant) and isinstance(v.value, float) for v in values)
 
 
 def _plus_reversed(suspect: Suspect) -> RecognisedMistake | None:
@@ -544,13 +567,23 @@ KINDS = (
             "zeros."
         ),
         msg("Begin with {counter} = {start} (not {start}.0), and log str({counter})."),
+        whys={"step": msg("An integer and a number with a decimal point make one with a point.")},
+        fixes={"step": msg("Write {written} instead of {name}: the counter counts the lines.")},
         behind={"run.wrong_text": _number_format},
-        fixed_by=(node_log.plain_number,),
+        fixed_by=(lines.written, node_log.plain_number),
         examples=(
             example(
                 "number_as_float",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0.0"),
                 fails="run.output",
+            ),
+            example(
+                "adds_the_period",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.period = 1.0"),
+                Replace(NODE, "create_timer(1.0", "create_timer(self.period"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += self.period"),
+                fails="run.output",
+                blocks=("run.period",),
             ),
             example(
                 "number_padded",

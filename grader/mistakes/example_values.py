@@ -108,6 +108,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.init_arguments": {"written": "rclpy.init(args=args)"},
     "node.single_underscores": {"name": "_name_", "written": "__name__"},
+    "node.text_elsewhere": {"name": "'Hello:'", "written": "'Hello: '"},
     "node.main_misspelt": {"name": "mian"},
     "node.waits_first": {"name": "input()"},
     "node.init_underscores": {"name": "_init_"},

@@ -8,11 +8,12 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import node_life
+from grader.mistakes.fixes import lines, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.place import statement_at
 
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
@@ -97,8 +98,15 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
             continue
         raised = dotted(node.exc) if isinstance(node, ast.Raise) and node.exc else ""
         called = dotted(node.func) if isinstance(node, ast.Call) else ""
+        if isinstance(node, ast.Call) and any(isinstance(arg, ast.Call) for arg in node.args):
+            continue  # sys.exit(main())
         if raised.startswith(("SystemExit", "KeyboardInterrupt")) or called in EXITS:
-            return suspect.finding("exits", node, name=called or raised)
+            module = suspect.source.module_of(node)
+            statement = statement_at(module, node.lineno)
+            around = module.parents.get(statement) if statement is not None else None
+            alone = isinstance(around, ast.If) and around.body == [statement] and not around.orelse
+            found = suspect.finding("exits", node, name=called or raised)
+            return replace(found, variant="if" if alone else "")
     return None
 
 
@@ -360,9 +368,11 @@ KINDS = (
         "spin",
         msg("The node ends itself"),
         msg("{name} ends the program; a node runs until Ctrl+C."),
-        msg("Remove {name}."),
+        msg("Delete this line."),
         links.EXECUTORS,
+        fixes={"if": msg("Delete this line and the if above it.")},
         behind={"run.ended_early": _exits},
+        fixed_by=(lines.deleted,),
         examples=(
             example(
                 "three_then_exit",

@@ -6,21 +6,21 @@ import ast
 from collections.abc import Iterable, Iterator
 
 from grader.package.source.module import Function
-from grader.package.source.names import dotted
+from grader.package.source.names import calls_in, dotted, own_name
 from grader.package.source.node import NodeSource
 
 
 def starts_of(source: NodeSource, kind: type = int) -> dict[str, ast.Constant]:
     """Return the literals with which counters start, by name as the callback writes it.
 
-    `self.n` is set in __init__ or in the class, `MyNode.n` in the class, and `n` at module level
+    `self.n` is set in __init__, in a method that it calls or in the class, `MyNode.n` in the class, and `n` at module level
     or in a function around the callback.
     """
     found: dict[str, ast.Constant] = {}
-    init = source.method("__init__")
-    for name, value in _numbers(init.body if init else [], kind):
-        if name.startswith("self.") and name.count(".") == 1:
-            found[name] = value
+    for method in reversed(_at_start(source)):
+        for name, value in _numbers(method.body, kind):
+            if name.startswith("self.") and name.count(".") == 1:
+                found[name] = value
     used = set(_counted_names(source))
     for name, value in _numbers(source.class_body, kind):
         for written in (f"self.{name}", *(f"{known}.{name}" for known in source.class_names)):
@@ -31,6 +31,13 @@ def starts_of(source: NodeSource, kind: type = int) -> dict[str, ast.Constant]:
         if outer is not None and not _is_local(source.callback, name):
             found[name] = outer
     return found
+
+
+def _at_start(source: NodeSource) -> list[Function]:
+    """Return __init__ and the methods that it calls, without the callback."""
+    init = source.method("__init__")
+    called = [source.method(own_name(call.func)) for call, _ in calls_in(init)] if init else []
+    return [m for m in (init, *called) if m is not None and m is not source.callback]
 
 
 def _numbers(body: Iterable[ast.stmt], kind: type = int) -> Iterator[tuple[str, ast.Constant]]:
@@ -136,14 +143,14 @@ def _added(function: Function) -> set[str]:
 
 
 def changes_of(source: NodeSource, name: str) -> list[ast.stmt]:
-    """Return the statements outside of __init__ that assign to a counter."""
-    init = source.method("__init__")
+    """Return the statements that assign to a counter after __init__."""
+    start = _at_start(source)
     found: list[ast.stmt] = []
     for node in source.own_nodes:
         if not isinstance(node, ast.stmt) or name not in targets_of(node):
             continue
         function = source.function_around(node)
-        if function is init if "." in name else function is None or not declares(function, name):
+        if function in start if "." in name else function is None or not declares(function, name):
             continue
         found.append(node)
     return found

@@ -213,6 +213,8 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
     close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
     close = close or nearest(name, beside, cutoff=0.75)
+    nodes = [n for n in beside if n.endswith(".py") and _has_node(evidence, f"{inner}/{n}")]
+    close = close or (nodes[0] if len(nodes) == 1 else "")
     if close.endswith(".ipynb"):
         return Failed(
             "source.no_node_file",
