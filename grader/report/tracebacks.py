@@ -12,14 +12,16 @@ INSIDE = 4  # columns: how far the code of a frame is indented at least
 LIBRARY = re.compile(r"/lib/python3[\d.]{0,4}/(?:(?:site|dist)-packages/(?P<package>[a-z]{1,40}))?")
 OWN = "/install/"  # in the path of a student's package that was built without --symlink-install
 FROZEN = "<frozen "
+EXECUTABLE = re.compile(r"/install/[^/]{1,200}/lib/[^/]{1,200}/[^/.]{1,200}\Z")
+COLCON = "colcon"
 PYTHON = "Python"
 
 
 def folded(text: str, *, translate: Callable[[str], str] = str) -> str:
     """Return a text in which successive calls inside ROS's and Python's files are one line each.
 
-    Calls in the student's files and in the executable that colcon makes stay, and so does the
-    last line, the error.
+    So are those in the executable that colcon makes. Calls in the student's files stay, and so does
+    the last line, the error.
     """
     if FRAME.search(text) is None:
         return text
@@ -61,6 +63,8 @@ def _library(line: str) -> str:
     path = frame["path"] if frame else ""
     if path.startswith(FROZEN):
         return PYTHON
+    if EXECUTABLE.search(path) is not None:
+        return COLCON
     found = LIBRARY.search(path)
     if found is None or OWN in path[: found.start()]:
         return ""
