@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -57,7 +58,8 @@ def _decorated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     for name, method in raised.source.methods.items():
         found = _decorator(method)
         if found is not None and name in names:
-            return raised.finding("callback_decorated", at=found, name=dotted(found))
+            mistake = raised.finding("callback_decorated", at=found, name=dotted(found))
+            return replace(mistake, variant=dotted(found))
     return None
 
 
@@ -118,12 +120,19 @@ KINDS = (
         "callback_decorated",
         "callback",
         msg("A decorator changes what the callback is"),
-        msg(
-            "A timer needs a plain method. @staticmethod and @classmethod take self away from it, "
-            "and @property calls it where only its name is meant."
-        ),
+        msg("A timer needs a plain method, which gets the node as self."),
         msg("Delete the line @{name} above the callback."),
         links.PYTHON_CLASSES,
+        whys={
+            "staticmethod": msg(
+                "@staticmethod makes a function of the method: the timer calls it without self."
+            ),
+            "classmethod": msg("@classmethod gives the method the class instead of the node."),
+            "property": msg(
+                "@property calls the method where only its name is meant: the timer gets what the "
+                "method returns."
+            ),
+        },
         raised={
             "missing 1 required positional argument: 'self'|object is not callable": _decorated,
             "'arg_name'|is not a callable object|type object '": _decorated,

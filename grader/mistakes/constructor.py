@@ -18,7 +18,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.names import calls_in, dotted, last_part
 
 PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
-NO_NODE_NAME = r"Node\.__init__\(\) missing 1 required positional argument: 'node_name'"
+NO_NODE_NAME = r"(?<!\w)Node\.__init__\(\) missing 1 required positional argument: 'node_name'"
 
 INIT_OF_NODE = msg(
     "Node.__init__ sets up what timers, the logger and publishers need. Your class must call it "

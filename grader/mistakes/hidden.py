@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.example import LOG, LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_order, node_scope
 from grader.mistakes.kind import Family
 from grader.mistakes.objects import OF_NODE
@@ -97,8 +97,14 @@ def _all_harmless(body: list[ast.stmt]) -> bool:
 def _returns(suspect: Suspect) -> RecognisedMistake | None:
     for function in _functions(suspect.source):
         for found in node_order.early_returns(function):
-            return suspect.finding("return_early", found)
+            return _return(suspect, found)
     return None
+
+
+def _return(suspect: Suspect, found: ast.Return) -> RecognisedMistake:
+    """A return that always runs: only its word is deleted, if it returns what a call does."""
+    mistake = suspect.finding("return_early", found)
+    return replace(mistake, variant="word" if node_order.does_something(found) else "")
 
 
 def _returns_before_log(suspect: Suspect) -> RecognisedMistake | None:
@@ -109,7 +115,9 @@ def _returns_before_log(suspect: Suspect) -> RecognisedMistake | None:
         return always
     own = [n for n in ast.walk(callback) if isinstance(n, ast.Return)]
     before = [n for n in own if n.lineno < logs[0].lineno]
-    return suspect.finding("return_early", before[0]) if before else None
+    if not before:
+        return None
+    return replace(suspect.finding("return_early", before[0]), variant="if")
 
 
 def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
@@ -117,7 +125,7 @@ def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
     for found in node_order.early_returns(main) if main is not None else []:
         for call, name in calls_in(main) if main is not None else ():
             if last_part(name) in node_order.SPINS and call.lineno > found.lineno:
-                return suspect.finding("return_early", found)
+                return _return(suspect, found)
     return None
 
 
@@ -128,7 +136,11 @@ KINDS = (
         "callback",
         msg("A return comes too early"),
         msg("return ends the function: the lines below it do not run any more."),
-        msg("Remove that return, or move it below the lines that must run."),
+        msg("Delete this return: a function without it returns at its end."),
+        fixes={
+            "word": msg("Delete only the word return in this line: what follows it stays."),
+            "if": msg("Remove that return, or move it below the lines that must run."),
+        },
         behind={
             "run.no_lines": _returns_before_log,
             "run.constant_counter": _returns,
@@ -142,6 +154,11 @@ KINDS = (
                 Replace(NODE, LOG_LINE, f"        return\n{LOG_LINE}"),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "returns_the_log",
+                Replace(NODE, LOG, f"return {LOG}"),
+                fails="run.output",
             ),
             example(
                 "returns_before_step",

@@ -9,7 +9,8 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, SILENT, example
-from grader.mistakes.fixes import node_logging
+from grader.mistakes.fixes import lines, node_logging
+from grader.mistakes.fixes.node_timer import value_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -80,8 +81,20 @@ def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
 
 def _duration(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
-    timers = [t for t in raised.source.timers if raised.line in (None, t.call.lineno)]
-    return raised.finding("period_duration", at=timers[0].call) if timers else None
+    source = raised.source
+    timers = [t for t in source.timers if raised.line in (None, t.call.lineno)]
+    if not timers:
+        return None
+    period = timers[0].period
+    value = period
+    if period is not None and not isinstance(period, ast.Call):
+        value = value_of(source, period)
+    written = repr(raised.assignment.output.period)
+    if not isinstance(value, ast.Call):
+        return raised.finding("period_duration", at=timers[0].call, written=written)
+    name = source.module_of(value).text.code(value)
+    found = raised.finding("period_duration", at=value, name=name, written=written)
+    return replace(found, variant="value" if "\n" not in name else "")
 
 
 def _other_node_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -263,10 +276,14 @@ KINDS = (
     _node(
         "period_duration",
         "timer",
-        msg("create_timer gets a Duration as its period"),
-        msg("In Python the period is a number of seconds; a Duration belongs to C++ and to ROS 1."),
-        msg("Write create_timer({period}, self.{callback})"),
-        raised={r"TypeError: float\(\) argument must be .{1,60}not 'Duration'": _duration},
+        msg("create_timer gets a duration as its period, and not a number"),
+        msg("create_timer takes the period as a number of seconds."),
+        msg("Write {written} as the period."),
+        fixes={"value": msg("Write {written} instead of {name}.")},
+        raised={
+            r"TypeError: float\(\) argument must be .{1,60}not '(?:Duration|datetime\.timedelta)'": _duration
+        },
+        fixed_by=(lines.written,),
         examples=(
             example(
                 "period_duration",

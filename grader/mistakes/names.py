@@ -14,13 +14,14 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import lines, node_life, node_names, node_timer, rename
+from grader.mistakes.fixes import lines, node_constructor, node_life, node_names, node_timer, rename
 from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS
@@ -122,9 +123,19 @@ def _class_for(raised: Raised, name: str) -> str | None:
     source, statement = raised.source, statement_at(raised.module, raised.line)
     value = statement.value if isinstance(statement, ast.Assign | ast.Expr) else None
     made = isinstance(value, ast.Call) and dotted(value.func) == name and not value.args
-    if not made or source.node_class is None or source.makes_node() or not name[:1].isupper():
+    if source.node_class is None or not name[:1].isupper() or len(source.family) != 1:
         return None
-    return source.node_class.name if len(source.family) == 1 else None
+    made = made and not source.makes_node()
+    return source.node_class.name if made or _of_class(raised, name) else None
+
+
+def _of_class(raised: Raised, name: str) -> bool:
+    """Whether everything that is read from the unknown name is set in the node's class."""
+    module, source = raised.module, raised.source
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    set_there = {target for s in source.class_body for target in targets_of(s)}
+    read = [getattr(module.parents.get(use), "attr", "") for use in uses]
+    return bool(read) and set(read) <= set_there
 
 
 def _known(raised: Raised, name: str) -> set[str]:
@@ -167,8 +178,42 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     own = {n.name for n in raised.source.all_nodes if isinstance(n, Function)}
     if match["function"] == "spin":
         return replace(found, variant="spin")
+    if (wanted := _wanted(raised, match)) is not None:
+        return wanted
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
     return replace(found, variant="own") if function in own and not foreign else found
+
+
+def _wanted(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The constructor of the node's class wants a value, which is known or which nothing uses."""
+    owner, _, function = match["function"].rpartition(".")
+    source, name = raised.source, match["name"]
+    if function != "__init__" or not source.node_class or owner != source.node_class.name:
+        return None
+    wanted = node_constructor.wanted_by_constructor(source, raised.assignment, raised.line, name)
+    if wanted is None or not (wanted.value or wanted.unused):
+        return None
+    params = {"name": name, "function": match["function"], "line": str(raised.line or 0)}
+    if wanted.unused:
+        return replace(
+            raised.finding("argument_missing", at=source.methods["__init__"], params=params),
+            variant="unused",
+        )
+    params["written"] = node_constructor.passed(source, wanted)
+    return replace(raised.finding("argument_missing", params=params), variant="value")
+
+
+def _super_of_other(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """super() is given the name that the class had before."""
+    name, source, module = match["name"], raised.source, raised.module
+    call = node_constructor.super_of(module.nodes, name, raised.line)
+    around = [n for n in module.around(call) if isinstance(n, ast.ClassDef)] if call else []
+    if call is None or not around or name in {*module.names, *source.known_classes}:
+        return None
+    row, code = module.line(call.lineno), module.text.code(call)
+    written = row.replace(code, "super()") if code in row else "super()"
+    params = {"name": name, "type": around[0].name, "line": str(around[0].lineno)}
+    return raised.finding("super_of_other_name", at=call, params={**params, "written": written})
 
 
 def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -316,6 +361,25 @@ KINDS = (
         ),
     ),
     _node(
+        "super_of_other_name",
+        "start",
+        msg("super() names a class that does not exist"),
+        msg("The class is called {type} (line {line}). Nothing is called {name}."),
+        msg("Write {written}: super() needs no arguments."),
+        links.PYTHON_CLASSES,
+        raised={NAME_ERROR: _super_of_other},
+        fixed_by=(node_constructor.plain_super,),
+        examples=(
+            example(
+                "class_renamed_half",
+                Replace(NODE, "class MyFirstNode(Node)", "class HelloTimeNode(Node)"),
+                Replace(NODE, "super().__init__", "super(MyFirstNode, self).__init__"),
+                Replace(NODE, "node = MyFirstNode()", "node = HelloTimeNode()"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "name_unknown",
         "callback",
         msg("A name is used that is not defined"),
@@ -422,17 +486,25 @@ KINDS = (
         msg("Write a value for {name} in the () of {function} on this line."),
         links.PYTHON_ERRORS,
         fixes={
-            "own": msg(
-                "Pass a value for {name} where {function} is called, or remove the parameter from "
-                "your own function."
+            "own": msg("Pass a value for {name} where {function} is called."),
+            "value": msg("Pass a value for {name}: write {written} in line {line}."),
+            "unused": msg(
+                "Remove {name} from the parameters in this line: nothing in __init__ uses it, and "
+                "line {line} passes no value."
             ),
             "spin": msg("Write rclpy.spin(node): spin needs the node that was created."),
         },
         raised={
             r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _argument
         },
-        fixed_by=(node_life.spin,),
+        fixed_by=(node_life.spin, node_constructor.argument),
         examples=(
+            example(
+                "init_wants_name",
+                Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
+                Replace(NODE, "super().__init__('my_first_node')", "super().__init__(name)"),
+                fails="run.starts",
+            ),
             example(
                 "init_wants_more",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name)"),

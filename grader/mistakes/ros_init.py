@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import lines, node_life
+from grader.mistakes.fixes import lines, node_init, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
@@ -27,15 +27,36 @@ def _init_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     del match
     if _inits(raised):
         return None
+    written = node_init.new_call(raised.source)
     for node in raised.source.all_nodes:
         if isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.init":
-            return replace(raised.finding("init_missing", at=node), variant="not_called")
-    return raised.finding("init_missing")
+            found = raised.finding("init_missing", at=node, written=written)
+            return replace(found, variant="not_called")
+    return raised.finding("init_missing", written=written)
+
+
+def _init_in_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for an rclpy.init() that runs only if the file is started directly."""
+    del match
+    found = node_init.guarded_init(raised.source)
+    if found is None:
+        return None
+    written = node_init.moved_call(raised.source, found)
+    return raised.finding("init_in_guard", at=found, written=written, line=str(found.lineno))
 
 
 def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
-    return raised.finding("init_late") if _inits(raised) else None
+    inits = _inits(raised)
+    if not inits:
+        return None
+    source = raised.source
+    main = [c for c in inits if source.main and source.function_around(c) is source.main]
+    moved = (main or inits) if len(main or inits) == 1 else []
+    if not moved or dotted(moved[0].func) != "rclpy.init":
+        return raised.finding("init_late", written=node_init.new_call(source))
+    written = node_init.moved_call(source, moved[0])
+    return raised.finding("init_late", at=moved[0], written=written)
 
 
 def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -63,7 +84,7 @@ KINDS = (
         "start",
         msg("rclpy.init() is not called"),
         NODES_MADE,
-        msg("Write rclpy.init(args=args) as the first line of {function}."),
+        msg("Write {written} as the first line of {function}."),
         links.RCLPY,
         fixes={"not_called": msg("Write () after rclpy.init: without them it is not called.")},
         seen=r"NotInitializedException",
@@ -83,11 +104,37 @@ KINDS = (
         ),
     ),
     _node(
+        "init_in_guard",
+        "start",
+        msg("rclpy.init() runs only if the file is started directly"),
+        msg(
+            "ros2 run imports the file and calls {function}. What stands below if __name__ == "
+            "'__main__': does not run then."
+        ),
+        msg("Move {written} from line {line} to the first line of {function}."),
+        links.RCLPY,
+        raised={NOT_INITIALIZED: _init_in_guard},
+        fixed_by=(node_init.out_of_guard,),
+        examples=(
+            example(
+                "rclpy_init_in_guard",
+                Replace(NODE, "    rclpy.init(args=args)\n", ""),
+                Replace(NODE, "def main(args=None):", "def main():"),
+                Replace(
+                    NODE,
+                    "if __name__ == '__main__':\n",
+                    "if __name__ == '__main__':\n    rclpy.init()\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "init_late",
         "start",
-        msg("rclpy.init() is called after the node is created"),
+        msg("rclpy.init() does not run before the node is created"),
         NODES_MADE,
-        msg("Move rclpy.init(args=args) to the first line of {function}."),
+        msg("Move {written} to the first line of {function}."),
         links.RCLPY,
         raised={NOT_INITIALIZED: _init_late},
         fixed_by=(node_life.rclpy_init,),

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
-from grader.mistakes.fixes import node_life, node_main
+from grader.mistakes.fixes import node_life, node_main, node_rename, node_setup
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
@@ -19,6 +19,7 @@ from grader.package.source.guard import called_on_import
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.second_node import second_node
+from grader.report.model import Where
 
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 GUARD = msg(
@@ -122,7 +123,22 @@ def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if source.methods.get(function.name) is not function:
         return None
-    return suspect.finding("method_not_called", function, name=function.name)
+    return _call_missing(suspect, function)
+
+
+def _call_missing(suspect: Suspect, function: Function) -> RecognisedMistake:
+    """The call belongs at the end of __init__, or below the line that creates the node."""
+    source, name = suspect.source, function.name
+    more = len(function.args.args) - len(function.args.defaults) > 1
+    call = f"{name}({'…' if more else ''})"
+    init = source.methods.get("__init__")
+    if init is None:
+        found = suspect.finding("method_not_called", function, name=name, call=call)
+        return replace(found, variant="no_init")
+    last = init.body[-1]
+    line = last.end_lineno or last.lineno
+    place = Where(file=source.module_of(last).path, line=line)
+    return suspect.finding("method_not_called", place, name=name, call=call, line=line)
 
 
 def _main_at_import(suspect: Suspect) -> RecognisedMistake | None:
@@ -159,15 +175,49 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _hides_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """Look for a variable that gets the name of the class in the function that makes the node."""
-    name = match["name"]
+    """Look for a variable that gets the name of its class in the function that makes the object."""
+    name, module, node_name = match["name"], raised.module, raised.assignment.node_name
+    found = node_rename.hidden_class(module, raised.line, name)
+    if found is None:
+        return _hides_imported_class(raised, name)
+    new = node_rename.capital_name(module, name, node_name)
+    if not new:
+        return _variable_renamed(raised, found.made, name)
+    others = sorted({getattr(n, "lineno", 0) for n in node_rename.other_uses(module, found)})
+    rows = [module.line(found.made_by.lineno), module.line(found.made.lineno)]
+    mistake = raised.finding(
+        "variable_hides_class",
+        at=found.made,
+        params={
+            "name": name,
+            "written": new,
+            "line": str(found.made_by.lineno),
+            "head": re.sub(rf"(class\s+){re.escape(name)}\b", rf"\g<1>{new}", rows[0]),
+            "call": re.sub(rf"\b{re.escape(name)}(?=\s*\()", new, rows[1]),
+            "others": ", ".join(map(str, others)),
+        },
+    )
+    return replace(mistake, variant="also" if others else "class")
+
+
+def _hides_imported_class(raised: Raised, name: str) -> RecognisedMistake | None:
+    """Look for the same with the node's class that is in another file of the package."""
     if name not in raised.source.class_names:
         return None
     for node in raised.source.all_nodes:
         here = isinstance(node, ast.Assign) and raised.line in (None, node.lineno)
         if isinstance(node, ast.Assign) and here and name in targets_of(node):
-            return raised.finding("variable_hides_class", at=node, name=name)
+            return _variable_renamed(raised, node, name)
     return None
+
+
+def _variable_renamed(raised: Raised, made: ast.Assign, name: str) -> RecognisedMistake:
+    module = raised.source.module_of(made)
+    new = node_rename.free_variable(module, name) or f"{name}_1"
+    row = module.line(made.lineno)
+    call = re.sub(rf"\b{re.escape(name)}(?=\s*=)", new, row, count=1)
+    params = {"name": name, "written": new, "call": call}
+    return raised.finding("variable_hides_class", at=made, params=params)
 
 
 OWN_EXECUTOR = (
@@ -193,13 +243,30 @@ KINDS = (
         "start",
         msg("The variable has the same name as the class"),
         msg("In a function that sets {name}, {name} means the variable, which has no value yet."),
-        msg("Give the variable another name: node = {name}()"),
+        msg(
+            "Give the variable another name: write {call} in this line, and {written} instead of "
+            "{name} in the lines below it."
+        ),
         links.PYTHON_CLASSES,
+        fixes={
+            "class": msg("Rename the class: write {head} in line {line}, and {call} in this line."),
+            "also": msg(
+                "Rename the class: write {head} in line {line}, {call} in this line, and {written} "
+                "instead of {name} in line {others}."
+            ),
+        },
         raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _hides_class},
+        fixed_by=(node_rename.apart,),
         examples=(
             example(
                 "variable_hides_class",
                 Replace(NODE, "node = MyFirstNode()", "MyFirstNode = MyFirstNode()"),
+                fails="run.starts",
+            ),
+            example(
+                "class_and_variable_same_name",
+                Replace(NODE, "class MyFirstNode(Node)", "class node(Node)"),
+                Replace(NODE, "node = MyFirstNode()", "node = node()"),
                 fails="run.starts",
             ),
         ),
@@ -364,8 +431,10 @@ KINDS = (
         "timer",
         msg("Nothing calls the method that creates the timer"),
         msg("Nothing calls {name}: when the node is made, only its __init__ runs."),
-        msg("Write self.{name}() at the end of __init__."),
+        msg("Write self.{call} below line {line}, at the end of __init__."),
+        fixes={"no_init": msg("Call {call} on the node after it is created, before spin.")},
         behind={"run.no_lines": _method_not_called},
+        fixed_by=(node_setup.called,),
         examples=(
             example(
                 "setup_not_called",

@@ -24,7 +24,7 @@ def _statement(case: Case) -> tuple[Module, ast.stmt] | None:
     return (module, found[0]) if module is not None and len(found) == 1 else None
 
 
-def _own_lines(module: Module, statement: ast.stmt) -> range | None:
+def own_lines(module: Module, statement: ast.stmt) -> range | None:
     """Return the lines of a statement; None if something else than a comment is on one of them."""
     last = statement.end_lineno or statement.lineno
     written = "\n".join(module.text.line(n) for n in range(statement.lineno, last + 1)).strip()
@@ -48,7 +48,7 @@ def deleted(case: Case) -> Files | None:
         if not isinstance(around, ast.If) or around.orelse:
             return None
         statement = around
-    lines = _own_lines(module, statement)
+    lines = own_lines(module, statement)
     others = [s for s in block_of(module, statement) if s is not statement]
     if lines is None or not any(not _is_text(s) for s in others):
         return None

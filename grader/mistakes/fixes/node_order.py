@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from itertools import pairwise
 
 from grader.mistakes.fixes.case import Case
@@ -166,12 +167,23 @@ def returned(case: Case) -> Files | None:
     found = [r for f in node.own_functions for r in early_returns(f)] if node is not None else []
     if node is not None and node.main is not None:
         found += early_returns(node.main)
-    if node is None or len(found) != 1 or found[0].value is not None:
+    if node is None or len(found) != 1:
         return None
-    module = node.module_of(found[0])
+    module, value = node.module_of(found[0]), found[0].value
+    if value is not None and does_something(found[0]):
+        start = module.text.span(found[0])[0]
+        word = re.match(r"return[ \t]*", module.text.text[start:])
+        end = start + len(word[0]) if word is not None else start
+        return case.changed(module, Splice(start, end, "")) if word is not None else None
     if not _is_own_line(module, found[0]):
         return None
     return case.changed(module, module.text.without(found[0].lineno))
+
+
+def does_something(statement: ast.Return) -> bool:
+    """Return whether what is returned comes from a call, which must still run."""
+    value = statement.value
+    return value is not None and any(isinstance(n, ast.Call) for n in ast.walk(value))
 
 
 def early_returns(function: Function) -> list[ast.Return]:
