@@ -247,3 +247,64 @@ def test_a_period_of_lines_that_are_no_count_is_not_blamed_on_the_machine(bench:
     evidence.results["run.output"] = check_result("run.output", "failed")
     with pytest.raises(Blocked):
         asked(period, evidence)
+
+
+def every(seconds: float, *, step: int = 1) -> Run:
+    """Return a run in which a line comes every so many seconds of ROS time."""
+    events = [
+        line(n * step, virtual=seconds * (n + 1), wall=n + 1.0, due=None if n % 10 else n)
+        for n in range(6)
+    ]
+    seen = Watch(clock="virtual", events=events, dues=[1.0, 2.0], early=events[1:], period=seconds)
+    return Run("ros2 run", seen, started=True)
+
+
+def test_a_sleep_that_holds_the_lines_back_is_named_beside_the_timer(bench: Bench) -> None:
+    source = RIGHT.replace("(1.0,", "(0.1,").replace(STEP, f"{STEP}\n        time.sleep(1)")
+    with pytest.raises(Failed) as caught:
+        ask(period, bench, every(0.1), source)
+    assert (
+        caught.value.actual == "a timer of 0.10 s, and a callback whose sleep holds the lines back"
+    )
+    with pytest.raises(Failed) as caught:
+        ask(period, bench, every(0.1), source.replace("sleep(1)", "sleep(0.01)"))
+    assert caught.value.actual == "a line about every 0.10 s"
+
+
+def test_the_gaps_of_a_throttled_log_are_not_shown_as_a_period(bench: Bench) -> None:
+    source = RIGHT.replace("str(self.counter_))", "str(self.counter_), throttle_duration_sec=1.0)")
+    with pytest.raises(Failed) as caught:
+        ask(period, bench, every(8.5, step=86), source)
+    assert caught.value.actual == "lines came at other instants"
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, every(8.5, step=86), source)
+    assert "a terminal shows more lines" in caught.value.actual
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, every(8.5, step=86))
+    assert "a terminal shows more lines" not in caught.value.actual
+
+
+def test_a_line_before_the_error_is_not_denied(bench: Bench) -> None:
+    first = Event("Hello time: (0,)", 1.0, 1.0, "logger", None, 0)
+    seen = Watch(clock="virtual", events=[first], dues=[1.0])
+    run = Run("ros2 run", seen, started=True, ended_by_itself=True, status=1)
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, run)
+    assert caught.value.mistake.id == "run.ended_early"
+    assert caught.value.actual.startswith("1 line, then the node ended by itself")
+    seen.events.clear()
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, run)
+    assert caught.value.actual.startswith("no line came: the node stopped")
+
+
+def test_a_fix_names_no_counter_that_the_file_does_not_have(bench: Bench) -> None:
+    run = on_time([1.0, 2.0, 3.0])
+    run.watch.events[:] = [replace(event, n=0) for event in run.watch.events]
+    for source, variant in (
+        (RIGHT, ""),
+        (RIGHT.replace("self.counter_", "next(NUMBERS)"), "unnamed"),
+    ):
+        with pytest.raises(Failed) as caught:
+            ask(counts, bench, run, source.replace("next(NUMBERS) = 0", "pass"))
+        assert (caught.value.mistake.id, caught.value.variant) == ("run.constant_counter", variant)

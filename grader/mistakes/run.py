@@ -244,6 +244,12 @@ KINDS = (
         msg("The number never changes"),
         COUNT,
         msg("Let each callback run {counter} += {step} once, and set it to {start} only before."),
+        fixes={
+            "unnamed": msg(
+                "Let each callback add {step} to the counter once, and set it to {start} only "
+                "before."
+            )
+        },
         fixed_by=(node_count.step,),
     ),
     _run(

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field, field_validator
 
-from grader.base.i18n.message import joined, say, say_plural
+from grader.base.i18n.message import Message, joined, say, say_plural
 from grader.base.nearest import compared, with_difference
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
+from grader.mistakes.fixes.node_pace import throttled
+from grader.package.source.counter import logged_counter
 from grader.package.source.remarks import remarks_on
 from grader.report.model import Where
+from grader.run.observer import without_tracebacks
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
 from grader.verdict.checks.lines import CALLS, numbered, records, such_lines
@@ -103,8 +106,9 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
         raise Failed(
             mistake,
             expected=expected,
-            actual=joined(text, shown, by=": "),
+            actual=joined(joined(text, shown, by=": "), _left_out(evidence), by="\n"),
             where=line_of(evidence, events[0].record),
+            variant="" if _is_named(evidence) else "unnamed",
             words=words(evidence),
         )
     _must_stay_a_count(evidence, wanted, expected)
@@ -133,7 +137,11 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
     run = evidence.run
     error, where = traceback_of(evidence, run)
     if run.ended_by_itself:
-        ended = say("no line came: the node stopped with {error}", error=error or _status(evidence))
+        error_or_status = error or _status(evidence)
+        ended = say("no line came: the node stopped with {error}", error=error_or_status)
+        before = len(list(without_tracebacks(run.watch.events)))
+        if before:
+            ended = _ended_after(before, error_or_status)
         return Failed(
             "run.ended_early",
             expected=expected,
@@ -150,6 +158,15 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
         where=node_file(evidence),
         variant="timer" if source is not None and source.timers else "",
         words=words(evidence),
+    )
+
+
+def _ended_after(lines: int, error: str) -> Message:
+    return say_plural(
+        "1 line, then the node ended by itself ({error})",
+        "{count} lines, then the node ended by itself ({error})",
+        lines,
+        error=error,
     )
 
 
@@ -228,17 +245,29 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
         "1 line, then no more came", "{count} lines, then no more came", len(events)
     )
     if run.ended_by_itself:
-        actual = say_plural(
-            "1 line, then the node ended by itself ({error})",
-            "{count} lines, then the node ended by itself ({error})",
-            len(events),
-            error=error or _status(evidence),
-        )
+        actual = _ended_after(len(events), error or _status(evidence))
     raise Failed(
         "run.ended_early" if run.ended_by_itself else "run.stops",
         expected=say("{lines} until Ctrl+C", lines=expected),
-        actual=actual,
+        actual=actual if run.ended_by_itself else joined(actual, _left_out(evidence), by="\n"),
         where=where or node_file(evidence),
+    )
+
+
+def _is_named(evidence: Evidence) -> bool:
+    """Whether the source shows which variable the logged counter is."""
+    source = source_of_node(evidence)
+    return source is not None and logged_counter(source) is not None
+
+
+def _left_out(evidence: Evidence) -> str:
+    """Return that a terminal shows other lines, if the logger leaves some out by wall time."""
+    source = source_of_node(evidence)
+    if evidence.run.watch.clock != "virtual" or source is None or throttled(source) is None:
+        return ""
+    return say(
+        "ROS time runs fast here, but throttle_duration_sec counts real time: a terminal shows "
+        "more lines."
     )
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from grader.base.i18n.message import say
+from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
 from grader.package.source.names import dotted
 from grader.package.source.place import place_of
@@ -108,10 +109,25 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
     if single and (late <= wanted or evidence.has_mistake(count, "run.stops")):
         raise Blocked(by=count)
     seen = watch.period or (late if len(events) < 2 else 0.0)
-    actual = say("lines came at other instants")
-    if seen:
-        actual = say("a line about every {period} s", period=f"{seen:.2f}")
-    raise _wrong_period(evidence, expected, actual, seconds=seen)
+    raise _wrong_period(evidence, expected, _seen_every(evidence, seen), seconds=seen)
+
+
+def _seen_every(evidence: Evidence, seconds: float) -> str:
+    """Return at which instants of ROS time the lines came, as far as a terminal shows the same.
+
+    ROS time runs fast here: a logger that counts wall time leaves out more lines than it does on a
+    terminal, and ROS time waits for a callback that sleeps.
+    """
+    source = source_of_node(evidence)
+    if not seconds or (source is not None and throttled(source) is not None):
+        return say("lines came at other instants")
+    slept = longest_sleep(source) if source is not None else None
+    if slept is not None and slept[1] >= seconds:
+        return say(
+            "a timer of {period} s, and a callback whose sleep holds the lines back",
+            period=f"{seconds:.2f}",
+        )
+    return say("a line about every {period} s", period=f"{seconds:.2f}")
 
 
 def _kept_apart(evidence: Evidence, on_time: Sequence[Event], wanted: float) -> float:
