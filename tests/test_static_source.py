@@ -75,6 +75,18 @@ def test_an_empty_node_has_the_hint_to_save_it(bench: Bench) -> None:
     assert "Ctrl+S" in failed.fix
 
 
+def test_the_node_in_a_file_of_another_name_is_recognised(bench: Bench) -> None:
+    (bench.root / NODE).unlink()
+    bench.write(
+        f"{NAME}/hello.py",
+        "from rclpy.node import Node\n\n\nclass Hello(Node):\n    def __init__(self):\n"
+        "        super().__init__('my_first_node')\n",
+    )
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.misnamed_node_file"
+    assert f"mv {NAME}/hello.py {NODE}" in failed.fix
+
+
 @pytest.mark.parametrize(
     ("to", "wanted"),
     [

@@ -213,7 +213,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
     close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
     close = close or nearest(name, beside, cutoff=0.75)
-    nodes = [n for n in beside if n.endswith(".py") and _has_node(evidence, f"{inner}/{n}")]
+    nodes = [n for n in beside if n.endswith(".py") and _is_the_node(evidence, f"{inner}/{n}")]
     close = close or (nodes[0] if len(nodes) == 1 else "")
     if close.endswith(".ipynb"):
         return Failed(
@@ -258,6 +258,13 @@ def _has_node(evidence: Evidence, path: str) -> bool:
         return False
     function = evidence.assignment.function
     return function in module.functions or any(map(derives_from_node, module.classes))
+
+
+def _is_the_node(evidence: Evidence, path: str) -> bool:
+    """Whether a file has a node with the name that the assignment requires."""
+    file = file_of(evidence, path)
+    named = file is not None and evidence.assignment.node_name.encode() in file.data
+    return named and _has_node(evidence, path)
 
 
 def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
