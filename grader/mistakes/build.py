@@ -35,6 +35,16 @@ LOOKS = msg(
     "ros2 run looks only in install/<package>/lib/<package>/, for an executable file with exactly "
     "that name. colcon creates it there from entry_points in setup.py and the paths in setup.cfg."
 )
+OPENED = msg(
+    "setup.py stops at a file that it cannot open. It is of no use to create the file: colcon build "
+    "--symlink-install runs setup.py in the build folder, and from there a relative path leads to "
+    "another place."
+)
+DELETE = msg("Do not read {name} in setup.py: delete {wanted}, then build again.")
+DELETE_ALL = msg(
+    "Do not read {name} in setup.py: delete that line and all that use what it reads, then build "
+    "again."
+)
 CONFIG = msg(
     "Write both sections in setup.cfg: [develop] with script_dir=$base/lib/{package} and "
     "[install] with install_scripts=$base/lib/{package}, then build again."
@@ -69,7 +79,7 @@ KINDS = (
     _build(
         "ignored",
         msg("The package has a file COLCON_IGNORE"),
-        msg("Delete COLCON_IGNORE from the package, then build again."),
+        msg("Delete that file. In the package's folder, run: rm COLCON_IGNORE. Then build again."),
         msg("colcon skips every folder that has a file of this name, without a message."),
         examples=(example("colcon_ignore", Write("COLCON_IGNORE", ""), fails="build.colcon"),),
     ),
@@ -108,6 +118,7 @@ KINDS = (
                 "The file is there, but colcon build --symlink-install runs setup.py in the build "
                 "folder, and from there a relative path leads to another place."
             ),
+            **dict.fromkeys(("no_file", "no_file_above", "no_file_value"), OPENED),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
             **dict.fromkeys(SIGNS, UNREADABLE),
         },
@@ -133,6 +144,45 @@ KINDS = (
             ),
             "hidden": msg("Give {name}.py another name, or move it out of the package."),
             "relative": msg("Do not open {name} in setup.py: delete that line and what uses it."),
+            "no_file": DELETE,
+            "no_file_there": DELETE,
+            "no_file_above": DELETE_ALL,
+            "no_file_there_above": DELETE_ALL,
+            "no_file_value": msg(
+                "Write the value itself instead of reading {name}: {wanted}, then build again."
+            ),
+            "not_called": msg(
+                "{name} is a function and must be called. Write: {wanted}, then build again."
+            ),
+            "list_in_list": msg(
+                "find_packages() returns a list already. Write: {wanted}, without the square "
+                "brackets around it, then build again."
+            ),
+            "misspelt": msg("Write {close} instead of {name}, then build again."),
+            "variable": msg("Write above setup(: {statement}"),
+            "late": msg(
+                "Python reads the file from top to bottom. Move line {line}, which sets {name}, above "
+                "setup(, then build again."
+            ),
+            "undefined": msg(
+                "No line of setup.py defines {name}. If it is a text, write quotes around it: "
+                "'{name}'. If it is a variable, give it a value above setup(. Then build again."
+            ),
+            "no_module": msg(
+                "Python finds no module {name}. Delete that import (a setup.py needs only "
+                "setuptools), or correct the name, then build again."
+            ),
+            "positional": msg(
+                "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
+                "again."
+            ),
+            "import_form": msg(
+                "The import and the call do not fit together. Write {wanted} instead of {found}, "
+                "then build again."
+            ),
+            "file_alone": msg(
+                "The files of a line of data_files are a list. Write: {wanted}, then build again."
+            ),
             **PASTED,
             **DOCUMENTS,
             **LANGUAGE,
@@ -141,12 +191,11 @@ KINDS = (
         link=links.COLCON,
         fixed_by=(
             syntax.setup_py,
-            setup_py.setuptools,
             setup_py.comma,
             setup_py.key,
-            setup_py.names,
             setup_py.entry_inside,
             setup_py.imports,
+            setup_py.fault,
         ),
         examples=(
             example(
@@ -321,6 +370,79 @@ KINDS = (
                 fails="build.colcon",
             ),
             example(
+                "setup_reads_missing_file",
+                Replace(
+                    SETUP,
+                    "    zip_safe=True,",
+                    "    zip_safe=True,\n    long_description=open('README.md').read(),",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_reads_missing_file_above",
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\nwith open('README.md') as file:\n    text = file.read()\n\nsetup(\n"
+                    "    long_description=text,\n",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_reads_requirements",
+                Replace(
+                    SETUP,
+                    "install_requires=['setuptools']",
+                    "install_requires=open('requirements.txt').read().split()",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "find_packages_not_called",
+                Replace(SETUP, "find_packages(exclude=['test'])", "find_packages"),
+                fails="build.colcon",
+            ),
+            example(
+                "find_packages_in_list",
+                Replace(
+                    SETUP, "find_packages(exclude=['test'])", "[find_packages(exclude=['test'])]"
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_variable_missing",
+                Replace(SETUP, "package_name = 'my_robot_controller'\n", ""),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_text_unquoted",
+                Replace(SETUP, "license='Apache-2.0'", "license=Apache"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_name_positional",
+                Replace(SETUP, "    name=package_name,", "    package_name,"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_glob_not_called",
+                Replace(SETUP, "\nsetup(\n", "\nfrom glob import glob\n\nsetup(\n"),
+                Replace(SETUP, "['package.xml']", "glob"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_glob_of_module",
+                Replace(SETUP, "\nsetup(\n", "\nimport glob\n\nsetup(\n"),
+                Replace(SETUP, "['package.xml']", "glob('package.xml')"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_file_without_list",
+                Replace(SETUP, "['package.xml']", "'package.xml'"),
+                fails="build.colcon",
+            ),
+            example(
                 "setup_raises",
                 Replace(SETUP, "\nsetup(\n", "\nraise RuntimeError('not today')\nsetup(\n"),
                 fails="build.colcon",
@@ -413,7 +535,27 @@ KINDS = (
         msg(
             "Read the build log below, starting at its first error. Build again after each change."
         ),
+        fixes={
+            "no_copy": msg(
+                "data_files in setup.py lists {name}, and the package has no such file. Delete it "
+                "from data_files, or create the file, then build again."
+            ),
+            "no_files": msg(
+                "Each line of data_files is a folder and a list of files. Write: {wanted}, then "
+                "build again."
+            ),
+        },
+        fixed_by=(setup_py.fault,),
         examples=(
+            example(
+                "setup_folder_without_files",
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "('share/' + package_name),",
+                ),
+                fails="build.colcon",
+            ),
             example(
                 "setup_data_file_missing",
                 Replace(SETUP, "['package.xml']", "['package.xml', 'launch/hello.launch.py']"),

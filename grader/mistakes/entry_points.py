@@ -42,7 +42,11 @@ NOT_FOUND = msg(
     "into the executable that ros2 run starts: <name> is what you type after the package. Without "
     "it, ros2 run answers: No executable found."
 )
-WRITE = msg("Write '{wanted}',")
+FOLDERS = msg(
+    "packages= lists folders that contain an __init__.py, and not files. The build stops at a name "
+    "for which there is no such folder."
+)
+WRITE = msg("Write '{wanted}', then build again.")
 OTHERS = {"other": msg("Fix or delete this entry: '{entry}'")}
 
 
@@ -577,13 +581,43 @@ KINDS = (
             "Only the packages in packages= are installed. If yours is not one of them, the "
             "entry point leads to a module that does not exist."
         ),
-        fix=msg("Write packages=find_packages(exclude=['test']), in setup(), then build again."),
+        whys={
+            "folder": FOLDERS,
+            "import": FOLDERS,
+            "argument": msg(
+                "packages= lists the folders to install. Without it, the build stops if it finds "
+                "several folders."
+            ),
+            "text": msg(
+                "packages= is a list of folders. This value is a text, and setuptools takes each "
+                "of its letters for a folder."
+            ),
+        },
+        fix=msg("Write in setup(): {wanted}, then build again."),
+        fixes={
+            "import": msg(
+                "Write at the top of setup.py: {statement}, and in setup(): {wanted}, then build "
+                "again."
+            )
+        },
         link=links.DEVELOPING,
         fixed_by=(layout.init_file, setup_py.packages),
         examples=(
             example(
                 "packages_name_the_file",
                 Replace(SETUP, "find_packages(exclude=['test'])", "['my_first_node']"),
+                fails="build.colcon",
+            ),
+            example(
+                "packages_name_the_file_alone",
+                Replace(SETUP, "from setuptools import find_packages\n", ""),
+                Replace(SETUP, "find_packages(exclude=['test'])", "['my_first_node']"),
+                fails="build.colcon",
+                note="find_packages is not imported",
+            ),
+            example(
+                "packages_missing",
+                Replace(SETUP, "    packages=find_packages(exclude=['test']),\n", ""),
                 fails="build.colcon",
             ),
         ),

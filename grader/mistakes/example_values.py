@@ -47,7 +47,8 @@ NAMES: Mapping[str, Value] = {
 COUNTER: Mapping[str, Value] = {"name": "self.counter"}
 BARE_COUNTER: Mapping[str, Value] = {"name": "counter"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
-    "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package"},
+    "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package", "line": "2, 4"},
+    "package.setup_cfg_missing": {"close": "setup.cfg.txt"},
     "topic.wrong_name": {"name": "/chater"},
     "topic.wrong_end": {"call": "create_subscription"},
     "interface.cmake_error": {"line": "9"},
@@ -84,6 +85,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "source.misplaced_node_file": {
         "wanted": "my_package/my_node.py",
         "init": "my_package/__init__.py",
+        "there": "my_node.py",
         "folder": "My_Package",
         "inner": "my_package",
     },
@@ -220,6 +222,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "node_file": "my_node.py",
         "entry": "my_node = my_package.my_node:main",
     },
+    "package.no_manifest": {"close": "Package.xml"},
+    "package.broken_xml": {"wanted": "2", "tag": "license"},
+    "package.manifest_rules": {"first": "6", "wanted": "email", "found": "mail"},
+    "setup.not_packaged": {
+        "wanted": "packages=[package_name]",
+        "statement": "from setuptools import find_packages",
+    },
+    "build.setup_error": {"wanted": "packages=find_packages()", "close": "package_name"},
+    "build.failed": {"name": "launch/my_node.launch.py", "wanted": "('share', ['package.xml'])"},
     "package.marker_missing": {"close": "resources"},
     "node.for_ros_1": {"name": "loginfo", "written": "self.get_logger().info(…)"},
     "node.own_module_missing": {

@@ -15,9 +15,10 @@ from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.source.place import place_of
+from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import ended_program, raised_in
-from grader.verdict.checks.parsed import names_in
+from grader.verdict.checks.parsed import file_of, has_subpackages, names_in
 from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
@@ -138,7 +139,16 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
     init = f"{package}/__init__.py"
     if evidence.submission.file(init) is None:
         return _no_init(package, init, evidence)
-    return RecognisedMistake(kind="setup.not_packaged", where=Where(file="setup.py"))
+    setup = file_of(evidence, "setup.py")
+    found = packages_of(
+        setup.data if setup is not None else b"", package, nested=has_subpackages(evidence)
+    )
+    return RecognisedMistake(
+        kind="setup.not_packaged",
+        words={"wanted": found.wanted, "statement": found.statement},
+        variant="import" if found.statement else "",
+        where=Where(file="setup.py", line=found.line),
+    )
 
 
 def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:

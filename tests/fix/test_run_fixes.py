@@ -39,7 +39,7 @@ BACK_TO_SOLUTION = (
     *("adds_before_logging", "counts_by_two", "counts_down", "adds_twice", "logs_twice"),
     *("two_timers", "printed", "logged_as_warning", "logged_as_error", "printed_and_logged"),
     *("period_half", "period_two", "period_tenth", "period_slightly_long", "called_by_hand"),
-    *("counter_reset", "timer_cancelled", "text_extra", "setup_import_error"),
+    *("counter_reset", "timer_cancelled", "text_extra"),
 )
 OTHERWISE = {
     "init_missing": "my_robot_controller/__init__.py",

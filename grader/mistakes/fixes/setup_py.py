@@ -3,24 +3,17 @@
 from __future__ import annotations
 
 import ast
-import re
 
-from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of, read_source
 from grader.package.source.python import can_parse
+from grader.package.source.setup_faults import setup_fault
+from grader.package.source.setup_packages import packages_of
 from grader.package.source.setup_py import INDEX, called_value, entry_outside, missing_imports
 
 IMPORTS = ast.Import | ast.ImportFrom
-UNKNOWN = re.compile(
-    r"NameError: name '(?P<name>\w{1,80})' is not defined"
-    r"|ImportError: cannot import name '(?P<imported>\w{1,80})' from 'setuptools'"
-)
-IMPORTED = ("setup", "find_packages", "find_namespace_packages")
-CONSTANTS = {"true": "True", "false": "False", "null": "None", "none": "None"}
-"""What other languages call Python's constants."""
 
 
 def name(case: Case) -> Files | None:
@@ -83,17 +76,21 @@ def key(case: Case) -> Files | None:
 
 
 def packages(case: Case) -> Files | None:
-    """Let find_packages find the package, if setup() lists a folder that does not exist."""
-    setup = read_setup_call(case)
-    listed = setup.argument("packages") if setup else None
-    folder = str(case.finding.params.get("folder", ""))
-    if setup is None or not isinstance(listed, ast.List) or not folder:
-        return None
-    if not re.search(r"^from setuptools import .{0,80}\bfind_packages\b", setup.source.text, re.M):
-        return None
-    q = setup.source.quote
-    swap = setup.source.swap(listed, f"find_packages(exclude=[{q}test{q}])")
-    return case.with_data(FILE, setup.source.spliced([swap]))
+    """Let setup() install the package."""
+    found = case.files.data(FILE) or b""
+    inner = f"{case.assignment.folder}/"
+    nested = any(
+        path.startswith(inner) and path.count("/") > 1 and path.endswith("/__init__.py")
+        for path in case.files.by_path
+    )
+    return case.with_data(FILE, packages_of(found, case.package, nested=nested).fixed)
+
+
+def fault(case: Case) -> Files | None:
+    """Correct what setup.py stops at."""
+    found, error = case.files.data(FILE) or b"", str(case.finding.params.get("error", ""))
+    fault = setup_fault(found, error, case.package)
+    return case.with_data(FILE, fault.fixed) if fault is not None else None
 
 
 def marker(case: Case) -> Files | None:
@@ -177,50 +174,3 @@ def prints(case: Case) -> Files | None:
             return None
         splices.append(setup.source.without(number))
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
-
-
-def setuptools(case: Case) -> Files | None:
-    """Correct the misspelt setuptools in `from setuptools import setup`."""
-    setup = read_setup_call(case)
-    if setup is None:
-        return None
-    splices = []
-    for statement in setup.tree.body:
-        written = (statement.module or "") if isinstance(statement, ast.ImportFrom) else ""
-        line = setup.source.line(statement.lineno)
-        if (
-            nearest("setuptools", [written], cutoff=0.85) == written != ""
-            and line.count(written) == 1
-        ):
-            at = setup.source.start_of(statement.lineno) + line.find(written)
-            splices.append(Splice(at, at + len(written), "setuptools"))
-    return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
-
-
-def names(case: Case) -> Files | None:
-    """Correct the name at which setup.py stops, if a nearly equal one is known."""
-    setup = read_setup_call(case)
-    error = str(case.finding.params.get("error", ""))
-    match = UNKNOWN.match(error)
-    if setup is None or match is None:
-        return None
-    wrong = match["name"] or match["imported"]
-    known = IMPORTED if match["imported"] else _bound(setup.tree)
-    close = CONSTANTS.get(wrong) or nearest(wrong, known, cutoff=0.75)
-    if not close:
-        return None
-    splices = [
-        setup.source.swap(node, close)
-        for node in ast.walk(setup.tree)
-        if (isinstance(node, ast.Name) and node.id == wrong)
-        or (isinstance(node, ast.alias) and node.name == wrong and node.asname is None)
-    ]
-    new = setup.source.spliced(splices)
-    return case.with_data(FILE, new) if new is not None and can_parse(new) else None
-
-
-def _bound(tree: ast.Module) -> set[str]:
-    """Return the names that imports and assignments of the file bind."""
-    names = {a.asname or a.name for n in ast.walk(tree) if isinstance(n, IMPORTS) for a in n.names}
-    stored = (n for n in ast.walk(tree) if isinstance(n, ast.Name))
-    return names | {n.id for n in stored if isinstance(n.ctx, ast.Store)}

@@ -15,12 +15,14 @@ from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
+from grader.package.source.setup_faults import UNREAD, SetupFault, setup_fault
+from grader.package.source.setup_packages import packages_of
 from grader.package.source.setup_py import called_value, entry_outside, missing_imports
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
-from grader.verdict.checks.parsed import node_path
+from grader.verdict.checks.parsed import has_subpackages, node_path
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -32,6 +34,8 @@ HIDDEN = re.compile(
 )
 NOT_THERE = re.compile(r"FileNotFoundError: .{0,60}No such file or directory: '([\w./-]{1,120})'")
 NOT_CALLABLE = re.compile(r"TypeError: '(?:tuple|list|str)' object is not callable")
+NO_COPY = re.compile(r"error: can't copy '[^'\n]{1,300}': doesn't exist")
+FLAT = "discovered in a flat-layout"  # setuptools, if setup() has no packages
 NO_FOLDER = re.compile(r"package directory '([^'\n]{1,200})' does not exist")
 NEVER_CALLED = "was never called"
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
@@ -131,12 +135,7 @@ def _broken(evidence: Evidence) -> Failed:
     where = Where(file="setup.py", line=line)
     expected = say("colcon build ends with: Summary: 1 package finished")
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
-        return Failed(
-            "build.setup_prints",
-            expected=expected,
-            actual=say("setup.py prints something: colcon could not read its answer"),
-            where=Where(file="setup.py", line=_first_print(evidence)),
-        )
+        return _answer(evidence, expected)
     if error.startswith(("SyntaxError", "IndentationError", "TabError")):
         return _unreadable(evidence, expected, error, where)
     label = next((p for p in labels_in(_setup_py(evidence)) if f"'{p.found}'" in error), None)
@@ -162,15 +161,8 @@ def _broken(evidence: Evidence) -> Failed:
     if error:
         return _raised(evidence, expected, error, where)
     folder = NO_FOLDER.search(build.log)
-    if folder is not None:
-        name = shown(folder[1])
-        return Failed(
-            "setup.not_packaged",
-            expected=expected,
-            actual=say("setup.py names a folder that is not in the package: {folder}", folder=name),
-            where=Where(file="setup.py", line=_line_of(_setup_py(evidence), "packages=")),
-            params={"folder": name},
-        )
+    if folder is not None or FLAT in build.log:
+        return _not_packaged(evidence, expected, shown(folder[1]) if folder is not None else "")
     if evidence.submission.file(IGNORE) is not None and NOTHING_BUILT in build.log:
         return Failed(
             "build.ignored",
@@ -188,6 +180,18 @@ def _broken(evidence: Evidence) -> Failed:
             params={"line": stop.line},
         )
     ended = say("colcon ended with status {status}", status=str(build.status))
+    copy = NO_COPY.search(build.log)
+    fault = _fault(evidence, copy[0]) if copy is not None else None
+    if copy is not None and fault is not None:
+        return Failed(
+            "build.failed",
+            expected=expected,
+            actual=copy[0],
+            where=Where(file="setup.py", line=fault.line),
+            variant=fault.variant,
+            params={"status": -1 if build.status is None else build.status, "error": copy[0]},
+            words=fault.words,
+        )
     return Failed(
         "build.failed",
         expected=expected,
@@ -196,11 +200,49 @@ def _broken(evidence: Evidence) -> Failed:
     )
 
 
-def _line_of(found: bytes, text: str) -> int | None:
-    """Return the only line of a file that has a text."""
-    rows = found.decode("utf-8", "replace").replace(" ", "").splitlines()
-    lines = [n for n, row in enumerate(rows, 1) if text in row]
-    return lines[0] if len(lines) == 1 else None
+def _fault(evidence: Evidence, error: str) -> SetupFault | None:
+    return setup_fault(_setup_py(evidence), error, evidence.assignment.package)
+
+
+def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
+    """Return that `packages` names a folder that is not there, or that setup() has no packages."""
+    package = evidence.assignment.package
+    found = packages_of(_setup_py(evidence), package, nested=has_subpackages(evidence))
+    actual = say("setup() has no argument packages=")
+    variant = "import" if found.statement else "argument"
+    if folder:
+        actual = say("setup.py names a folder that is not in the package: {folder}", folder=folder)
+        variant = "import" if found.statement else "text" if found.is_text else "folder"
+    return Failed(
+        "setup.not_packaged",
+        expected=expected,
+        actual=actual,
+        where=Where(file="setup.py", line=found.line),
+        variant=variant,
+        params={"folder": folder} if folder else {},
+        words={"wanted": found.wanted, "statement": found.statement},
+    )
+
+
+def _answer(evidence: Evidence, expected: str) -> Failed:
+    """Return why colcon cannot read what setup.py answers: it prints, or a value is a function."""
+    code, fault = _setup_py(evidence), _fault(evidence, UNREAD)
+    if fault is not None and b"print" not in code:
+        return Failed(
+            "build.setup_error",
+            expected=expected,
+            actual=say("setup() gets the function {name} and not its result", **fault.words),
+            where=Where(file="setup.py", line=fault.line),
+            variant=fault.variant,
+            params={"error": UNREAD},
+            words=fault.words,
+        )
+    return Failed(
+        "build.setup_prints",
+        expected=expected,
+        actual=say("setup.py prints something: colcon could not read its answer"),
+        where=Where(file="setup.py", line=_first_print(evidence)),
+    )
 
 
 def _never_called(found: bytes) -> str:
@@ -236,8 +278,9 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
     if hidden is not None and submission.file(f"{hidden[1]}.py") is not None:
         place, words = Where(file=f"{hidden[1]}.py"), {"name": hidden[1]}
         return _stopped_with(expected, error, place, "hidden", words=words)
-    if opened is not None and submission.file(opened[1]) is not None:
-        return _stopped_with(expected, error, where, "relative", words={"name": opened[1]})
+    if opened is not None and submission.file(opened[1].rpartition("/")[2]) is not None:
+        name = opened[1].rpartition("/")[2]
+        return _stopped_with(expected, error, where, "relative", words={"name": name})
     key = _unquoted(code, error)
     if key is not None:
         place = Where(file="setup.py", line=key.lineno)
@@ -253,6 +296,10 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
             {"line": str(found.end_lineno)},
         )
         return _stopped_with(expected, error, place, "comma", words=words)
+    fault = _fault(evidence, error)
+    if fault is not None:
+        place = Where(file="setup.py", line=fault.line)
+        return _stopped_with(expected, error, place, fault.variant, words=fault.words)
     return _stopped_with(expected, error, where)
 
 

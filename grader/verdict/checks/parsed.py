@@ -46,6 +46,16 @@ def setup_py_of(evidence: Evidence) -> SetupPy | None:
         return None
 
 
+def has_subpackages(evidence: Evidence) -> bool:
+    """Whether the inner folder contains Python packages."""
+    inner = f"{evidence.assignment.folder}/"
+    return any(
+        file.path.startswith(inner) and file.path.count("/") > 1
+        for file in evidence.submission.files
+        if file.path.endswith("/__init__.py")
+    )
+
+
 def node_path(evidence: Evidence) -> str:
     """Return the path of the node's file in the package, as the assignment requires it."""
     return f"{evidence.assignment.folder}/{evidence.assignment.node_file}"

@@ -1,0 +1,352 @@
+"""Why a setup.py stops with an error: the line that is to be changed, and how, if that is certain."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from grader.base.nearest import nearest
+from grader.base.shown import shown
+from grader.package.edit.text import Positioned, Splice
+from grader.package.source.module import Module
+from grader.package.source.names import dotted
+from grader.package.source.python import can_parse
+from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call
+
+CONSTANTS = {"true": "True", "false": "False", "null": "None", "none": "None"}
+"""What other languages call Python's constants."""
+IMPORTED = ("setup", *FINDERS)
+TEXTS = (
+    *("version", "license", "maintainer", "maintainer_email", "author", "author_email"),
+    *("description", "long_description", "url"),
+)
+OPTIONAL = (*TEXTS, "long_description_content_type", "classifiers", "keywords", "tests_require")
+"""Arguments without which setup() installs the same."""
+
+
+@dataclass(frozen=True)
+class SetupFault:
+    """What is wrong, its line, and the values of the placeholders in its texts.
+
+    `fixed` is the file after the change; None if no change is certain.
+    """
+
+    variant: str
+    line: int
+    words: dict[str, str] = field(default_factory=dict)
+    fixed: bytes | None = None
+
+
+@dataclass(frozen=True)
+class _Reader:
+    module: Module
+    call: ast.Call
+    package: str
+
+    def argument(self, name: str) -> ast.expr | None:
+        return next((k.value for k in self.call.keywords if k.arg == name), None)
+
+    def fault(self, variant: str, at: Positioned, *splices: Splice, **words: str) -> SetupFault:
+        new = self.module.text.spliced(splices) if splices and self.module.exact else None
+        fixed = new if new is not None and can_parse(new) else None
+        filled = {key: shown(value) for key, value in words.items()}
+        return SetupFault(variant, at.lineno, filled, fixed)
+
+    def without(self, node: Positioned, siblings: Sequence[Positioned]) -> list[Splice]:
+        """Return the splice that removes one of several values; none if it is the only one."""
+        text, at = self.module.text, siblings.index(node)
+        start, end = text.span(node)
+        if at + 1 < len(siblings):
+            return [Splice(start, text.span(siblings[at + 1])[0], "")]
+        return [Splice(text.span(siblings[at - 1])[1], end, "")] if at else []
+
+
+def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
+    """Return why a setup.py stops with an error; None if it is not known."""
+    module = parsed_setup(found)
+    call = setup_call(module) if module is not None else None
+    if module is None or call is None:
+        return None
+    reader = _Reader(module, call, package)
+    for pattern, look in LOOKS:
+        match = re.match(pattern, error)
+        fault = look(reader, match) if match is not None else None
+        if fault is not None:
+            return fault
+    return None
+
+
+def _not_called(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """`packages=find_packages`."""
+    del match
+    value = reader.argument("packages")
+    if value is None or dotted(value).rpartition(".")[2] not in FINDERS:
+        return None
+    q = reader.module.text.quote
+    wanted = f"{dotted(value)}(exclude=[{q}test{q}])"
+    swap = reader.module.text.swap(value, wanted)
+    return reader.fault("not_called", value, swap, name=dotted(value), wanted=f"packages={wanted}")
+
+
+def _function_given(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A function instead of a list of files in `data_files`."""
+    del match
+    for _, files in _pairs(reader):
+        name = dotted(files)
+        if name and name.partition(".")[0] in reader.module.imports:
+            return reader.fault("not_called", files, name=name, wanted=f"{name}(…)")
+    return None
+
+
+def _list_in_list(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """`packages=[find_packages()]`."""
+    del match
+    value = reader.argument("packages")
+    if not isinstance(value, ast.List) or len(value.elts) != 1:
+        return None
+    inner = value.elts[0]
+    if not isinstance(inner, ast.Call) or dotted(inner.func).rpartition(".")[2] not in FINDERS:
+        return None
+    code = reader.module.text.code(inner)
+    swap = reader.module.text.swap(value, code)
+    return reader.fault("list_in_list", value, swap, wanted=f"packages={code}")
+
+
+def _no_file(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A file that setup.py reads and that is not there."""
+    path = match["path"]
+    base = path.rpartition("/")[2]
+    named = [
+        n
+        for n in reader.module.nodes
+        if isinstance(n, ast.Constant) and n.value in (path, f"./{path}", base)
+    ]
+    variant = "no_file_there" if path.startswith("/") else "no_file"
+    if len(named) != 1:
+        return None
+    around = [named[0], *reader.module.around(named[0])]
+    keyword = next((n for n in around if n in reader.call.keywords), None)
+    if isinstance(keyword, ast.keyword):
+        return _argument_reads(reader, keyword, variant, base)
+    statement = next((n for n in around if n in reader.module.tree.body), None)
+    if not isinstance(statement, ast.Assign | ast.With | ast.Expr):
+        return None
+    splices = _without_statement(reader, statement)
+    return reader.fault(f"{variant}_above", statement, *splices, name=base)
+
+
+def _argument_reads(
+    reader: _Reader, keyword: ast.keyword, variant: str, base: str
+) -> SetupFault | None:
+    q, name = reader.module.text.quote, keyword.arg or ""
+    given = {"install_requires": f"[{q}setuptools{q}]", "version": f"{q}0.0.0{q}"}.get(name)
+    if given is not None:
+        swap = reader.module.text.swap(keyword.value, given)
+        return reader.fault("no_file_value", keyword, swap, name=base, wanted=f"{name}={given}")
+    if name not in OPTIONAL:
+        return None
+    splices = reader.without(keyword, reader.call.keywords)
+    code = reader.module.text.code(keyword)
+    return reader.fault(variant, keyword, *splices, name=base, wanted=code)
+
+
+def _without_statement(reader: _Reader, statement: ast.stmt) -> list[Splice]:
+    """Return the splices that remove a statement and the arguments that use what it binds."""
+    stored = {
+        n.id
+        for n in ast.walk(statement)
+        if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+    }
+    inside = set(ast.walk(statement))
+    uses = [
+        n
+        for n in reader.module.nodes
+        if isinstance(n, ast.Name) and n.id in stored and n not in inside
+    ]
+    keywords = reader.call.keywords
+    using = [k for k in keywords if any(n in uses for n in ast.walk(k))]
+    counted = sum(n in uses for k in using for n in ast.walk(k))
+    if counted != len(uses) or len(using) > 1 or any(k.arg not in OPTIONAL for k in using):
+        return []
+    text = reader.module.text
+    end = text.start_of((statement.end_lineno or statement.lineno) + 1)
+    splices = [Splice(text.start_of(statement.lineno), end, "")]
+    for keyword in using:
+        splices += reader.without(keyword, keywords)
+    return splices
+
+
+def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A name that nothing defines."""
+    module, name = reader.module, match["name"]
+    uses = [
+        n
+        for n in module.nodes
+        if isinstance(n, ast.Name) and n.id == name and isinstance(n.ctx, ast.Load)
+    ]
+    if not uses:
+        return None
+    first = min(uses, key=lambda n: (n.lineno, n.col_offset))
+    if name in _bound(module):
+        sets = [s for s in module.tree.body if isinstance(s, ast.Assign) and _sets(s, name)]
+        late = len(sets) == 1 and sets[0].lineno > first.lineno
+        return reader.fault("late", first, name=name, line=str(sets[0].lineno)) if late else None
+    close = CONSTANTS.get(name) or nearest(name, _bound(module) - {name}, cutoff=0.75)
+    if close:
+        swaps = [module.text.swap(use, close) for use in uses]
+        return reader.fault("misspelt", first, *swaps, name=name, close=close)
+    q = module.text.quote
+    if name == "package_name":
+        row = f"package_name = {q}{reader.package}{q}"
+        above = next((s for s in module.tree.body if reader.call in ast.walk(s)), None)
+        insert = [module.text.before(above.lineno, row, "")] if above is not None else []
+        return reader.fault("variable", first, *insert, name=name, statement=row)
+    parent = module.parents.get(first)
+    is_text = isinstance(parent, ast.keyword) and parent.arg in TEXTS
+    is_item = isinstance(parent, ast.List)
+    swaps = [module.text.swap(first, f"{q}{name}{q}")] if is_text or is_item else []
+    return reader.fault("undefined", first, *(swaps if len(uses) == 1 else []), name=name)
+
+
+def _sets(statement: ast.Assign, name: str) -> bool:
+    return any(isinstance(t, ast.Name) and t.id == name for t in statement.targets)
+
+
+def _bound(module: Module) -> set[str]:
+    """Return the names that imports and assignments of the file bind."""
+    imports = (n for n in module.nodes if isinstance(n, ast.Import | ast.ImportFrom))
+    names = {alias.asname or alias.name for n in imports for alias in n.names}
+    stored = (n for n in module.nodes if isinstance(n, ast.Name))
+    return names | {n.id for n in stored if isinstance(n.ctx, ast.Store)}
+
+
+def _not_in_setuptools(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A misspelt name in `from setuptools import …`."""
+    module, name = reader.module, match["name"]
+    close = nearest(name, IMPORTED, cutoff=0.75)
+    named = [n for n in module.nodes if isinstance(n, ast.alias) and n.name == name]
+    if not close or not named:
+        return None
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    plain = [n for n in named if n.asname is None]
+    nodes: list[Positioned] = [*plain, *uses]
+    swaps = [module.text.swap(node, close) for node in nodes] if plain else []
+    return reader.fault("misspelt", named[0], *swaps, name=name, close=close)
+
+
+def _no_module(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """An import of a module that is not there."""
+    module, name = reader.module, match["name"]
+    statements = [
+        s
+        for s in module.tree.body
+        if (isinstance(s, ast.Import) and any(a.name == name for a in s.names))
+        or (isinstance(s, ast.ImportFrom) and s.module == name)
+    ]
+    if not statements:
+        return None
+    statement, row = statements[0], module.text.line(statements[0].lineno)
+    if nearest("setuptools", [name], cutoff=0.75):
+        at = module.text.start_of(statement.lineno) + row.find(name)
+        swap = [Splice(at, at + len(name), "setuptools")] if row.count(name) == 1 else []
+        return reader.fault("misspelt", statement, *swap, name=name, close="setuptools")
+    bound = {a.asname or a.name.partition(".")[0] for a in statement.names}
+    used = {n.id for n in module.nodes if isinstance(n, ast.Name)} & bound
+    alone = statement.lineno == statement.end_lineno and ";" not in row and not used
+    splices = [module.text.without(statement.lineno)] if alone else []
+    return reader.fault("no_module", statement, *splices, name=name)
+
+
+def _positional(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A value without its name in the call of setup()."""
+    del match
+    if not reader.call.args:
+        return None
+    value = reader.call.args[0]
+    code = reader.module.text.code(value)
+    is_name = len(reader.call.args) == 1 and reader.argument("name") is None
+    at = reader.module.text.span(value)[0]
+    splices = [Splice(at, at, "name=")] if is_name else []
+    return reader.fault("positional", value, *splices, wanted=f"name={code}")
+
+
+def _glob(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """`import glob` with glob(…), or `from glob import glob` with glob.glob(…)."""
+    del match
+    module = reader.module
+    calls = {dotted(n.func) for n in module.nodes if isinstance(n, ast.Call)}
+    ways = {"glob": "from glob import glob", "glob.glob": "import glob"}
+    wanted = [ways[call] for call in ways if call in calls]
+    for statement in module.tree.body:
+        code = " ".join(module.text.code(statement).split())
+        if len(wanted) == 1 and code in ways.values() and code != wanted[0]:
+            swap = module.text.swap(statement, wanted[0])
+            return reader.fault("import_form", statement, swap, found=code, wanted=wanted[0])
+    return None
+
+
+def _pairs(reader: _Reader) -> list[tuple[ast.expr, ast.expr]]:
+    """Return the folders of `data_files`, each with its files."""
+    data_files = reader.argument("data_files")
+    items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
+    pairs = [i.elts for i in items if isinstance(i, ast.Tuple | ast.List) and len(i.elts) == 2]
+    return [(folder, files) for folder, files in pairs]
+
+
+def _file_alone(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A file instead of a list of files in `data_files`."""
+    del match
+    for _, files in _pairs(reader):
+        if isinstance(files, ast.Constant) and isinstance(files.value, str):
+            wanted = f"[{reader.module.text.code(files)}]"
+            swap = reader.module.text.swap(files, wanted)
+            return reader.fault("file_alone", files, swap, wanted=wanted)
+    return None
+
+
+def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A file of `data_files` that is not in the package, or a folder without a list of files."""
+    build, text = f"/build/{reader.package}/", reader.module.text
+    path = match["path"].rpartition(build)[2] if build in match["path"] else match["path"]
+    data_files = reader.argument("data_files")
+    items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
+    plain = [i for i in items if isinstance(i, ast.BinOp | ast.Constant | ast.JoinedStr)]
+    if plain and path == f"share/{reader.package}":
+        code = text.code(plain[0])
+        inside = f"{code}, [{text.quote}package.xml{text.quote}]"
+        wanted, (start, end) = f"({inside})", text.span(plain[0])
+        in_brackets = text.text[start - 1] == "(" and text.text[end : end + 1] == ")"
+        new = inside if in_brackets else wanted
+        whole = [text.swap(plain[0], new)] if len(plain) == 1 else []
+        return reader.fault("no_files", plain[0], *whole, wanted=wanted)
+    for pair, (_, files) in zip(
+        [i for i in items if isinstance(i, ast.Tuple | ast.List) and len(i.elts) == 2],
+        _pairs(reader),
+        strict=True,
+    ):
+        named = files.elts if isinstance(files, ast.List | ast.Tuple) else []
+        for node in named:
+            if isinstance(node, ast.Constant) and node.value == path:
+                splices = reader.without(node, named) or reader.without(pair, items)
+                return reader.fault("no_copy", node, *splices, name=path)
+    return None
+
+
+LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], ...] = (
+    (r"TypeError: '(?:method|function)' object is not iterable", _not_called),
+    (r"TypeError: expected string or bytes-like object", _list_in_list),
+    (r"FileNotFoundError: .{0,60}No such file or directory: '(?P<path>[^'\n]{1,200})'", _no_file),
+    (r"NameError: name '(?P<name>\w{1,80})' is not defined", _name),
+    (r"ImportError: cannot import name '(?P<name>\w{1,80})' from 'setuptools'", _not_in_setuptools),
+    (r"ModuleNotFoundError: No module named '(?P<name>[\w.]{1,80})'", _no_module),
+    (r"TypeError: setup\(\) takes 0 positional arguments", _positional),
+    (r"TypeError: 'module' object is not callable", _glob),
+    (r"AttributeError: 'function' object has no attribute 'glob'", _glob),
+    (r"AssertionError$", _file_alone),
+    (r"error: can't copy '(?P<path>[^'\n]{1,300})': doesn't exist", _not_copied),
+    (r"colcon cannot read", _function_given),
+)
+UNREAD = "colcon cannot read"
+"""Stands for the error if colcon does not understand what setup.py answers."""

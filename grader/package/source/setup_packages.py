@@ -1,0 +1,102 @@
+"""The packages that a setup.py installs: what is to be written, if it does not install the node's."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+
+from grader.package.edit.text import Splice
+from grader.package.source.module import Module, parse_module
+from grader.package.source.python import PythonFault, can_parse
+from grader.package.source.setup_py import is_setup_call
+
+FINDERS = ("find_packages", "find_namespace_packages")
+
+
+@dataclass(frozen=True)
+class Packages:
+    """The argument `packages` as it should be, its line, and the import that it needs, if any.
+
+    `is_text` is whether it is a text: setuptools takes each of its letters for a folder.
+    `fixed` is the file after the change; None if no change is certain.
+    """
+
+    wanted: str
+    line: int | None
+    statement: str = ""
+    is_text: bool = False
+    fixed: bytes | None = None
+
+
+def setup_call(module: Module) -> ast.Call | None:
+    """Return the call of setup(), if there is exactly one."""
+    calls = [n for n in module.nodes if isinstance(n, ast.Call) and is_setup_call(n)]
+    return calls[0] if len(calls) == 1 else None
+
+
+def parsed_setup(found: bytes) -> Module | None:
+    """Return a setup.py; None if Python cannot read it."""
+    try:
+        return parse_module("setup.py", found)
+    except (PythonFault, RecursionError, MemoryError):
+        return None
+
+
+def value_of(module: Module, node: ast.expr | None) -> object:
+    """Return the value of a constant, in place or assigned once to a name; None if it is neither."""
+    if isinstance(node, ast.Name):
+        stores = [
+            n
+            for n in module.nodes
+            if isinstance(n, ast.Assign)
+            and any(isinstance(t, ast.Name) and t.id == node.id for t in n.targets)
+        ]
+        node = stores[0].value if len(stores) == 1 else None
+    return node.value if isinstance(node, ast.Constant) else None
+
+
+def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
+    """Return what `packages` should be; `nested`: the package contains others."""
+    module = parsed_setup(found)
+    q = "'" if module is None else module.text.quote
+    finds = f"packages=find_packages(exclude=[{q}test{q}])"
+    imports = "from setuptools import find_packages"
+    if module is None:
+        return Packages(finds, None, imports)
+    keyword = next((k for k in _keywords(module) if k.arg == "packages"), None)
+    call, known = setup_call(module), "find_packages" in module.imports
+    named = value_of(module, ast.Name("package_name", ast.Load())) == package
+    name = "package_name" if named else f"{q}{package}{q}"
+    wanted = finds if known or nested else f"packages=[{name}]"
+    statement = imports if nested and not known else ""
+    line = keyword.value.lineno if keyword else call.lineno if call else None
+    is_text = isinstance(value_of(module, keyword.value), str) if keyword else False
+    fixed = _fixed(module, call, keyword, wanted, statement)
+    return Packages(wanted, line, statement, is_text, fixed)
+
+
+def _keywords(module: Module) -> list[ast.keyword]:
+    call = setup_call(module)
+    return call.keywords if call is not None else []
+
+
+def _fixed(
+    module: Module, call: ast.Call | None, old: ast.keyword | None, wanted: str, statement: str
+) -> bytes | None:
+    keywords = call.keywords if call is not None else []
+    if call is None or not module.exact or any(k.arg in (None, "package_dir") for k in keywords):
+        return None
+    if old is not None:
+        splices = [module.text.swap(old, wanted)]
+    elif keywords:
+        at = module.text.span(keywords[0])[0]
+        first = module.text.line(keywords[0].lineno)
+        own = not first[: keywords[0].col_offset].strip()
+        gap = module.text.newline + first[: keywords[0].col_offset] if own else " "
+        splices = [Splice(at, at, f"{wanted},{gap}")]
+    else:
+        return None
+    if statement:
+        splices.append(module.text.before(1, statement))
+    new = module.text.spliced(splices)
+    return new if new is not None and can_parse(new) else None
