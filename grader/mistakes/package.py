@@ -30,6 +30,10 @@ DEGRADES = msg(
     "it falls back to plain Python: the build reports success, but ros2 run answers: Package not "
     "found."
 )
+NO_MANIFEST = msg(
+    "colcon reads the package's name and build type from package.xml. Without the file it takes "
+    "the folder for plain Python, and the build stops where setup.py copies package.xml."
+)
 MARKER_MISSING = msg(
     "ROS finds a package by an empty file with the package's name in the package index. setup.py "
     "copies it there from resource/ when you build. If it is missing, the build stops with: can't "
@@ -49,8 +53,8 @@ TWO_SECTIONS = msg(
     "[develop] is for colcon build --symlink-install, [install] for a build without it."
 )
 NEW_CFG = msg(
-    "Create setup.cfg beside setup.py with these four lines: [develop] / "
-    "script_dir=$base/lib/{package} / [install] / install_scripts=$base/lib/{package}"
+    "Create setup.cfg beside setup.py. Below [develop] write script_dir=$base/lib/{package}, and "
+    "below [install] write install_scripts=$base/lib/{package}. Then build again."
 )
 
 
@@ -79,10 +83,16 @@ KINDS = (
         id="package.no_manifest",
         stage="manifest",
         title=msg("There is no package.xml"),
-        why=DEGRADES,
+        why=NO_MANIFEST,
         whys={"nothing": UNIT},
         fix=msg("Copy the package.xml that ros2 pkg create makes, and set its <name>."),
-        fixes={"renamed": msg("Rename {close} to package.xml.")},
+        fixes={
+            "renamed": msg("Rename it. In the package's folder, run: mv {close} package.xml"),
+            "capitals": msg(
+                "Rename it: Linux distinguishes capitals from small letters. In the package's "
+                "folder, run: mv {close} package.xml"
+            ),
+        },
         link=links.MANIFEST,
         fixed_by=(manifest.rename,),
         examples=(
@@ -133,6 +143,15 @@ KINDS = (
             "quotes": msg('Type the quotes of that tag again: " on the keyboard.'),
             "ampersand": msg("Write &amp; instead of &."),
             "before": msg("Delete what is before the first < of the file."),
+            "declaration": msg(
+                "<?xml …?> must be the very first line of the file. Move it from line {wanted} to "
+                "the top."
+            ),
+            "blank": msg(
+                "<?xml …?> must be at the very beginning of the file. Delete the empty lines and "
+                "the spaces above and before it."
+            ),
+            "declared_twice": msg("Delete this line: <?xml …?> is only at the top of the file."),
             "after": msg("Delete what is after the last > of the file."),
             "outside": msg("Move this line above </{name}>: all tags belong inside <{name}>."),
             "bare": msg("Write quotes around the value: {wanted}"),
@@ -190,6 +209,18 @@ KINDS = (
                 blocks=UNBUILT,
             ),
             example(
+                "comment_above_declaration",
+                Replace(MANIFEST, '<?xml version="1.0"?>', '<!-- Jane -->\n<?xml version="1.0"?>'),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "blank_line_above_declaration",
+                Replace(MANIFEST, '<?xml version="1.0"?>', '\n<?xml version="1.0"?>'),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
                 "manifest_not_xml",
                 Replace(MANIFEST, "</description>", "</decription>"),
                 fails="package.manifest",
@@ -241,8 +272,108 @@ KINDS = (
         fixes={
             "version": msg("Write three numbers with points between them, such as 1.0.0."),
             "itself": msg("Delete this line: a package does not depend on itself."),
+            "twice": msg(
+                "Delete the <{tag}> that begins in line {line}: package.xml has only one."
+            ),
+            "export_twice": msg(
+                "package.xml has <{tag}> only once. Move what the one in line {line} contains into "
+                "the one in line {first}, and delete the one in line {line}."
+            ),
+            "redundant": msg(
+                "Delete <{tag}>{found}</{tag}> in line {line}: <depend> in line {first} already "
+                "includes it."
+            ),
+            "email": msg('Write in that line: email="{wanted}"'),
+            "email_parts": msg(
+                "Write an address with an @ and a domain in that line, such as "
+                'email="student@todo.todo". You may invent it.'
+            ),
+            "no_email": msg(
+                'Write an address into the tag: <{tag} email="student@todo.todo">. You may invent it.'
+            ),
+            "attribute_name": msg("Write {wanted}= instead of {found}= in that tag."),
+            "attribute": msg("Delete {found}=… from the tag <{tag}>."),
+            "format": msg(
+                'Write <package format="3">. Each format has its own tags, and ros2 pkg create '
+                "writes format 3."
+            ),
+            "tag": msg("Write <{wanted}> instead of <{tag}>, and the same in its end tag."),
+            "unknown_tag": msg("Delete <{tag}> and what it contains: package.xml has no such tag."),
+            "child": msg(
+                "Move <{found}> below </{tag}>: each of the two has a line of its own, and <{tag}> "
+                "contains only text."
+            ),
+            "name": msg("Write <name>{package}</name> in package.xml."),
+            "empty": msg("Write something between <{tag}> and </{tag}>."),
+            "second_empty": msg("Delete this empty <{tag}>."),
+            "root": msg(
+                'Write <package format="3"> as the outermost tag, and </package> at the end of '
+                "the file."
+            ),
         },
-        fixed_by=(manifest.version, manifest.three_numbers),
+        fixed_by=(manifest.version, manifest.three_numbers, manifest.rule, manifest.root),
+        examples=(
+            example(
+                "description_twice",
+                Replace(
+                    MANIFEST,
+                    "  <description>",
+                    "  <description>Says hello</description>\n  <description>",
+                ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "export_twice",
+                Replace(MANIFEST, "  <export>", "  <export>\n  </export>\n  <export>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "depend_redundant",
+                Replace(
+                    MANIFEST,
+                    "<depend>rclpy</depend>",
+                    "<exec_depend>rclpy</exec_depend>\n  <depend>rclpy</depend>",
+                ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "maintainer_email_at",
+                Replace(MANIFEST, "@todo.todo", "(at)todo.todo"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "maintainer_mail",
+                Replace(MANIFEST, "email=", "mail="),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "format_missing",
+                Replace(MANIFEST, ' format="3"', ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "run_depend_of_ros_1",
+                Replace(MANIFEST, "<depend>rclpy</depend>", "<run_depend>rclpy</run_depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "depends_on_itself",
+                Replace(
+                    MANIFEST,
+                    "<depend>rclpy</depend>",
+                    "<depend>rclpy</depend>\n  <depend>my_robot_controller</depend>",
+                ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+        ),
     ),
     _manifest(
         "depend_missing",
@@ -394,8 +525,13 @@ KINDS = (
             "The build type tells colcon how to build. Without ament_python, colcon takes the "
             "package for a C++ one and looks for a CMakeLists.txt."
         ),
+        whys={"outside": DEGRADES},
         fix=msg("Write in package.xml: <export><build_type>ament_python</build_type></export>"),
         fixes={
+            "outside": msg(
+                "Write <export> before this tag and </export> after it: "
+                "<export><build_type>ament_python</build_type></export>"
+            ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
             "cmake": msg(
                 "If only this line is wrong, write ament_python. Otherwise create a "
@@ -417,6 +553,13 @@ KINDS = (
             example(
                 "build_type_missing",
                 Replace(MANIFEST, "    <build_type>ament_python</build_type>\n", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "build_type_outside",
+                Replace(MANIFEST, "  <export>\n    <build_type>", "  <build_type>"),
+                Replace(MANIFEST, "  </export>\n", ""),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),
@@ -452,8 +595,8 @@ KINDS = (
         ),
         fixes={
             "folder": msg(
-                "Delete that folder and create an empty file with the same name: touch "
-                "resource/{package}"
+                "Delete that folder and create an empty file with the same name. In the package's "
+                "folder, run: rm -r resource/{package} && touch resource/{package}"
             ),
             "rename": msg(
                 "Rename resource/{close} to resource/{package}: the two names must be the same."
@@ -551,6 +694,13 @@ KINDS = (
         title=msg("There is no setup.cfg"),
         why=WITHOUT_CFG,
         fix=NEW_CFG,
+        fixes={
+            "renamed": msg(
+                "Rename the file. In the package's folder, run: mv {close} setup.cfg. Then build "
+                "again. (Windows hides the last part of a name, such as .txt, unless you switch on "
+                "'File name extensions'.)"
+            )
+        },
         link=links.DEVELOPING,
         fixed_by=(setup_cfg.missing,),
         examples=(
@@ -560,6 +710,12 @@ KINDS = (
                 fails="package.setup_cfg",
                 blocks=UNINSTALLED,
                 note="the script lands in bin",
+            ),
+            example(
+                "setup_cfg_txt",
+                Move(CFG, "setup.cfg.txt"),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
             ),
         ),
     ),
@@ -602,21 +758,48 @@ KINDS = (
         stage="setup.cfg",
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=TWO_SECTIONS,
-        fix=msg("Write {key}={wanted}"),
+        whys={
+            "quotes": msg(
+                "setup.cfg sets where executables are installed, and ros2 run looks only in "
+                "lib/<package>. setup.cfg is not Python: its quotes are part of the path, so the "
+                "executable gets into another folder."
+            )
+        },
+        fix=msg("Write {key}={wanted}, then build again."),
         fixes={
+            "quotes": msg(
+                "Delete the quotes around the path (lines: {line}), so that it is {wanted}. Then "
+                "build again."
+            ),
             "both": msg(
                 "Write both lines with the package's name: below [develop] script_dir={wanted}, "
-                "and below [install] install_scripts={wanted}"
+                "and below [install] install_scripts={wanted}. Then build again."
             ),
-            "key": msg("Write below [{section}]: {key}={wanted}"),
-            "heading": msg("Write [{section}] instead of [{close}]."),
-            "section": msg("Add two lines: [{section}] and below it {key}={wanted}"),
+            "key": msg("Write below [{section}]: {key}={wanted}, then build again."),
+            "heading": msg("Write [{section}] instead of [{close}], then build again."),
+            "section": msg(
+                "Add two lines: [{section}] and below it {key}={wanted}. Then build again."
+            ),
         },
         link=links.DEVELOPING,
         fixed_by=(setup_cfg.setting,),
         examples=(
             example(
                 "setup_cfg_empty", Write(CFG, ""), fails="package.setup_cfg", blocks=UNINSTALLED
+            ),
+            example(
+                "setup_cfg_quotes",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        'script_dir="$base/lib/my_robot_controller"\n'
+                        "[install]\n"
+                        'install_scripts="$base/lib/my_robot_controller"\n'
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
             ),
             example(
                 "setup_cfg_other_package",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 from xml.parsers import expat
 
@@ -24,11 +24,13 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
 TYPOGRAPHIC = re.compile(rb"\xe2\x80[\x98-\x9f]")  # U+2018 to U+201F in UTF-8
 BARE = re.compile(rb"\s(?P<name>[\w:.-]{1,60})=(?P<value>[^\s\"'<>=]{1,200})")
+DECLARATION = re.compile(rb"<\?xml\s[^<>]{0,200}\?>")
+BOM = b"\xef\xbb\xbf"
 ENTITY = re.compile(rb"&(#?\w{1,30});")
 
 
@@ -216,6 +218,35 @@ def _before(reader: _Reader, at: int) -> XmlFault | None:
     return reader.fault("before", "", 0, (0, end, b""))
 
 
+def _declaration(reader: _Reader, at: int) -> XmlFault | None:
+    """Return what is above <?xml …?>, which must be the first line."""
+    del at
+    found = reader.found
+    mark = len(BOM) if found.startswith(BOM) else 0
+    declared = [m for m in DECLARATION.finditer(found) if not _in_comment(found, m.start())]
+    late = next((m for m in declared if m.start() > mark), None)
+    if late is None or reader.open:
+        return None
+    start, end = late.span()
+    above = found[mark:start]
+    ending = re.compile(rb"[ \t]*\r?\n").match(found, end)
+    end = ending.end() if ending is not None else end
+    if declared[0].start() == mark:
+        return reader.fault("declared_twice", "?xml", start, (start, end, b""))
+    if not above.strip():
+        return reader.fault("blank", "?xml", mark, (mark, start, b""))
+    if not above.lstrip().startswith(b"<"):
+        return _before(reader, start)
+    row = late[0] + (b"\r\n" if b"\r\n" in found else b"\n")
+    moved = ((mark, mark, row), (start, end, b""))
+    fault = reader.fault("declaration", "?xml", mark, *moved)
+    return replace(fault, wanted=str(reader.line(start)))
+
+
+def _in_comment(found: bytes, at: int) -> bool:
+    return found.rfind(b"<!--", 0, at) > found.rfind(b"-->", 0, at)
+
+
 def _after(reader: _Reader, at: int) -> XmlFault | None:
     """Return what is below the last end tag."""
     found = reader.found
@@ -235,6 +266,6 @@ LOOKS: dict[str, Callable[[_Reader, int], XmlFault | None]] = {
     expat.errors.XML_ERROR_INVALID_TOKEN: _invalid,
     expat.errors.XML_ERROR_UNDEFINED_ENTITY: _invalid,
     expat.errors.XML_ERROR_SYNTAX: _before,
-    expat.errors.XML_ERROR_MISPLACED_XML_PI: _before,
+    expat.errors.XML_ERROR_MISPLACED_XML_PI: _declaration,
     expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT: _after,
 }

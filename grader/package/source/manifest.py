@@ -35,7 +35,7 @@ CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}  # what ROS 2's setup 
 
 
 class ManifestError(Exception):
-    """A package.xml that cannot be used: `kind` is `xml`, `doctype`, `size` or `rules`."""
+    """A package.xml that cannot be used: `kind` is `xml`, `doctype`, `size`, `root` or `rules`."""
 
     def __init__(self, kind: str, text: str, line: int | None = None) -> None:
         super().__init__(text)
@@ -112,7 +112,8 @@ def read_manifest(found: bytes) -> Manifest:
     root = next((e for e in elements if not e.within), None)
     if root is None or root.tag != "package":
         tag = root.tag if root else ""
-        raise ManifestError("rules", say("its outermost tag is <{tag}>, not <package>", tag=tag), 1)
+        said = say("its outermost tag is <{tag}>, not <package>", tag=tag)
+        raise ManifestError("root", said, root.line if root else 1)
     warnings: list[str] = []
     return Manifest(elements, _judge(found, warnings), tuple(warnings))
 
@@ -125,7 +126,8 @@ def _judge(found: bytes, warnings: list[str]) -> str:
     try:
         parse_package_string(found, warnings=warnings)
     except InvalidPackage as error:
-        lines = [" ".join(line.split()) for line in re.split(r"\n-?\s*", str(error))]
+        text = str(error).removeprefix("Error(s):")
+        lines = [" ".join(line.split()) for line in re.split(r"\n-?\s*", text)]
         return "; ".join(line.rstrip(".") for line in lines if line)[:500]
     except Exception as error:  # colcon would meet the same exception
         return f"{type(error).__name__}: {error}"[:500]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -18,6 +19,7 @@ from grader.package.source.manifest import (
     meant_package,
     read_manifest,
 )
+from grader.package.source.manifest_rules import RuleFault, rule_fault
 from grader.report.model import Where
 from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
 from grader.verdict.outcome import Failed, Passed
@@ -47,7 +49,7 @@ def check_manifest(evidence: Evidence) -> Passed:
     """Check package.xml; raise Failed for the first fault."""
     manifest = _read(evidence)
     _check_build_type_place(manifest)
-    _check_rules(manifest)
+    _check_rules(evidence, manifest)
     _check_name(evidence, manifest)
     _check_setup_name(evidence)
     _check_build_type(evidence, manifest)
@@ -64,12 +66,13 @@ def _failed(
     variant: str = "",
     params: Mapping[str, str | int | float] | None = None,
     words: Mapping[str, Value] | None = None,
+    file: str = FILE,
 ) -> Failed:
     return Failed(
         mistake,
         expected=expected or say("a valid package.xml"),
         actual=actual,
-        where=Where(file=FILE, line=line),
+        where=Where(file=file, line=line),
         variant=variant,
         params=params,
         words=words,
@@ -84,8 +87,9 @@ def _read(evidence: Evidence) -> Manifest:
             "package.no_manifest",
             with_difference(say("there is no package.xml") + meant(close), close, FILE),
             None,
-            variant="renamed" if close else "",
-            words={"close": shown(close)},
+            variant="capitals" if close.lower() == FILE else "renamed" if close else "",
+            words={"close": shlex.quote(shown(close))},
+            file=shown(close) or FILE,
         )
     if file.unreadable:
         reason = printable_reason(file.reason)
@@ -106,7 +110,8 @@ def _unusable(error: ManifestError, found: bytes) -> Failed:
         actual: str = say("{text}: the rest of the file is not read", text=text)
         return _failed("package.manifest_doctype", actual, error.line)
     if error.kind != "xml":
-        return _failed("package.manifest_rules", text, error.line)
+        variant = "root" if error.kind == "root" else ""
+        return _failed("package.manifest_rules", text, error.line, variant=variant)
     fault, params = xml_fault(found), {"error": str(text)}
     if not found.strip():
         said, variant = say("package.xml is empty"), "empty"
@@ -143,11 +148,16 @@ def _described(fault: XmlFault) -> Message:
         "outside": say("there is a tag below </{name}>", **words),
         "bare": say("<{tag} …> has a value without quotes", **words),
         "comment": say("a comment that begins with <!-- has no end"),
+        "declaration": say(
+            "there is something above <?xml …?>, which is in line {wanted}", **words
+        ),
+        "blank": say("there is an empty line or a space above <?xml …?>"),
+        "declared_twice": say("<?xml …?> is in the file twice"),
     }
     return texts[fault.variant]
 
 
-def _check_rules(manifest: Manifest) -> None:
+def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
     for tag in REQUIRED:
         element = manifest.first(tag)
         if element is None:
@@ -161,20 +171,67 @@ def _check_rules(manifest: Manifest) -> None:
                 variant="empty" if element else "",
                 params={"tag": tag},
             )
-    if manifest.fault:
-        raise _failed(
-            "package.manifest_rules",
-            shown_long(manifest.fault),
-            _line_of_fault(manifest),
-            variant=_kind_of_fault(manifest.fault),
-            params={"error": shown_long(manifest.fault)},
-        )
+    if not manifest.fault:
+        return
+    params = {"error": shown_long(manifest.fault)}
+    package = evidence.asked.package
+    fault = rule_fault(manifest, package)
+    if fault is None:
+        raise _failed("package.manifest_rules", params["error"], None, params=params)
+    words = _rule_words(fault, package)
+    raise _failed(
+        "package.manifest_rules",
+        _rule_found(fault, params["error"], words),
+        fault.line,
+        variant=_rule_variant(fault),
+        params=params,
+        words=words,
+    )
 
 
-def _kind_of_fault(fault: str) -> str:
-    if "version conventions" in fault:
-        return "version"
-    return "itself" if "with the same name as this package" in fault else ""
+def _rule_words(fault: RuleFault, package: str) -> dict[str, Value]:
+    return {
+        "tag": shown(fault.tag),
+        "found": shown(fault.found),
+        "wanted": shown(fault.wanted),
+        "line": str(fault.line),
+        "first": str(fault.first),
+        "package": package,
+    }
+
+
+def _rule_variant(fault: RuleFault) -> str:
+    """Return the name of the fix's text."""
+    if fault.variant == "email":
+        return "email" if fault.wanted else "email_parts"
+    return fault.variant
+
+
+def _rule_found(fault: RuleFault, error: str, words: Mapping[str, Value]) -> str:
+    """Return what was found, in other words than catkin_pkg's if they say more."""
+    first, last = sorted((fault.first, fault.line))
+    twice = say(
+        "there is more than one <{tag}>: in lines {first} and {last}",
+        tag=words["tag"],
+        first=first,
+        last=last,
+    )
+    texts = {
+        "twice": twice,
+        "export_twice": twice,
+        "redundant": say(
+            "line {first} has <depend>{found}</depend>, and line {line} has <{tag}>{found}</{tag}> "
+            "too",
+            **words,
+        ),
+        "email": say('"{found}" is not an email address', **words),
+        "no_email": say("<{tag}> has no email address", **words),
+        "format": say('the tag <package> does not have format="3"', **words),
+        "child": say("<{found}> is inside of <{tag}>, which begins in line {first}", **words),
+        "empty": say("<{tag}> is empty", **words),
+        "second_empty": say("<{tag}> is empty", **words),
+    }
+    return texts.get(fault.variant, error)
 
 
 def _check_tag_name(manifest: Manifest, tag: str, *, within: str) -> None:
@@ -197,22 +254,6 @@ def _check_tag_name(manifest: Manifest, tag: str, *, within: str) -> None:
 def shown_long(text: str) -> str:
     """Return a message in printable form; unlike `shown`, it may be longer than a name."""
     return " ".join(shown(part) for part in text.split()[:60])
-
-
-def _line_of_fault(manifest: Manifest) -> int | None:
-    """Return the line of the tag that catkin_pkg's message names, if any."""
-    same = [e for e in manifest.depends if e.text == manifest.name]
-    if same and "with the same name as this package" in manifest.fault:
-        return same[0].line
-    for element in manifest.elements:
-        tag = element.tag
-        if tag == "version" and "version conventions" in manifest.fault:
-            return element.line
-        if any(f"{mark}{tag}{mark}" in manifest.fault for mark in "\"'") or (
-            f"following tags: {tag}" in manifest.fault
-        ):
-            return element.line
-    return None
 
 
 def _check_name(evidence: Evidence, manifest: Manifest) -> None:
@@ -253,7 +294,8 @@ def _check_setup_name(evidence: Evidence) -> None:
 
 def _check_build_type_place(manifest: Manifest) -> None:
     for element in manifest.all("build_type"):
-        raise _build_type(element, say("<build_type> is outside of <export>"))
+        outside = say("<build_type> is outside of <export>")
+        raise _build_type(element, outside, "" if manifest.all("export") else "outside")
 
 
 def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
@@ -296,13 +338,13 @@ def _check_created(evidence: Evidence, element: Element) -> None:
     )
 
 
-def _build_type(element: Element | None, actual: str) -> Failed:
+def _build_type(element: Element | None, actual: str, variant: str = "") -> Failed:
     return _failed(
         "package.build_type",
         actual,
         element.line if element else None,
         expected=BUILD_TYPE,
-        variant="cmake" if "cmake" in actual else "",
+        variant=variant or ("cmake" if "cmake" in actual else ""),
         params={"build_type": element.text[:80] if element and element.text.isprintable() else ""},
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from posixpath import normpath
 from typing import TYPE_CHECKING
 
@@ -53,6 +54,21 @@ def _both_are_wrong(cfg: SetupCfg, wanted: str) -> bool:
     ]
     values = [setting.value.rstrip("/") for setting in given if setting is not None]
     return len(values) > 1 and wanted not in values
+
+
+def _quoted_lines(cfg: SetupCfg, wanted: str) -> list[int]:
+    """Return the lines on which a path is right except for the quotes around it."""
+    given = [
+        setting
+        for section, key in (("develop", "script_dir"), ("install", "install_scripts"))
+        for name, setting in cfg.sections.get(section, {}).items()
+        if name in (key, key.replace("_", "-"))
+    ]
+    return sorted(
+        setting.line
+        for setting in given
+        if setting.value[:1] in ("'", '"') and setting.value.strip("'\"").rstrip("/") == wanted
+    )
 
 
 @check("package.manifest", stage=INTAKE, depends=["package.found"])
@@ -175,12 +191,15 @@ def setup_cfg(evidence: Evidence) -> Passed:
     )
     file = file_of(evidence, "setup.cfg")
     if file is None or file.unreadable:
+        near = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8) if file is None else ""
+        close = near if file_of(evidence, near) is not None else ""
         raise Failed(
             "package.setup_cfg_missing",
             expected=expected,
             actual=_no_cfg(evidence, file.reason if file else ""),
-            where=Where(file="setup.cfg"),
-            words={"package": package},
+            where=Where(file=shown(close) or "setup.cfg"),
+            variant="renamed" if close else "",
+            words={"package": package, "close": shlex.quote(shown(close))},
         )
     try:
         cfg = read_setup_cfg(file.data)
@@ -223,9 +242,10 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
                 dashed=dashed,
             )
         ]
-    line, close = cfg.lines.get(section), ""
+    line, close, quoted = cfg.lines.get(section), "", _quoted_lines(cfg, wanted)
     if setting is not None:
         line, variant = setting.line, "both" if _both_are_wrong(cfg, wanted) else ""
+        variant = "quotes" if setting.line in quoted else variant
         value = shown(setting.value)
         said: str = say("[{section}] has {key}={value}", section=section, key=key, value=value)
         actual = with_difference(said, setting.value, wanted)
@@ -246,5 +266,9 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         where=Where(file="setup.cfg", line=line),
         variant=variant,
         params={"section": section, "key": key},
-        words={"wanted": wanted, "close": shown(close)},
+        words={
+            "wanted": wanted,
+            "close": shown(close),
+            "line": ", ".join(str(number) for number in quoted),
+        },
     )

@@ -1,0 +1,127 @@
+"""A package.xml that breaks a rule of its format: the line, what to write, and the patch."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grader.verdict.checks import package
+from grader.verdict.fix import patch_for
+from grader.verdict.static import static_results
+from grader.verdict.take_in import take_in_for
+
+from .static_bench import FILES, Bench, line, mistake
+
+DEPEND = "  <depend>rclpy</depend>\n"
+XML = '<?xml version="1.0"?>\n'
+EMAIL = 'email="jane@todo.todo"'
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path / "jane")
+
+
+def patched(bench: Bench) -> str:
+    """Return the patch of package.manifest in the bench's package."""
+    submission = take_in_for(bench.assignment, bench.root)
+    found = static_results(submission, bench.assignment)["package.manifest"]
+    return patch_for(found, submission, bench.assignment)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "at", "fix", "changed"),
+    [
+        (DEPEND, DEPEND + "  <exec_depend>rclpy</exec_depend>\n", 10, "Delete <exec_depend>", True),
+        (
+            DEPEND,
+            "  <build_depend>rclpy</build_depend>\n" + DEPEND,
+            9,
+            "Delete <build_depend>",
+            True,
+        ),
+        ("  <desc", "  <description>Mine</description>\n  <desc", 7, "begins in line 7", True),
+        ("</name>\n", "</name>\n  <name>hello</name>\n", 5, "begins in line 5", True),
+        ("  <name>", "  <name>hello</name>\n  <name>", 4, "begins in line 4", True),
+        ("</version>\n", "</version>\n  <version>1.0.0</version>\n", 6, "begins in line 6", True),
+        ("jane@todo.todo", "jane(at)uni.de", 7, 'email="jane@uni.de"', True),
+        ("jane@todo.todo", "Jane <jane@uni.de>".replace("<", "&lt;"), 7, "jane@uni.de", False),
+        ("jane@todo.todo", "jane.uni.de", 7, "with an @", False),
+        ("jane@todo.todo", "", 7, "Write an address into the tag", False),
+        (EMAIL, "", 7, "Write an address into the tag", False),
+        (EMAIL, 'mail="jane@uni.de"', 7, "email= instead of mail=", True),
+        (' format="3"', "", 3, 'format="3"', True),
+        ('format="3"', 'format="4"', 3, 'format="3"', True),
+        ("depend>", "run_depend>", 9, "<exec_depend> instead of <run_depend>", True),
+        (DEPEND, DEPEND + "  <course>ROS</course>\n", 10, "Delete <course>", True),
+        ("<depend>", '<depend version="1">', 9, "Delete version=", True),
+        ("rclpy</depend>", "rclpy<doc_depend>x</doc_depend></depend>", 9, "below </depend>", False),
+        (DEPEND, DEPEND + "  <license></license>\n", 10, "Delete this empty <license>", True),
+        ("package", "Package", 3, "outermost tag", True),
+        (XML, "<!-- Jane -->\n" + XML, 1, "from line 2 to the top", True),
+        (XML, "\n \n" + XML, 1, "Delete the empty lines", True),
+        (XML, " " + XML, 1, "Delete the empty lines", True),
+        (XML, "\ufeff<!-- Jane -->\n" + XML, 1, "from line 2 to the top", True),
+        (XML, "Jane\n" + XML, 1, "Delete what is before", True),
+        (XML, XML + XML, 2, "Delete this line", True),
+    ],
+)
+def test_the_line_and_the_change_are_named(
+    bench: Bench, old: str, new: str, at: int, fix: str, changed: bool
+) -> None:
+    text = FILES["package.xml"]
+    several = old in ("depend>", "package")
+    assert several or text.count(old) == 1
+    if old == "package":
+        text = text.replace("<package ", "<Package ").replace("</package>", "</Package>")
+    else:
+        text = text.replace(old, new)
+    bench.write("package.xml", text)
+    found = bench.fails(package.manifest)
+    assert mistake(found) in ("package.manifest_rules", "package.broken_xml")
+    assert line(found) == at
+    assert fix in found.fix
+    assert "Error(s)" not in found.actual
+    assert bool(patched(bench)) == changed
+
+
+def test_a_byte_order_mark_alone_is_right(bench: Bench) -> None:
+    bench.write("package.xml", "\ufeff" + FILES["package.xml"])
+    assert bench.passes(package.manifest)
+
+
+def test_a_build_type_outside_makes_no_cpp_package(bench: Bench) -> None:
+    text = FILES["package.xml"].replace("  <export>\n", "").replace("  </export>\n", "")
+    bench.write("package.xml", text)
+    found = bench.fails(package.manifest)
+    assert "CMakeLists" not in found.rationale
+    assert "<export>" in found.fix
+
+
+def test_a_misnamed_manifest_is_the_place(bench: Bench) -> None:
+    (bench.root / "package.xml").rename(bench.root / "Package.xml")
+    found = bench.fails(package.manifest)
+    assert found.where is not None
+    assert found.where.file == "Package.xml"
+    assert "capitals" in found.fix
+    assert "mv Package.xml package.xml" in found.fix
+    assert "reports success" not in found.rationale
+
+
+def test_the_quotes_of_setup_cfg_are_named(bench: Bench) -> None:
+    text = FILES["setup.cfg"].replace(
+        "=$base/lib/my_robot_controller", "='$base/lib/my_robot_controller'"
+    )
+    bench.write("setup.cfg", text)
+    found = bench.fails(package.setup_cfg)
+    assert "Delete the quotes" in found.fix
+    assert "lines: 2, 4" in found.fix
+
+
+def test_a_misnamed_setup_cfg_is_renamed(bench: Bench) -> None:
+    (bench.root / "setup.cfg").rename(bench.root / "setup.cfg.txt")
+    found = bench.fails(package.setup_cfg)
+    assert "mv setup.cfg.txt setup.cfg" in found.fix
+    assert found.where is not None
+    assert found.where.file == "setup.cfg.txt"
