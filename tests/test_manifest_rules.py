@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from grader.verdict.checks import package
+from grader.verdict.checks import package, source
 from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from grader.verdict.take_in import take_in_for
 
-from .static_bench import FILES, Bench, line, mistake
+from .static_bench import FILES, NODE, Bench, line, mistake
 
 DEPEND = "  <depend>rclpy</depend>\n"
 XML = '<?xml version="1.0"?>\n'
@@ -125,3 +125,9 @@ def test_a_misnamed_setup_cfg_is_renamed(bench: Bench) -> None:
     assert "mv setup.cfg.txt setup.cfg" in found.fix
     assert found.where is not None
     assert found.where.file == "setup.cfg.txt"
+
+
+def test_the_command_that_moves_the_node_is_told(bench: Bench) -> None:
+    (bench.root / NODE).rename(bench.root / "my_first_node.py")
+    found = bench.fails(source.node_file)
+    assert f"In the package's folder, run: mv my_first_node.py {NODE}" in found.fix

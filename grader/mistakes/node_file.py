@@ -165,6 +165,9 @@ KINDS = (
             "init_empty": msg(
                 "Move the code from {init} into {wanted}, and leave __init__.py empty."
             ),
+            "inside": msg(
+                "Move it into the inner folder. In the package's folder, run: mv {there} {wanted}"
+            ),
             "folder": msg("Rename the folder {folder} to {inner}, to the letter: case matters."),
         },
         link=links.PACKAGE,
@@ -224,7 +227,7 @@ KINDS = (
             "The entry point and the exercise name this file. Every letter counts, and case "
             "matters."
         ),
-        fix=msg("Rename it: mv {there} {path}"),
+        fix=msg("Rename it. In the package's folder, run: mv {there} {path}"),
         link=links.FIRST_NODE,
         fixed_by=(layout.node_name,),
         examples=(
@@ -403,6 +406,18 @@ KINDS = (
                 fails="source.node_file",
                 also={"source.shebang": "source.pasted"},
                 blocks=UNSTARTED,
+            ),
+            example(
+                "rich_text",
+                Write(
+                    NODE,
+                    "{\\rtf1\\ansi\\ansicpg1252\\cocoartf2761\n"
+                    "\\f0\\fs24 #!/usr/bin/env python3\\\n"
+                    "import rclpy\\\n"
+                    "}\n",
+                ),
+                fails="source.node_file",
+                blocks=("source.shebang", *UNSTARTED),
             ),
             example(
                 "python_prompt",

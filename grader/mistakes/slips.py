@@ -60,7 +60,11 @@ DOCUMENTS = {
     "notebook": msg(
         "This file is a notebook. Write the code of its cells into the file, as plain text."
     ),
-    "word": msg("This file was saved as a document with formats. Save it again as plain text."),
+    "word": msg(
+        "This file is a document in the format RTF, not a plain text. Open it in the program that "
+        "wrote it and save it as plain text: in TextEdit with Format > Make Plain Text. In a code "
+        "editor you see only the codes of the format."
+    ),
     "conflict": msg(
         "git could not join two versions of these lines. Keep one version, and delete the other "
         "one and the lines with <<<<<<<, ======= and >>>>>>> (to line {line})."

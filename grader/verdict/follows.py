@@ -23,6 +23,7 @@ FOLLOWS = {
 REPEATED = {
     "entry_point.mapping": ("", ("node.main_missing", "node.main_misspelt")),
     "source.node_file": ("/__init__.py", ("source.no_init_file", "package.created_as_cmake")),
+    "package.found": ("", ("build.ignored",)),
 }
 """By the kind of check: the mistakes that say the same as its advice, with more about the cause.
 

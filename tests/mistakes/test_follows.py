@@ -61,6 +61,18 @@ def test_the_missing_init_file_is_told_once(name: str, tmp_path: Path) -> None:
     assert [text for text in advice if "__init__.py" in text] == []
 
 
+def test_an_ignored_package_is_told_once(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["colcon_ignore"], tmp_path))
+    assert "rm COLCON_IGNORE" in report.check("build.colcon").fix
+    assert report.check("package.found").advice == []
+
+
+def test_a_document_has_no_first_line_to_correct(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["rich_text"], tmp_path))
+    assert "Make Plain Text" in report.check("source.node_file").fix
+    assert report.check("source.shebang").blocked_by == "source.node_file"
+
+
 @pytest.mark.parametrize("shallow", [False, True], ids=["in the inner folder", "in the package"])
 @pytest.mark.parametrize("helper", [False, True], ids=["", "with a helper"])
 def test_the_commands_for_a_package_created_inside_lose_nothing(

@@ -195,6 +195,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     if elsewhere:
         place = shown(elsewhere[0])
         actual_place = say("it is in {path}", path=place)
+        movable = bool(inside) and submission.file(inner) is not None
         if not inside:
             actual_place = say("it is in {path}, outside of the package", path=place)
         return Failed(
@@ -202,9 +203,14 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             expected=expected,
             actual=actual_place,
             where=Where(file=shown(inside[0])) if inside else None,
-            variant="folder" if _is_inner(evidence, place) else "",
+            variant="folder" if _is_inner(evidence, place) else "inside" if movable else "",
             params={"path": place},
-            words={"wanted": path, "folder": place.partition("/")[0], "inner": inner},
+            words={
+                "wanted": path,
+                "folder": place.partition("/")[0],
+                "inner": inner,
+                "there": shlex.quote(place),
+            },
         )
     init = f"{inner}/__init__.py"
     if _has_node(evidence, init):
@@ -350,7 +356,15 @@ def shebang(evidence: Evidence) -> Passed:
         through_env = b"/env" in first and b"-S" not in first
         if not (rest.strip() and through_env):
             return Passed(actual=shown(first.decode("utf-8", "replace")))
+    if _is_document(file.data):
+        raise Blocked(by="source.node_file")
     raise _no_shebang(evidence, file.data, first)
+
+
+def _is_document(found: bytes) -> bool:
+    """Whether the file is a document, and so has no first line of Python."""
+    slip = slip_of(found)
+    return slip is not None and slip.cause == "document" and slip.variant != "conflict"
 
 
 def _is_empty_beside_init(evidence: Evidence, file: SourceFile) -> bool:
