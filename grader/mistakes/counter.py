@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -16,7 +16,7 @@ from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, outer_word, targets_of
+from grader.package.source.counter import logged_counter, outer_word, parts_of_callback, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import function_at, place_of
@@ -34,7 +34,7 @@ class Counter:
 
     name: str
     added: list[ast.AugAssign]
-    set: list[ast.Assign]
+    set: list[ast.Assign | ast.AnnAssign]
     logged: ast.Call  # the first log call
 
 
@@ -44,16 +44,18 @@ def counter_in(suspect: Suspect) -> Counter | None:
     if callback is None or logged is None:
         return None
     call, name = logged
-    found = [n for n in ast.walk(callback) if name in targets_of(n)]
+    parts = parts_of_callback(suspect.source)
+    found = [n for part in parts for n in ast.walk(part) if name in targets_of(n)]
     added = [n for n in found if isinstance(n, ast.AugAssign)]
     return Counter(
         name,
         sorted(added, key=lambda n: n.lineno),
-        [n for n in found if isinstance(n, ast.Assign)],
+        [n for n in found if isinstance(n, ast.Assign | ast.AnnAssign)],
         call,
     )
 
 
+LOG_AND_STEP = f"{LOG_LINE}{STEP_LINE}"
 UNBOUND = r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'"
 
 
@@ -166,9 +168,24 @@ def _other_format(suspect: Suspect, sign: str) -> ast.Call | None:
 
 
 def _without_number(suspect: Suspect) -> RecognisedMistake | None:
-    if suspect.text.split() != suspect.output.text.replace("{n}", "").split():
+    without = suspect.output.text.replace("{n}", "").split()
+    if suspect.text.split() != without and not _constant_text(suspect):
         return None
     return suspect.finding("text_without_number", _place_of_text(suspect))
+
+
+def _constant_text(suspect: Suspect) -> bool:
+    """Whether the callback logs the first line of the output as it is."""
+    call = suspect.source.log_call
+    given = call.args[0] if call is not None else None
+    return isinstance(given, ast.Constant) and given.value == suspect.output.line(
+        suspect.output.start
+    )
+
+
+def _always_first(suspect: Suspect) -> RecognisedMistake | None:
+    call = suspect.source.log_call
+    return suspect.finding("text_without_number", call) if _constant_text(suspect) else None
 
 
 def _tuple(suspect: Suspect) -> RecognisedMistake | None:
@@ -547,9 +564,14 @@ KINDS = (
         msg("The number in the line is the counter's value at that moment."),
         msg("Add the counter to the text: {sum}"),
         links.PYTHON_STRINGS,
-        behind={"run.wrong_text": _without_number},
+        behind={"run.wrong_text": _without_number, "run.constant_counter": _always_first},
         fixed_by=(node_log.number,),
         examples=(
+            example(
+                "first_line_as_constant",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: 0'"),
+                fails="run.output",
+            ),
             example(
                 "text_without_number",
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: '"),
@@ -637,7 +659,7 @@ KINDS = (
             "if": msg("Remove this line and its if: the counter never starts again."),
         },
         behind={"run.constant_counter": _reset, "run.wrong_step": _reset_if},
-        fixed_by=(node_count.kept, lines.deleted),
+        fixed_by=(node_count.kept, node_count.moved),
         examples=(
             example(
                 "counter_reset",
@@ -649,6 +671,11 @@ KINDS = (
                         "        self.get_logger().info('Hello time: ' + str(self.counter_))"
                     ),
                 ),
+                fails="run.output",
+            ),
+            example(
+                "counter_reset_with_type",
+                Replace(NODE, LOG_LINE, f"        self.counter_: int = 0\n{LOG_LINE}"),
                 fails="run.output",
             ),
             example(
@@ -705,6 +732,14 @@ KINDS = (
         behind={"run.wrong_step": _adds_twice},
         fixed_by=(node_count.twice,),
         examples=(
+            example(
+                "adds_in_helper_too",
+                Replace(NODE, LOG_AND_STEP, "        self.show()\n        self.counter_ += 1\n"),
+                Replace(
+                    NODE, "\n\ndef main(", f"\n    def show(self):\n{LOG_AND_STEP}\n\ndef main("
+                ),
+                fails="run.output",
+            ),
             example(
                 "adds_twice",
                 Replace(

@@ -112,10 +112,13 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return raised.finding("name_unknown", name=name, close=own)
+    close = nearest(name, _known(raised, name) - {name}, 0.7)
+    if isinstance(statement, ast.ClassDef) and close:
+        return raised.finding("name_unknown", name=name, close=close, written=close)
     variables = raised.source.node_variables
-    if name in spun_names(raised.source) and len(variables) == 1:
+    if name in spun_names(raised.source) and len(variables) == 1 and name not in variables:
         return raised.finding("name_unknown", name=name, close=min(variables))
-    return raised.finding("name_unknown", name=name, close=nearest(name, _known(raised, name), 0.7))
+    return raised.finding("name_unknown", name=name, close=close)
 
 
 def _class_for(raised: Raised, name: str) -> str | None:
@@ -398,6 +401,11 @@ KINDS = (
         raised={NAME_ERROR: _undefined},
         fixed_by=(lines.written, rename.variable, lines.deleted_name),
         examples=(
+            example(
+                "base_in_small_letters",
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
+                fails="run.starts",
+            ),
             example(
                 "period_not_defined",
                 Replace(NODE, "create_timer(1.0,", "create_timer(timer_period,"),

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
-from grader.package.source.counter import logged_counter
+from grader.package.source.counter import logged_counter, starts_of
 from grader.package.source.node import NodeSource
 
 CALLBACK = "callback"  # default names, if the student's source has none
@@ -80,4 +80,5 @@ def _callback_of(source: NodeSource | None) -> str:
 
 def _counter_of(source: NodeSource | None) -> str:
     logged = logged_counter(source) if source is not None else None
-    return logged[1] if logged else COUNTER
+    starts = list(starts_of(source)) if source is not None and logged is None else []
+    return logged[1] if logged else starts[0] if len(starts) == 1 else COUNTER

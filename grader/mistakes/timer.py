@@ -196,6 +196,21 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
 
 
+def _called_once(suspect: Suspect) -> RecognisedMistake | None:
+    """No timer is created, and __init__ calls the method that logs."""
+    source, init = suspect.source, suspect.source.methods.get("__init__")
+    if source.timers or source.calls_of("create_timer"):
+        return None
+    for call, _ in calls_in(init) if init is not None else ():
+        method = source.methods.get(own_name(call.func))
+        if method is not None and source.logs(method):
+            code = source.module_of(call).text.code(call)
+            new = f"self.create_timer({suspect.output.period!r}, self.{method.name})"
+            found = suspect.finding("timer_missing", call, name=code, written=new)
+            return replace(found, variant="by_hand")
+    return None
+
+
 def _cancelled(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         if name.endswith(".cancel"):
@@ -510,9 +525,21 @@ KINDS = (
         msg("No timer is created"),
         msg("Only a timer calls the callback again and again."),
         msg("Write in __init__: self.create_timer({period}, self.{callback})"),
-        behind={"run.no_lines": _missing},
-        fixed_by=(node_timer.made,),
+        whys={
+            "by_hand": msg("{name} calls the method once. Only a timer calls it again and again.")
+        },
+        fixes={"by_hand": msg("Write {written} instead of {name}.")},
+        behind={"run.no_lines": _missing, "run.stops": _called_once},
+        fixed_by=(lines.written, node_timer.made),
         examples=(
+            example(
+                "callback_called_once",
+                Replace(
+                    NODE, "self.create_timer(1.0, self.timer_callback)", "self.timer_callback()"
+                ),
+                fails="run.output",
+                also={"run.period": "run.by_hand"},
+            ),
             example(
                 "timer_missing",
                 Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),

@@ -11,9 +11,9 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, NODE, example
 from grader.mistakes.fixes import node_values
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of
+from grader.package.source.counter import logged_counter, starts_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.place import function_at, statement_at
@@ -35,6 +35,16 @@ def _start_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
             value = node_values.number_in(start)
             return raised.finding("start_is_text", at=start, name=dotted(part), value=value)
     return None
+
+
+def _joined(suspect: Suspect) -> RecognisedMistake | None:
+    """The counter starts with a number in quotes, and the callback appends to it."""
+    logged = logged_counter(suspect.source)
+    start = starts_of(suspect.source, str).get(logged[1]) if logged is not None else None
+    value = node_values.number_in(start) if start is not None else ""
+    if start is None or logged is None or not value:
+        return None
+    return suspect.finding("start_is_text", start, name=logged[1], value=value)
 
 
 def _hidden(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -76,8 +86,17 @@ KINDS = (
         msg("A number in quotes is a string, and Python cannot add a string to a number."),
         msg("Write {name} = {value}, without quotes."),
         raised={ADDED: _start_is_text},
+        behind={"run.wrong_text": _joined, "run.wrong_step": _joined},
         fixed_by=(node_values.number,),
         examples=(
+            example(
+                "counter_grows_as_text",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
+                Replace(NODE, "str(self.counter_)", "self.counter_"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += '1'"),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
             example(
                 "counter_is_text",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
@@ -19,6 +20,7 @@ from grader.package.source.counter import (
     targets_of,
 )
 from grader.package.source.node import NodeSource
+from grader.package.source.place import statement_at
 
 
 def plus(case: Case) -> Files | None:
@@ -215,6 +217,29 @@ def kept(case: Case) -> Files | None:
     if not plain or not inside or row != module.text.code(resets[0]):
         return None
     return case.changed(module, module.text.without(resets[0].lineno))
+
+
+def moved(case: Case) -> Files | None:
+    """Move the line of the callback that resets an attribute to __init__, or delete it.
+
+    It is deleted if __init__ or the class gives the attribute its start.
+    """
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    init, module = node.method("__init__") if node else None, case.module
+    if node is None or module is None or init is None or not name.startswith("self."):
+        return None
+    if name in starts_of(node):
+        return lines.deleted(case)
+    statement = statement_at(module, case.finding.line)
+    base = node.super_init
+    row = module.text.line(statement.lineno) if statement is not None else ""
+    if statement is None or base is None or row.strip() != module.text.code(statement):
+        return None
+    if node.module is not module or statement in init.body or len(set(targets_of(statement))) != 1:
+        return None
+    indent = indent_of(module.text.line(base.lineno))
+    after = module.text.before((base.end_lineno or base.lineno) + 1, f"{indent}{row.strip()}")
+    return case.changed(module, after, module.text.without(statement.lineno))
 
 
 def _made_attribute(case: Case, call: ast.Call) -> Files | None:

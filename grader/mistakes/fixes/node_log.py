@@ -258,7 +258,9 @@ def number(case: Case) -> Files | None:
     if node is None or call is None or after or len(counters) != 1:
         return None
     module = node.module_of(call)
-    if (module.text.plain_string(call.args[0]) or "").rstrip() != before.rstrip():
+    output = case.assignment.output
+    written = module.text.plain_string(call.args[0]) or ""
+    if written.rstrip() != before.rstrip() and written != output.line(output.start):
         return None
     q = module.text.code(call.args[0])[0]
     new = f"{q}{before}{q} + str({counters[0]})"

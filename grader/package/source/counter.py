@@ -178,10 +178,24 @@ def _read_in(value: ast.expr) -> list[str]:
 
 
 def logged_counter(source: NodeSource) -> tuple[ast.Call, str] | None:
-    """Return the first log call of the callback, and the counter that it shows."""
-    callback = source.callback
-    if callback is None:
-        return None
+    """Return the first log call of the callback, and the counter that it shows.
+
+    If it is in none of the callback's own lines, look into the methods that the callback calls.
+    """
+    found = (_logged_in(source, part) for part in parts_of_callback(source))
+    return next(filter(None, found), None)
+
+
+def parts_of_callback(source: NodeSource) -> list[Function]:
+    """Return the callback, and the node's methods that it calls."""
+    parts = [source.callback] if source.callback is not None else []
+    for part in parts:
+        called = [source.method(own_name(call.func)) for call, _ in calls_in(part)]
+        parts += [m for m in dict.fromkeys(called) if m is not None and m not in parts]
+    return parts
+
+
+def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] | None:
     calls = [*source.logs(callback), *source.prints(callback)]
     starts = starts_of(source)
     for call in calls:
