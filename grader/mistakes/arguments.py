@@ -236,7 +236,7 @@ KINDS = (
             ),
             "rospy": msg("Write {written} instead of rospy.{name}."),
             "rospy_other": msg("Remove rospy.{name}: ROS 2 has no rospy."),
-            "spin": msg("Write rclpy.spin(node) instead of rospy.spin()."),
+            "spin": msg("Write rclpy.spin({node}) instead of rospy.spin()."),
         },
         seen=r"AttributeError: module 'rclpy' has no attribute '(?P<name>loginfo)'",
         raised={

@@ -167,7 +167,7 @@ KINDS = (
         links.EXECUTORS,
         fixes={
             "spins": msg(
-                "Write rclpy.spin(node) instead of the whole loop. Put only this line in a try: "
+                "Write rclpy.spin({node}) instead of the whole loop. Put only this line in a try: "
                 "with except KeyboardInterrupt:"
             )
         },

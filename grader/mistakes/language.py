@@ -530,7 +530,7 @@ KINDS = (
             "A class always counts as true: if {name}: does not ask whether the exception came. "
             "try and except do."
         ),
-        msg("Write try: before rclpy.spin(node), and except {name}: below it."),
+        msg("Write try: before rclpy.spin({node}), and except {name}: below it."),
         links.PYTHON_ERRORS,
         behind={
             "run.exits_at_once": _condition,

@@ -500,7 +500,7 @@ KINDS = (
                 "Remove {name} from the parameters in this line: nothing in __init__ uses it, and "
                 "line {line} passes no value."
             ),
-            "spin": msg("Write rclpy.spin(node): spin needs the node that was created."),
+            "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
         },
         raised={
             r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _argument

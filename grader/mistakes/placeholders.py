@@ -13,6 +13,7 @@ from grader.package.source.counter import logged_counter, starts_of
 from grader.package.source.node import NodeSource
 
 CALLBACK = "callback"  # default names, if the student's source has none
+NODE = "node"
 COUNTER = "self.counter"
 CLASS = "MyNode"
 
@@ -22,7 +23,7 @@ def placeholder_values(
 ) -> dict[str, Value]:
     """Return the values that the assignment and the source give to placeholders.
 
-    `period` is in seconds, `callback` is a bare name, `counter` begins with `self.`; `sum` and
+    `period` is in seconds, `callback` is a bare name, `counter` begins with `self.`, `node` is the node's variable; `sum` and
     `f_string` are two ways to write the text of a line in Python.
     """
     output = assignment.output
@@ -38,9 +39,16 @@ def placeholder_values(
         "line": output.line(0),
         "callback": _callback_of(source),
         "counter": counter,
+        "node": _variable_of(source),
         "sum": as_sum(output, counter),
         "f_string": as_f_string(output, counter),
     }
+
+
+def _variable_of(source: NodeSource | None) -> str:
+    """Return the variable that has the node, if there is exactly one."""
+    variables = source.node_variables if source is not None else set()
+    return min(variables) if len(variables) == 1 else NODE
 
 
 def _example() -> Mapping[str, Value]:
@@ -48,6 +56,7 @@ def _example() -> Mapping[str, Value]:
     return {
         "function": "main",
         "counter": COUNTER,
+        "node": NODE,
         "sum": as_sum(text, COUNTER),
         "f_string": as_f_string(text, COUNTER),
     }

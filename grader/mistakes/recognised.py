@@ -132,7 +132,6 @@ class Suspect:
         """
         words = {
             **placeholder_values(self.assignment, self.source),
-            "node": "node",
             "name": "",
             "close": "",
             **params,

@@ -171,7 +171,7 @@ KINDS = (
         ),
         msg(
             "Put what the loop does into a method, call it with a timer that __init__ creates: "
-            "self.create_timer({period}, self.{callback}), and write rclpy.spin(node) in "
+            "self.create_timer({period}, self.{callback}), and write rclpy.spin({node}) in "
             "{function} instead of the loop."
         ),
         links.EXECUTORS,
@@ -313,7 +313,7 @@ KINDS = (
         "spin",
         msg("Nothing in the program spins the node"),
         SPIN,
-        msg("Call rclpy.spin(node) in {function}, after creating the node."),
+        msg("Call rclpy.spin({node}) in {function}, after creating the node."),
         links.EXECUTORS,
         whys={
             "guard": msg(

@@ -334,7 +334,7 @@ KINDS = (
         "spin",
         msg("A daemon thread spins the node, and nothing waits for it"),
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
-        msg("Call rclpy.spin(node) in {function} itself, without the thread."),
+        msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
         behind={"run.exits_at_once": _daemon},
         examples=(
             example(
