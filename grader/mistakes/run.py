@@ -12,7 +12,10 @@ from grader.package.edit.tree import Replace
 SPIN = msg(
     "rclpy.spin(node) keeps the node running: it waits, and calls your callbacks when they are due."
 )
-COUNT = msg("The counter is set once, before the first callback, and each callback adds {step}.")
+COUNT = msg(
+    "A node that counts sets its counter once, before the first callback, and adds {step} to it in "
+    "each callback."
+)
 RECORD = msg(
     "A log record has a level, a time and the node's name, and goes to /rosout, where other "
     "programs can read it. print() only writes text to this terminal."
@@ -311,8 +314,8 @@ KINDS = (
         why=SPIN,
         whys={"callback": msg("A callback that raises an exception ends the node.")},
         fix=msg(
-            "Let the timer keep running: remove any limit on the count and any exit from the "
-            "callback."
+            "Look for what ends the program, in the callback and in what it calls: an exit, a "
+            "limit on the count, or a shutdown. Delete it."
         ),
         fixes={"callback": msg("Fix the line that the traceback shows, and run the node again.")},
         link=links.EXECUTORS,
@@ -337,8 +340,8 @@ KINDS = (
         msg("The lines stop coming"),
         SPIN,
         msg(
-            "Let the timer keep running: remove any limit on the count and any exit from the "
-            "callback."
+            "Look for what ends the lines: a timer that does not exist, is cancelled or belongs to "
+            "another node, a limit on the count, or a return before the line that logs."
         ),
     ),
     _run(
