@@ -100,13 +100,28 @@ def _reads(value: ast.expr, name: str) -> bool:
 
 def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
-    name = str(raised.words["counter"])
     for node in raised.module.nodes:
-        if isinstance(node, ast.BinOp) and raised.line in range(
-            node.lineno, (node.end_lineno or node.lineno) + 1
-        ):
-            name = dotted(node.right) or dotted(node.left) or name
-    return raised.finding("str_plus_int", name=name)
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        if raised.line not in range(node.lineno, (node.end_lineno or node.lineno) + 1):
+            continue
+        operand = next((part for part in (node.right, node.left) if _may_be_number(part)), None)
+        if operand is not None:
+            text = raised.module.text
+            number = operand
+            if isinstance(operand, ast.Call) and len(operand.args) == 1:
+                number = operand.args[0] if dotted(operand.func) in ("int", "float") else operand
+            written = f"str({text.code(number)})"
+            return raised.finding("str_plus_int", name=text.code(operand), written=written)
+    counter = str(raised.words["counter"])
+    return raised.finding("str_plus_int", name=counter, written=f"str({counter})")
+
+
+def _may_be_number(part: ast.expr) -> bool:
+    """Whether an operand of + is not a text for certain, nor itself a sum."""
+    text = isinstance(part, ast.JoinedStr | ast.BinOp)
+    text = text or (isinstance(part, ast.Constant) and isinstance(part.value, str))
+    return not text and not (isinstance(part, ast.Call) and dotted(part.func) == "str")
 
 
 def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -394,15 +409,31 @@ KINDS = (
         "text",
         msg("A string and a number are added"),
         msg("Python's + joins a string only with another string."),
-        msg("Convert the number to a string with str({name}), or use an f-string."),
+        msg("Write {written} instead of {name}: str() makes a string of a number."),
         links.PYTHON_STRINGS,
         seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
         raised={
             r"can only concatenate str|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
         },
-        fixed_by=(node_log.number_as_text,),
+        fixed_by=(node_log.number_as_text, lines.written),
         examples=(
+            example(
+                "int_for_str",
+                Replace(NODE, "str(self.counter_)", "int(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "str_around_the_sum",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "str('Hello time: ' + self.counter_)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "str_missing",
                 Replace(NODE, "str(self.counter_)", "self.counter_"),

@@ -67,6 +67,11 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match):
         return None
     name, close = match["name"], _close_attribute(raised, match["name"])
+    for timer in raised.source.timers:
+        if dotted(timer.period or timer.call) == f"self.{name}" and not close:
+            period = repr(raised.assignment.output.period)
+            found = raised.finding("attribute_not_set", name=f"self.{name}", written=period)
+            return replace(found, variant="period", words={**found.words, "name": name})
     for node in raised.source.own_nodes:
         if (
             isinstance(node, ast.AnnAssign)
@@ -170,6 +175,11 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     if match["type"] in ("NoneType", "rclpy"):
         found = raised.finding("attribute_unknown", name=match["name"])
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
+    own = f"self.{match['name']}"
+    if match["type"] in raised.source.class_names and match["name"] in raised.source.attributes:
+        code = f"{match['type']}.{match['name']}"
+        found = raised.finding("attribute_unknown", name=code, written=own)
+        return replace(found, variant="written")
     suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
     close = suggested[1] if suggested and _is_written(raised, match["name"]) else ""
     return raised.finding("attribute_unknown", name=match["name"], close=close)
@@ -307,6 +317,10 @@ KINDS = (
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
             ),
             "annotated": msg("Write {written} instead of {name}."),
+            "period": msg(
+                "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
+                "= {written} above this line."
+            ),
             "object": msg(
                 "Delete this line if it belongs to another example. If the node needs it, create "
                 "self.{name} in __init__ first."
@@ -321,6 +335,11 @@ KINDS = (
         raised={OWN_ATTRIBUTE: _not_set},
         fixed_by=(lines.written, node_names.close_attribute, node_names.counter),
         examples=(
+            example(
+                "period_attribute_not_set",
+                Replace(NODE, "create_timer(1.0", "create_timer(self.timer_period"),
+                fails="run.starts",
+            ),
             example(
                 "counter_with_colon",
                 Replace(NODE, "self.counter_ = 0", "self.counter_: 0"),
@@ -554,6 +573,12 @@ KINDS = (
         raised={ATTRIBUTE: _unknown},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "class_for_self",
+                Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "node_spins_itself",
                 Replace(NODE, "rclpy.spin(node)", "node.spin()"),

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_count, node_scope
+from grader.mistakes.fixes import lines, node_count, node_scope
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
@@ -64,13 +64,29 @@ def creates_timer(raised: Raised) -> bool:
 def _self_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["name"] != "self" or raised.line is None:
         return None
-    if function_at(raised.module, raised.line) is not None:
+    function = function_at(raised.module, raised.line)
+    if function is not None and _is_method(raised, function):
+        return None
+    if function is not None:
         return _self_in_function(raised)
     method = method_above(raised.module, raised.line)
     if creates_timer(raised):
         return None
     found = raised.finding("self_outside", name=method.name if method is not None else "")
     return replace(found, variant="method") if method is not None else found
+
+
+def _self_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The first parameter of the method that uses self has another name."""
+    function = function_at(raised.module, raised.line)
+    if match["name"] != "self" or function is None or not _is_method(raised, function):
+        return None
+    first = (*function.args.posonlyargs, *function.args.args)[:1]
+    if not first:
+        return None
+    return raised.finding(
+        "self_misspelt", at=function, name=first[0].arg, written="self", method=function.name
+    )
 
 
 def _self_in_function(raised: Raised) -> RecognisedMistake:
@@ -138,6 +154,26 @@ KINDS = (
                 "guard_without_quotes",
                 Replace(NODE, "'__main__'", "__main__"),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "self_misspelt",
+        "class",
+        msg("The first parameter of a method has another name than self"),
+        msg(
+            "The first parameter of a method is the object, whatever its name is. Here it is called "
+            "{name}, so nothing is called self in {method}."
+        ),
+        msg("Write self instead of {name} in the brackets of this def."),
+        raised={NAME_ERROR: _self_misspelt},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "self_misspelt",
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(slef)"),
+                fails="run.output",
+                blocks=DEAD,
             ),
         ),
     ),

@@ -150,12 +150,29 @@ def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     )
 
 
+def _dot_for_comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A number and the next argument have a dot between them."""
+    row = raised.module.line(raised.line)
+    found = re.search(rf"(?P<number>\d+\.\d*|\d+)\.[ \t]*(?P<next>{match['name']})\b", row)
+    if found is None:
+        return None
+    written = f"{found['number']}, {found['next']}"
+    return raised.finding("dot_for_comma", name=found[0], written=written)
+
+
 def _no_self_dot(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     if all(timer.method != name for timer in raised.source.timers):
         return None
     if name not in raised.source.methods:
         return None
+    function = function_at(raised.module, raised.line)
+    inside = any(function in found.body for found in raised.module.classes)
+    variables = raised.source.node_variables
+    if function is not None and not inside and len(variables) == 1:
+        written = f"{min(variables)}.{name}"
+        found = raised.finding("callback_without_self_dot", name=name, written=written)
+        return replace(found, variant="outside")
     return raised.finding("callback_without_self_dot", name=name)
 
 
@@ -376,15 +393,47 @@ KINDS = (
         ),
     ),
     _node(
+        "dot_for_comma",
+        "timer",
+        msg("There is a dot where a comma belongs"),
+        msg(
+            "A comma separates the arguments of a call. Behind a dot, Python looks for an attribute."
+        ),
+        msg("Write {written} instead of {name}."),
+        links.PYTHON_ERRORS,
+        raised={
+            r"'(?:float|int)' object has no attribute '(?P<name>\w{1,120})'": _dot_for_comma,
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "dot_for_comma",
+                Replace(NODE, "create_timer(1.0, self", "create_timer(1.0. self"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "callback_without_self_dot",
         "timer",
         msg("self. is missing before the callback"),
         msg("A method is reached through its object: self.name."),
         TIMER,
         links.PYTHON_CLASSES,
+        fixes={"outside": msg("Write {written} instead of {name}: there is no self here.")},
         raised={NAME_ERROR: _no_self_dot},
-        fixed_by=(node_timer.callback,),
+        fixed_by=(lines.written, node_timer.callback),
         examples=(
+            example(
+                "timer_in_main_without_node",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    node = MyFirstNode()\n    node.create_timer(1.0, timer_callback)\n",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "callback_without_self_dot",
                 Replace(NODE, "self.timer_callback", "timer_callback"),
