@@ -62,6 +62,11 @@ def meant(word: str) -> str:
     return joined(" ", say("(did you mean '{word}'?)", word=shown(word)), by="") if word else ""
 
 
+def there_is(word: str) -> str:
+    """Return ` (there is 'word')`, for what is missing under its right name; empty if no word."""
+    return joined(" ", say("(there is '{word}')", word=shown(word)), by="") if word else ""
+
+
 def did_you_mean(word: str, words: Iterable[str]) -> str:
     """Return `did you mean 'other'?` with the nearest word; empty if none is near."""
     close = nearest(word, words)

@@ -7,6 +7,7 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.constructor import PRIVATE
 from grader.mistakes.example import DEAD, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_classes
 from grader.mistakes.kind import Family
@@ -126,6 +127,17 @@ def _start_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
         return None
     written = f"self.{match['name']}"
     if written in _uses(found[-1]) or written not in set().union(*map(_uses, found)):
+        return None
+    line = str(found[-2].lineno)
+    return raised.finding("method_twice", at=found[-1], name="__init__", line=line)
+
+
+def _super_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A second __init__ does not call super().__init__, and the first one does."""
+    del match
+    found = _definitions(raised.source.own_methods, "__init__")
+    calls = [any(name == "super().__init__" for _, name in calls_in(init)) for init in found]
+    if len(found) < 2 or calls[-1] or not any(calls):
         return None
     line = str(found[-2].lineno)
     return raised.finding("method_twice", at=found[-1], name="__init__", line=line)
@@ -293,7 +305,7 @@ KINDS = (
             "Keep one def {name}: move the lines that you need from one to the other (the first is "
             "in line {line}), and delete the other."
         ),
-        raised={OWN_ATTRIBUTE: _start_replaced},
+        raised={PRIVATE: _super_replaced, OWN_ATTRIBUTE: _start_replaced},
         behind={"run.no_lines": _replaced, "run.constant_counter": _replaced},
         examples=(
             example(
@@ -313,6 +325,15 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "init_twice_without_super",
+                Replace(
+                    NODE,
+                    TIMER,
+                    f"{TIMER}\n    def __init__(self):\n        self.counter_ = 0\n",
+                ),
+                fails="run.starts",
             ),
             example(
                 "init_twice_without_counter",

@@ -112,7 +112,9 @@ def lines_of(node: ast.expr) -> range:
 def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["type"] not in raised.source.known_classes or raised.source.super_init is not None:
         return None
-    return raised.finding("super_missing")
+    init = raised.source.methods.get("__init__")
+    inside = init is not None and raised.line in range(init.lineno, (init.end_lineno or 0) + 1)
+    return raised.finding("super_missing", at=None if inside else init)
 
 
 def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -19,7 +19,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, parts_of_callback, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
-from grader.package.source.place import function_at, place_of
+from grader.package.source.place import function_at, place_of, statement_at
 from grader.report.model import Where
 
 COUNTER = msg(
@@ -98,8 +98,11 @@ def _reads(value: ast.expr, name: str) -> bool:
     return any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(value))
 
 
-def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
+    statement = statement_at(raised.module, raised.line)
+    if isinstance(statement, ast.Assign) and _adds_text(statement):
+        return None
     for node in raised.module.nodes:
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
             continue
@@ -117,6 +120,15 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     return raised.finding("str_plus_int", name=counter, written=f"str({counter})")
 
 
+def _adds_text(statement: ast.Assign) -> str:
+    """Return what is added in `x = x + '1'`; "" if the statement has another form."""
+    value = statement.value
+    if not isinstance(value, ast.BinOp) or dotted(value.left) not in targets_of(statement):
+        return ""
+    step = value.right.value if isinstance(value.right, ast.Constant) else None
+    return step if isinstance(step, str) else ""
+
+
 def _may_be_number(part: ast.expr) -> bool:
     """Whether an operand of + is not a text for certain, nor itself a sum."""
     text = isinstance(part, ast.JoinedStr | ast.BinOp)
@@ -131,6 +143,9 @@ def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             step, name = node.value.value, dotted(node.target)
             if isinstance(step, str) and name:
                 return raised.finding("step_is_text", at=node, name=name, step=step)
+        if isinstance(node, ast.Assign) and (added := _adds_text(node)):
+            name = next(targets_of(node))
+            return raised.finding("step_is_text", at=node, name=name, step=added)
     return None
 
 
@@ -179,6 +194,17 @@ def _other_format(suspect: Suspect, sign: str) -> ast.Call | None:
         given = text.value if isinstance(text, ast.Constant) else None
         if isinstance(node, ast.Call) and called_name(node) == "format" and given == suspect.text:
             return node
+    return None
+
+
+def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call of format on the line has fewer values than its text has places."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    for call in ast.walk(statement) if statement is not None else ():
+        if isinstance(call, ast.Call) and called_name(call) == "format" and not call.args:
+            written = f".format({raised.words['counter']})"
+            return raised.finding("value_forgotten", at=call, name="{}", written=written)
     return None
 
 
@@ -451,8 +477,16 @@ KINDS = (
         msg("Write {name} += {step}, without quotes."),
         links.PYTHON_CLASSES,
         seen=r"TypeError: unsupported operand type\(s\) for \+=: '(?:int|float)' and 'str'",
-        raised={r"unsupported operand type\(s\) for \+=: '(?:int|float)' and 'str'": _step_is_text},
+        raised={
+            r"unsupported operand type\(s\) for \+=?: '(?:int|float)' and 'str'": _step_is_text
+        },
         examples=(
+            example(
+                "step_is_text_in_sum",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_ + '1'"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "step_is_text",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += '1'"),
@@ -543,6 +577,7 @@ KINDS = (
                 "Write {{}} instead of {name} in the string, or an f-string: {f_string}"
             )
         },
+        raised={r"Replacement index \d{1,9} out of range": _no_value},
         behind={"run.wrong_text": _value_forgotten},
         fixed_by=(node_words.value,),
         examples=(
@@ -559,6 +594,12 @@ KINDS = (
                     "'Hello time: %d'.format(self.counter_)",
                 ),
                 fails="run.output",
+            ),
+            example(
+                "format_without_value",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {}'.format()"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "format_forgotten",

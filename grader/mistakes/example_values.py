@@ -113,6 +113,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.text_elsewhere": {"name": "'Hello:'", "written": "'Hello: '"},
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},
+    "node.period_zero": {"name": "0", "written": "1.0"},
     "node.main_misspelt": {"name": "mian"},
     "node.waits_first": {"name": "input()"},
     "node.init_underscores": {"name": "_init_"},

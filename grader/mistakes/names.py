@@ -172,6 +172,13 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     known = _of_rclpy(raised, match)
     if known is not None:
         return known
+    if (match["type"], match["name"]) == ("rclpy", "get_logger"):
+        call = re.search(
+            rf"rclpy\.{match['name']}\([^()]{{0,80}}\)", raised.module.line(raised.line)
+        )
+        if call is not None:
+            found = raised.finding("attribute_unknown", name=call[0], written="self.get_logger()")
+            return replace(found, variant="written")
     if match["type"] in ("NoneType", "rclpy"):
         found = raised.finding("attribute_unknown", name=match["name"])
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
@@ -573,6 +580,12 @@ KINDS = (
         raised={ATTRIBUTE: _unknown},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "logger_of_rclpy",
+                Replace(NODE, "self.get_logger()", "rclpy.get_logger('my_first_node')"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "class_for_self",
                 Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),

@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.example import DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_scope, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
@@ -85,6 +85,16 @@ def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         code = raised.source.module_of(timer.call).text.code(timer.period)
         period = repr(raised.assignment.output.period)
         return raised.finding("period_negative", at=timer.call, name=code, written=period)
+    return None
+
+
+def _zero(suspect: Suspect) -> RecognisedMistake | None:
+    """The period is 0: the timer is due again at once."""
+    for timer in suspect.source.timers:
+        if timer.period is not None and timer.seconds == 0:
+            code = suspect.source.module_of(timer.call).text.code(timer.period)
+            period = repr(suspect.output.period)
+            return suspect.finding("period_zero", timer.call, name=code, written=period)
     return None
 
 
@@ -545,6 +555,23 @@ KINDS = (
         fixed_by=(lines.written,),
         examples=(
             example("period_negative", Replace(NODE, "(1.0,", "(-1.0,"), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "period_zero",
+        "timer",
+        msg("The period is 0"),
+        msg("A timer with the period 0 is always due: it calls the callback without a pause."),
+        msg("Write {written} instead of {name} in create_timer."),
+        behind={"run.too_much_output": _zero, "run.wrong_period": _zero},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "period_zero",
+                Replace(NODE, "create_timer(1.0,", "create_timer(0,"),
+                fails="run.output",
+                blocks=("run.spins", *DEAD),
+            ),
         ),
     ),
     _node(

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message, say
-from grader.base.nearest import meant, nearest, with_difference
+from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, misplaced
 from grader.package.source.python import PythonFault, parse_python
@@ -174,7 +174,7 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         line, variant = comment[0], "comment"
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
     elif not points.groups and (close := _near_argument(setup)):
-        missing_argument = say("setup() has no entry_points argument") + meant(close)
+        missing_argument = say("setup() has no entry_points argument") + there_is(close)
         variant, actual = "renamed", with_difference(missing_argument, close, "entry_points")
         line = _line_of_argument(setup, close)
     elif (entry := _elsewhere(evidence)) is not None:

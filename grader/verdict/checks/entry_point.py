@@ -10,7 +10,7 @@ import ast
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.base.nearest import meant, nearest, with_difference
+from grader.base.nearest import nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.entry_points import EntryPoints, from_setup_cfg, from_setup_py
 from grader.package.source.python import PythonFault, parse_python
@@ -117,7 +117,7 @@ def _advice(evidence: Evidence) -> list[str]:
         ": ros2 run will stop with AttributeError. Define it: def {function}(args=None):",
         function=function,
     )
-    return [with_difference(none + meant(close) + rest, close, function)]
+    return [with_difference(none + there_is(close) + rest, close, function)]
 
 
 def _top_names(tree: ast.Module) -> set[str]:

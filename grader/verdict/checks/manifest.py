@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message, Value, joined, say
-from grader.base.nearest import meant, nearest, with_difference
+from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.broken_xml import TAGS, XmlFault, xml_fault
 from grader.package.source.manifest import (
@@ -85,7 +85,7 @@ def _read(evidence: Evidence) -> Manifest:
         close = nearest(FILE, names_in(evidence, ""), cutoff=0.75)
         raise _failed(
             "package.no_manifest",
-            with_difference(say("there is no package.xml") + meant(close), close, FILE),
+            with_difference(say("there is no package.xml") + there_is(close), close, FILE),
             None,
             variant="capitals" if close.lower() == FILE else "renamed" if close else "",
             words={"close": shlex.quote(shown(close))},
@@ -240,7 +240,7 @@ def _check_tag_name(manifest: Manifest, tag: str, *, within: str) -> None:
     close = nearest(tag, unknown, cutoff=0.75)
     if not close:
         return
-    missing = say("<{tag}> is missing", tag=tag) + meant(close)
+    missing = say("<{tag}> is missing", tag=tag) + there_is(close)
     raise _failed(
         "package.build_type" if tag == "build_type" else "package.manifest_tag",
         with_difference(missing, close, tag),

@@ -7,7 +7,7 @@ from posixpath import normpath
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.base.nearest import meant, nearest, with_difference
+from grader.base.nearest import nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import INDEX
@@ -223,7 +223,7 @@ def _no_cfg(evidence: Evidence, reason: str) -> str:
     if reason:
         return say("setup.cfg cannot be read: {reason}", reason=printable_reason(reason))
     close = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8)
-    return with_difference(say("there is no setup.cfg") + meant(close), close, "setup.cfg")
+    return with_difference(say("there is no setup.cfg") + there_is(close), close, "setup.cfg")
 
 
 def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) -> list[str]:
@@ -251,11 +251,11 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         actual = with_difference(said, setting.value, wanted)
     elif section in cfg.sections:
         variant, close = "key", nearest(key, settings)
-        said = say("[{section}] has no {key}", section=section, key=key) + meant(close)
+        said = say("[{section}] has no {key}", section=section, key=key) + there_is(close)
         actual = with_difference(said, close, key)
     else:
         variant, close = "section", nearest(section, cfg.sections)
-        said = say("there is no section [{section}]", section=section) + meant(close)
+        said = say("there is no section [{section}]", section=section) + there_is(close)
         actual = with_difference(said, close, section)
         if close and close in cfg.lines:
             line, variant = cfg.lines[close], "heading"
