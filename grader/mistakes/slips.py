@@ -102,6 +102,10 @@ SIGNS = {
         "In a call, write name=value: '=' between the two, and no quotes around the name."
     ),
     "quote": msg("Add the missing quote: a text begins and ends with the same quote, on one line."),
+    "apostrophe": msg(
+        "The text is in single quotes, so the ' inside it ends the text. Write double quotes around "
+        "the text: {wanted}"
+    ),
     "brace": msg("The brace in the f-string has no end. Write: {wanted}"),
     "brace_alone": msg("Remove the }} that closes no brace, or write the {{ before the value."),
     "brace_wrong": msg("In an f-string, each value is between {{ and }}. Correct the braces."),
@@ -138,6 +142,24 @@ SIGNS = {
         "line {line}, and the lines of its block by 4 spaces more."
     ),
     "clause_misspelt": msg("Below the block of a try: comes except or finally. Write: {wanted}"),
+    "bracket_below": msg(
+        "The last bracket of this line is not closed. Below line {line}, write a line with {wanted}"
+    ),
+    "bracket_end": msg(
+        "A bracket of this line is not closed. Write in line {line}, if the part in brackets ends "
+        "there: {wanted}"
+    ),
+    "bracket_kind": msg(
+        "A bracket of this line is of another kind than the one that it closes. Write: {wanted}"
+    ),
+    "bracket_open": msg(
+        "A bracket of this line is not closed. Write {wanted} where the part in brackets ends."
+    ),
+    "bracket_before": msg(
+        "Line {line} has a closing bracket, but the last open one is in this line and of another "
+        "kind. Write {wanted} where the part in brackets ends, or instead of the bracket in line "
+        "{line}."
+    ),
     "bracket_extra": msg("Remove one {wanted}: the line closes more brackets than are open."),
     "bracket_alone": msg(
         "No bracket is open that this {wanted} closes: remove it, or write the bracket that it "

@@ -154,6 +154,30 @@ def _line_above(text: Broken) -> Slip | None:
     return Slip("signs", "line_above", above, shown, "", new, other=text.number)
 
 
+def _beside_block(text: Broken) -> Slip | None:
+    """Return a line that begins one to three columns beside the lines of its block."""
+    if text.fault.kind != "indentation" or AFTER_COLON.search(text.fault.text):
+        return None
+    written = indent_of(text.source.line(text.number))
+    above = [n for n in range(text.number - 1, 0, -1) if text.code.line(n).strip()]
+    below = range(text.number + 1, len(text.code.lines) + 1)
+    near = above[: 2 * MOST_TRIES] or [n for n in below if text.code.line(n).strip()][:1]
+    columns = {n: len(indent_of(text.code.line(n))) - len(written) for n in near}
+    fitting = sorted((abs(by), by, place) for place, (_, by) in enumerate(columns.items()))
+    closest = {by for far, by, _ in fitting if far == fitting[0][0]}
+    if not fitting or not 0 < fitting[0][0] < 4 or len(closest) != 1 or "\t" in written:
+        return None
+    other = near[fitting[0][2]]
+    wanted = indent_of(text.source.line(other))
+    first = text.number
+    while first > 1 and re.match(rf"{written}#", text.source.line(first - 1)):
+        first -= 1
+    starts = [text.source.start_of(number) for number in range(first, text.number + 1)]
+    new = text.changed(*(Splice(at, at + len(written), wanted) for at in starts))
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "line_above", text.number, shown, "", new, other=other) if new else None
+
+
 def _reads(text: Broken, number: int, old: str, new: str) -> bool:
     """Whether Python reads the file with another indentation of one line."""
     start = text.source.start_of(number)
@@ -244,5 +268,5 @@ def two_statements(text: Broken) -> Slip | None:
 
 
 BLOCK_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _bracket, _def_brackets, _clause, _colon, _capital, _compare, _not_indented, _line_above, _without_end,
+    _bracket, _def_brackets, _clause, _colon, _capital, _compare, _not_indented, _line_above, _beside_block, _without_end,
 )  # fmt: skip

@@ -11,10 +11,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from grader.package.edit.text import SourceText, Splice, read_source
-from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip, fault_of
+from grader.package.source.broken_python import BLOCK, LONGEST, MOST_TRIES, Broken, Slip, fault_of
 from grader.package.source.code_only import code_only
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
+from grader.package.source.slip_brackets import open_bracket
 from grader.package.source.slip_statements import STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
 from grader.package.source.slip_try import try_block
@@ -298,6 +299,33 @@ def _key_matches(text: Broken) -> Iterator[tuple[int, re.Match[str]]]:
                 yield number, match
 
 
+APOSTROPHE = re.compile(r"(?<=[\w})])'(?=\w|[ \t]+\w)")
+AFTER_TEXT = re.compile(r"[ \t]*(?:[,)\]}:+%#.;]|$)")
+PREFIX = re.compile(r"(?:\b[fFrRbBuU]{1,2}|(?<!\w))\Z")
+
+
+def _apostrophe(text: Broken) -> Slip | None:
+    """Return a text in single quotes that an apostrophe ends."""
+    written = text.source.line(text.number)
+    if len(written) > LONGEST:
+        return None
+    places = [match.start() for match in re.finditer("'", written)][: 2 * MOST_TRIES]
+    for start, opened in enumerate(places):
+        if PREFIX.search(written[:opened]) is None:
+            continue
+        for count, closed in enumerate(places[start + 1 :]):
+            inside = written[opened + 1 : closed]
+            if count == 0 or '"' in inside or AFTER_TEXT.match(written, closed + 1) is None:
+                continue
+            if len(APOSTROPHE.findall(inside)) != count:
+                continue
+            splices = [text.within(at, at + 1, '"') for at in (opened, closed)]
+            new = text.changed(*splices)
+            if new is not None:
+                return text.slip("signs", "apostrophe", written, *splices, fixed=new)
+    return None
+
+
 def _quotes(text: Broken) -> Slip | None:
     """Return a text whose first or last quote is missing."""
     written = text.source.line(text.number)
@@ -354,6 +382,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _quotes, _keys, tab, try_block,
+    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _apostrophe, _quotes, _keys, open_bracket, tab, try_block,
     *STATEMENT_LOOKS, *BLOCK_LOOKS, _other_sign, two_statements,
 )  # fmt: skip
