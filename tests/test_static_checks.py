@@ -8,7 +8,7 @@ import pytest
 
 from grader.verdict.checks import package, source
 from grader.verdict.checks.all import CHECKS
-from grader.verdict.checks.declare import INTAKE
+from grader.verdict.checks.declare import INTAKE, Check
 
 from .static_bench import FILES, MARKER, NAME, NODE, Bench, line, mistake
 
@@ -285,3 +285,36 @@ def test_another_version_of_the_node_beside_one_without_a_timer_is_advice(bench:
     bench.change(NODE, "pass", "node.create_timer(1.0, print)")
     assert not bench.passes(source.node_file).advice
     assert advice.startswith(f"{NAME}/my_first_node_final.py has a node too")
+
+
+@pytest.mark.parametrize(
+    ("path", "check", "wanted", "command"),
+    [
+        ("package.xml", package.manifest, "package.no_manifest", "package.xml"),
+        ("setup.cfg", package.setup_cfg, "package.setup_cfg_missing", "setup.cfg"),
+        (MARKER, package.marker, "package.marker_missing", "resource"),
+    ],
+)
+def test_a_file_in_the_inner_folder_is_to_be_moved_out(
+    bench: Bench, path: str, check: Check, wanted: str, command: str
+) -> None:
+    (bench.root / NAME / path).parent.mkdir(exist_ok=True)
+    (bench.root / path).rename(bench.root / NAME / path)
+    if path == MARKER:
+        (bench.root / "resource").rmdir()
+    failed = bench.fails(check)
+    assert mistake(failed) == wanted
+    assert f"mv {NAME}/{command} ." in failed.fix
+    assert not bench.evidence().submission.hints
+
+
+def test_setup_py_in_the_inner_folder_is_to_be_moved_out(bench: Bench) -> None:
+    (bench.root / "setup.py").rename(bench.root / NAME / "setup.py")
+    assert f"mv {NAME}/setup.py ." in bench.misses().fix
+
+
+def test_the_files_of_a_package_inside_are_not_to_be_moved_out(bench: Bench) -> None:
+    (bench.root / "setup.cfg").rename(bench.root / NAME / "setup.cfg")
+    for path in ("package.xml", "setup.py"):
+        bench.write(f"{NAME}/{path}", (bench.root / path).read_bytes())
+    assert "mv " not in bench.fails(package.setup_cfg).fix

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from pathlib import Path
 
 import pytest
@@ -73,6 +74,23 @@ def test_an_empty_node_has_the_hint_to_save_it(bench: Bench) -> None:
     failed = bench.fails(source.node_file)
     assert mistake(failed) == "source.empty_node_file"
     assert "Ctrl+S" in failed.fix
+
+
+@pytest.mark.parametrize("other", ["my_first_node_final.py", "node.py", "Copy of node.py"])
+def test_an_empty_node_has_its_code_in_the_file_beside_it(bench: Bench, other: str) -> None:
+    code = (
+        "from rclpy.node import Node\n\n\nclass Hello(Node):\n    def __init__(self):\n"
+        "        super().__init__('my_first_node')\n"
+    )
+    bench.write(NODE, "")
+    bench.write(f"{NAME}/{other}", code)
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.empty_node_file"
+    assert f"mv {shlex.quote(f'{NAME}/{other}')} {NODE}" in failed.fix
+    with pytest.raises(Blocked):
+        source.shebang.function(bench.evidence())
+    bench.write(f"{NAME}/second.py", code)
+    assert "Ctrl+S" in bench.fails(source.node_file).fix
 
 
 def test_the_node_in_a_file_of_another_name_is_recognised(bench: Bench) -> None:

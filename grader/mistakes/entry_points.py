@@ -110,6 +110,12 @@ KINDS = (
             "Create the package with ros2 pkg create --build-type ament_python: it writes "
             "setup.py. Then add your entry to console_scripts."
         ),
+        fixes={
+            "inner": msg(
+                "Move it out of the inner folder. In the package's folder, run: mv {there} ."
+            ),
+        },
+        fixed_by=(layout.out_of_inner_folder,),
         link=links.PACKAGE,
         seen=r"can't open file '[^'\n]{0,300}setup\.py'",
         examples=(

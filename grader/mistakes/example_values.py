@@ -48,7 +48,7 @@ COUNTER: Mapping[str, Value] = {"name": "self.counter"}
 BARE_COUNTER: Mapping[str, Value] = {"name": "counter"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package", "line": "2, 4"},
-    "package.setup_cfg_missing": {"close": "setup.cfg.txt"},
+    "package.setup_cfg_missing": {"close": "setup.cfg.txt", "there": "my_package/setup.cfg"},
     "topic.wrong_name": {"name": "/chater"},
     "topic.wrong_end": {"call": "create_subscription"},
     "interface.cmake_error": {"line": "9"},
@@ -225,7 +225,9 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "node_file": "my_node.py",
         "entry": "my_node = my_package.my_node:main",
     },
-    "package.no_manifest": {"close": "Package.xml"},
+    "package.no_manifest": {"close": "Package.xml", "there": "my_package/package.xml"},
+    "setup.missing": {"there": "my_package/setup.py"},
+    "source.empty_node_file": {"there": "my_package/node.py"},
     "package.broken_xml": {"wanted": "2", "tag": "license"},
     "package.manifest_rules": {"first": "6", "wanted": "email", "found": "mail"},
     "setup.not_packaged": {
@@ -234,7 +236,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "build.setup_error": {"wanted": "packages=find_packages()", "close": "package_name"},
     "build.failed": {"name": "launch/my_node.launch.py", "wanted": "('share', ['package.xml'])"},
-    "package.marker_missing": {"close": "resources"},
+    "package.marker_missing": {"close": "resources", "there": "my_package/resource"},
     "node.for_ros_1": {"name": "loginfo", "written": "self.get_logger().info(…)"},
     "node.own_module_missing": {
         "path": "my_package/helpers.py",

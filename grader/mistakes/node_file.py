@@ -287,9 +287,19 @@ KINDS = (
         title=msg("The node's file is empty"),
         why=msg("What you type in the editor is in the file only after you save it."),
         fix=msg("Save the file in your editor (Ctrl+S), then look at it with: cat {path}"),
-        whys={"built": OWN_COPIES},
-        fixes={"built": BUILT},
+        whys={
+            "built": OWN_COPIES,
+            "beside": msg("The exercise asks for the node in {path}. That file is empty."),
+        },
+        fixes={
+            "built": BUILT,
+            "beside": msg(
+                "Give the file with your node the name of the empty one. In the package's folder, "
+                "run: mv {there} {path}"
+            ),
+        },
         link=links.FIRST_NODE,
+        fixed_by=(layout.node_beside,),
         examples=(
             example(
                 "node_empty",

@@ -87,6 +87,9 @@ KINDS = (
         whys={"nothing": UNIT},
         fix=msg("Copy the package.xml that ros2 pkg create makes, and set its <name>."),
         fixes={
+            "inner": msg(
+                "Move it out of the inner folder. In the package's folder, run: mv {there} ."
+            ),
             "renamed": msg("Rename it. In the package's folder, run: mv {close} package.xml"),
             "capitals": msg(
                 "Rename it: Linux distinguishes capitals from small letters. In the package's "
@@ -94,7 +97,7 @@ KINDS = (
             ),
         },
         link=links.MANIFEST,
-        fixed_by=(manifest.rename,),
+        fixed_by=(layout.out_of_inner_folder, manifest.rename),
         examples=(
             example(
                 "only_a_text",
@@ -607,6 +610,9 @@ KINDS = (
             ),
             "path": msg("Write ['resource/' + package_name] in that line."),
             "moved": msg("Rename the folder {close} to resource."),
+            "inner": msg(
+                "Move it out of the inner folder. In the package's folder, run: mv {there} ."
+            ),
         },
         link=links.DEVELOPING,
         seen=r"can't copy '[^'\n]{0,300}resource/(?P<package>[^'/\n]{1,120})': doesn't exist",
@@ -695,14 +701,17 @@ KINDS = (
         why=WITHOUT_CFG,
         fix=NEW_CFG,
         fixes={
+            "inner": msg(
+                "Move it out of the inner folder. In the package's folder, run: mv {there} ."
+            ),
             "renamed": msg(
                 "Rename the file. In the package's folder, run: mv {close} setup.cfg. Then build "
                 "again. (Windows hides the last part of a name, such as .txt, unless you switch on "
                 "'File name extensions'.)"
-            )
+            ),
         },
         link=links.DEVELOPING,
-        fixed_by=(setup_cfg.missing,),
+        fixed_by=(layout.out_of_inner_folder, setup_cfg.missing),
         examples=(
             example(
                 "setup_cfg_missing",

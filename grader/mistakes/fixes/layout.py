@@ -67,6 +67,24 @@ def out_of_init(case: Case) -> Files | None:
     return case.files.with_move(init, case.node_path).with_data(init, b"")
 
 
+def node_beside(case: Case) -> Files | None:
+    """Move the node from the file beside it into the empty file."""
+    old = str(case.finding.params.get("there", ""))
+    there = case.files.data(case.node_path)
+    if case.finding.mistake != "source.empty_node_file" or there is None or there.strip():
+        return None
+    return case.files.with_move(old, case.node_path) if case.files.file(old) else None
+
+
+def out_of_inner_folder(case: Case) -> Files | None:
+    """Move a file of the package's folder out of the inner folder."""
+    old = str(case.finding.params.get("there", ""))
+    folder, _, name = old.partition("/")
+    if folder != case.assignment.folder or "/" in name or name in case.files.by_path:
+        return None
+    return case.files.with_move(old, name) if case.files.file(old) else None
+
+
 def _only_one_named(files: Files, name: str) -> str | None:
     found = [path for path in files.by_path if path.rpartition("/")[2] == name]
     return found[0] if len(found) == 1 and files.file(found[0]) is not None else None

@@ -119,6 +119,12 @@ def _nearest(tree: Tree, wrong: list[Candidate], *, package: str, node_file: str
     return Choice(best, tuple(hints))
 
 
+def _moved(tree: Tree, outer: Candidate, inner: Candidate) -> bool:
+    """Whether a folder is no second package, but has the one file that the outer package lacks."""
+    files = [name for name in (MANIFEST, SETUP) if tree.file(join(inner.path, name)) is not None]
+    return len(files) == 1 and tree.file(join(outer.path, files[0])) is None
+
+
 def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[str]:
     hints: list[str] = []
     outer = _around(chosen, candidates)
@@ -134,6 +140,7 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
             )
         )
     inner = [c for c in candidates if chosen in _around(c, candidates)]
+    inner = [c for c in inner if not _moved(tree, chosen, c)]
     if inner and inner[0].name == chosen.name:
         hints.append(
             say(

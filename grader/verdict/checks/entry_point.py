@@ -7,6 +7,7 @@ the package: `name = package.module:function`. If setup.py computes it, only the
 from __future__ import annotations
 
 import ast
+import shlex
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
@@ -19,7 +20,13 @@ from grader.package.source.values import Table
 from grader.report.model import Where
 from grader.verdict.checks import entry_faults
 from grader.verdict.checks.inner_package import entry_in_inner_package
-from grader.verdict.checks.parsed import file_of, node_path, printable_reason, setup_py_of
+from grader.verdict.checks.parsed import (
+    file_of,
+    in_inner_folder,
+    node_path,
+    printable_reason,
+    setup_py_of,
+)
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -36,7 +43,8 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     """
     file = file_of(evidence, "setup.py")
     if file is None or file.unreadable:
-        raise _no_setup_py(file.reason if file else "")
+        inner = in_inner_folder(evidence, "setup.py") if file is None else ""
+        raise _no_setup_py(file.reason if file else "", inner)
     setup = setup_py_of(evidence)
     if setup is None or not setup.is_static:
         return None
@@ -88,11 +96,22 @@ def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
     return from_setup_py(setup)
 
 
-def _no_setup_py(reason: str) -> Failed:
+def _no_setup_py(reason: str, inner: str) -> Failed:
     cannot = say("setup.py cannot be read: {reason}", reason=printable_reason(reason))
+    expected = say("a setup.py with the entry point")
+    if inner:
+        return Failed(
+            "setup.missing",
+            expected=expected,
+            actual=say("there is no {path}, but {there}", path="setup.py", there=shown(inner)),
+            where=Where(file=shown(inner)),
+            variant="inner",
+            params={"there": shown(inner)},
+            words={"there": shlex.quote(shown(inner))},
+        )
     return Failed(
         "setup.missing",
-        expected=say("a setup.py with the entry point"),
+        expected=expected,
         actual=cannot if reason else say("there is no setup.py"),
         where=Where(file="setup.py"),
     )

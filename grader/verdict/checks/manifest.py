@@ -21,7 +21,13 @@ from grader.package.source.manifest import (
 )
 from grader.package.source.manifest_rules import RuleFault, rule_fault
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
+from grader.verdict.checks.parsed import (
+    file_of,
+    in_inner_folder,
+    names_in,
+    printable_reason,
+    setup_py_of,
+)
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -82,13 +88,24 @@ def _failed(
 def _read(evidence: Evidence) -> Manifest:
     file = file_of(evidence, FILE)
     if file is None:
+        inner = in_inner_folder(evidence, FILE)
+        if inner:
+            raise _failed(
+                "package.no_manifest",
+                say("there is no {path}, but {there}", path=FILE, there=shown(inner)),
+                None,
+                variant="inner",
+                params={"there": shown(inner)},
+                words={"there": shlex.quote(shown(inner)), "close": ""},
+                file=shown(inner),
+            )
         close = nearest(FILE, names_in(evidence, ""), cutoff=0.75)
         raise _failed(
             "package.no_manifest",
             with_difference(say("there is no package.xml") + there_is(close), close, FILE),
             None,
             variant="capitals" if close.lower() == FILE else "renamed" if close else "",
-            words={"close": shlex.quote(shown(close))},
+            words={"close": shlex.quote(shown(close)), "there": ""},
             file=shown(close) or FILE,
         )
     if file.unreadable:

@@ -15,7 +15,13 @@ from grader.package.source.values import Computed, Listing, Text, Value
 from grader.report.model import Where
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.manifest import check_manifest
-from grader.verdict.checks.parsed import file_of, names_in, printable_reason, setup_py_of
+from grader.verdict.checks.parsed import (
+    file_of,
+    in_inner_folder,
+    names_in,
+    printable_reason,
+    setup_py_of,
+)
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -114,6 +120,11 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
     close = nearest(package, others) or "".join(lone)
     if evidence.submission.file(path) is not None:
         variant, actual = "folder", say("{path} is a folder", path=path)
+    elif inner := _inner_resource(evidence, path):
+        variant, close = "inner", inner
+        actual = say(
+            "there is no {path}, but {there}", path=path, there=f"{shown(inner)}/{package}"
+        )
     elif folder := _folder_of_marker(evidence, path):
         variant, close = "moved", folder
         actual = say(
@@ -128,10 +139,18 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         expected=say("an empty file {path}", path=path),
         actual=actual,
         variant=variant,
-        params={"folder": close} if variant == "moved" else {},
-        words={"package": package, "close": shown(close)},
+        params={"folder": close} if variant in ("moved", "inner") else {},
+        words={"package": package, "close": shown(close), "there": shlex.quote(shown(close))},
         where=Where(file=path),
     )
+
+
+def _inner_resource(evidence: Evidence, path: str) -> str:
+    """Return the folder resource with the marker in the inner folder; "" if it is not there."""
+    folder = path.partition("/")[0]
+    here = any(file.path.partition("/")[0] == folder for file in evidence.submission.files)
+    found = "" if here else in_inner_folder(evidence, path)
+    return found.rpartition("/")[0]
 
 
 def _folder_of_marker(evidence: Evidence, path: str) -> str:
@@ -190,6 +209,17 @@ def setup_cfg(evidence: Evidence) -> Passed:
         "[develop] script_dir={wanted} and [install] install_scripts={wanted}", wanted=wanted
     )
     file = file_of(evidence, "setup.cfg")
+    inner = in_inner_folder(evidence, "setup.cfg") if file is None else ""
+    if inner:
+        raise Failed(
+            "package.setup_cfg_missing",
+            expected=expected,
+            actual=say("there is no {path}, but {there}", path="setup.cfg", there=shown(inner)),
+            where=Where(file=shown(inner)),
+            variant="inner",
+            params={"there": shown(inner)},
+            words={"package": package, "close": "", "there": shlex.quote(shown(inner))},
+        )
     if file is None or file.unreadable:
         near = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8) if file is None else ""
         close = near if file_of(evidence, near) is not None else ""
@@ -199,7 +229,7 @@ def setup_cfg(evidence: Evidence) -> Passed:
             actual=_no_cfg(evidence, file.reason if file else ""),
             where=Where(file=shown(close) or "setup.cfg"),
             variant="renamed" if close else "",
-            words={"package": package, "close": shlex.quote(shown(close))},
+            words={"package": package, "close": shlex.quote(shown(close)), "there": ""},
         )
     try:
         cfg = read_setup_cfg(file.data)

@@ -46,6 +46,18 @@ def setup_py_of(evidence: Evidence) -> SetupPy | None:
         return None
 
 
+def in_inner_folder(evidence: Evidence, name: str) -> str:
+    """Return the path of a file of the package's folder that is in the inner folder; "" if not.
+
+    An inner folder with its own package.xml and setup.py is a package, and the file belongs to it.
+    """
+    inner = evidence.assignment.folder
+    parts = ("package.xml", "setup.py")
+    package = all(file_of(evidence, f"{inner}/{part}") is not None for part in parts)
+    path = f"{inner}/{name}"
+    return "" if package or data_of(evidence, path) is None else path
+
+
 def has_subpackages(evidence: Evidence) -> bool:
     """Whether the inner folder contains Python packages."""
     inner = f"{evidence.assignment.folder}/"

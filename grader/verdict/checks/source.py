@@ -143,6 +143,17 @@ def _empty(evidence: Evidence, path: str) -> Failed:
     if _has_node(evidence, init):
         actual = say("the file is empty: your node is in {path}", path=init)
         return _in_init(path, init, actual, "init_empty")
+    other = _lone_node(evidence, path)
+    if other:
+        return Failed(
+            "source.empty_node_file",
+            expected=say("your node's code in {path}", path=path),
+            actual=say("the file is empty: your node is in {path}", path=shown(other)),
+            where=Where(file=path),
+            variant="beside",
+            params={"there": shown(other)},
+            words={"path": path, "copy": "", "there": shlex.quote(shown(other))},
+        )
     copy = shown(evidence.submission.newer_copy)
     but = say("the file is empty, but {copy} is not", copy=copy)
     return Failed(
@@ -151,8 +162,17 @@ def _empty(evidence: Evidence, path: str) -> Failed:
         actual=but if copy else say("the file is empty"),
         where=Where(file=path),
         variant="built" if copy else "",
-        words={"path": path, "copy": copy},
+        words={"path": path, "copy": copy, "there": ""},
     )
+
+
+def _lone_node(evidence: Evidence, path: str) -> str:
+    """Return the one other file of the inner folder that has the node; "" if there is none."""
+    inner = evidence.assignment.folder
+    names = [n for n in names_in(evidence, inner) if n.endswith(".py") and n != "__init__.py"]
+    paths = [f"{inner}/{name}" for name in names]
+    found = [there for there in paths if there != path and _is_the_node(evidence, there)]
+    return found[0] if len(found) == 1 else ""
 
 
 def _is_inner(evidence: Evidence, path: str) -> bool:
@@ -347,7 +367,7 @@ def exec_bit(evidence: Evidence) -> Passed:
 def shebang(evidence: Evidence) -> Passed:
     """The node's file begins with a line that names Python 3."""
     file = _node(evidence)
-    if file.unreadable or file.data.startswith(UTF_16) or _is_empty_beside_init(evidence, file):
+    if file.unreadable or file.data.startswith(UTF_16) or _is_empty_beside_node(evidence, file):
         raise Blocked(by="source.node_file")
     first = file.data[:1000].partition(b"\n")[0]
     match = PYTHON3.fullmatch(first)
@@ -367,10 +387,11 @@ def _is_document(found: bytes) -> bool:
     return slip is not None and slip.cause == "document" and slip.variant != "conflict"
 
 
-def _is_empty_beside_init(evidence: Evidence, file: SourceFile) -> bool:
-    """Whether the node, and with it its first line, is in __init__.py."""
+def _is_empty_beside_node(evidence: Evidence, file: SourceFile) -> bool:
+    """Whether the node, and with it its first line, is in another file of the inner folder."""
     init = f"{evidence.assignment.folder}/__init__.py"
-    return not file.data.strip() and _has_node(evidence, init)
+    other = _lone_node(evidence, node_path(evidence))
+    return not file.data.strip() and (_has_node(evidence, init) or other != "")
 
 
 def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
