@@ -12,6 +12,7 @@ from grader.mistakes.fixes import lines, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Edit, Replace, Write
+from grader.package.source.endless import idle_loop
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import statement_at
 
@@ -78,8 +79,9 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
 
 def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the loop that does a timer's work."""
+    idle = idle_loop(suspect.source, suspect.function) if suspect.function else None
     for node in suspect.source.all_nodes:
-        if isinstance(node, ast.While | ast.For):
+        if node is not idle and isinstance(node, ast.While | ast.For):
             for call, name in calls_in(node):
                 if last_part(name) == "sleep":
                     return suspect.finding("sleep_loop", call)
@@ -89,7 +91,21 @@ def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
 def _nowhere(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a node without spin, not even as in Thread(target=rclpy.spin)."""
     named = any(isinstance(n, ast.Attribute) and n.attr == "spin" for n in suspect.source.all_nodes)
-    return None if named else _missing(suspect)
+    return None if named else _idle(suspect) or _missing(suspect)
+
+
+def _idle(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop that waits where the node is to be spun."""
+    source, function = suspect.source, suspect.function
+    loop = idle_loop(source, function) if function else None
+    names = source.node_variables
+    if function is None or loop is None or len(names) != 1 or executors(suspect):
+        return None
+    made = [n for n in ast.walk(function) if isinstance(n, ast.Assign) and n.lineno < loop.lineno]
+    if not any(dotted(target) in names for statement in made for target in statement.targets):
+        return None
+    found = suspect.finding("spin_missing", loop, node=next(iter(names)))
+    return replace(found, variant="loop")
 
 
 def _exits(suspect: Suspect) -> RecognisedMistake | None:
@@ -316,6 +332,10 @@ KINDS = (
         msg("Call rclpy.spin({node}) in {function}, after creating the node."),
         links.EXECUTORS,
         whys={
+            "loop": msg(
+                "This loop keeps the program alive, but it calls no callbacks. rclpy.spin(node) "
+                "waits too, and calls the callbacks when they are due, until Ctrl+C."
+            ),
             "guard": msg(
                 "ros2 run calls only {function}. Lines outside of it, such as those below if "
                 "__name__ == '__main__':, run only if you start the file itself."
@@ -328,13 +348,14 @@ KINDS = (
         fixes={
             "guard": msg("Move the call of rclpy.spin into {function}, after creating the node."),
             "executor": msg("Write {name}.spin() below this line."),
+            "loop": msg("Write rclpy.spin({node}) instead of this loop."),
         },
         behind={
             "run.exits_at_once": _missing,
             "run.no_node": _under_guard,
             "run.never_spins": _nowhere,
         },
-        fixed_by=(node_life.executor, node_life.spin),
+        fixed_by=(node_life.executor, node_life.idle_loop, node_life.spin),
         examples=(
             example(
                 "executor_not_spun",

@@ -68,6 +68,28 @@ def line_of(text: str, part: str) -> int:
 
 
 @pytest.mark.parametrize(
+    ("loop", "waits"),
+    [
+        ("while rclpy.ok():\n        pass", True),
+        ("while True:\n        time.sleep(1.0)", True),
+        ("while rclpy.ok():\n        time.sleep(0.1)\n        continue", True),
+        ("while rclpy.ok():\n        time.sleep(1.0)\n        hello.tick()", False),
+    ],
+)
+def test_a_loop_that_only_waits_is_to_be_replaced_by_spin(loop: str, waits: bool) -> None:
+    executor = "    executor = SingleThreadedExecutor()\n    executor.add_node(hello)\n    executor.spin()\n"
+    text = "import time\n" + OTHERWISE.replace(executor, f"    {loop}\n")
+    found = look("run.never_spins", text)
+    assert found is not None
+    if not waits:
+        assert found.kind == "node.sleep_loop"
+        return
+    assert (found.kind, found.variant) == ("node.spin_missing", "loop")
+    assert found.where == Where(file=FILE, line=line_of(text, "while"))
+    assert found.words["node"] == "hello"
+
+
+@pytest.mark.parametrize(
     ("symptom", "old", "new", "wanted", "at"),
     [
         ("run.exits_at_once", "executor.spin()", "pass", "spin_missing", "executor.add_node"),

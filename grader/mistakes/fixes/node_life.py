@@ -8,6 +8,7 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
+from grader.package.source import endless
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
@@ -275,6 +276,20 @@ def spin(case: Case) -> Files | None:
     if len(spun) != 1 or ast.unparse(spun[0]) not in wrong:
         return None
     return case.changed(module, text.swap(spun[0], f"rclpy.spin({target.id})"))
+
+
+def idle_loop(case: Case) -> Files | None:
+    """Spin the node in the place of a loop that only waits."""
+    node = case.node
+    main = node.main if node else None
+    name = str(case.finding.params.get("node", ""))
+    if node is None or main is None or not name.isidentifier():
+        return None
+    loop = endless.idle_loop(node, main)
+    if loop is None or loop.lineno != case.finding.line:
+        return None
+    module = node.module_of(main)
+    return case.changed(module, module.text.swap(loop, f"rclpy.spin({name})"))
 
 
 def _spin_added(module: Module, main: Function, made: ast.stmt, spin: str) -> Splice:
