@@ -265,14 +265,6 @@ KINDS = (
                 fails="run.spins",
                 note="another node spins, the one that counts does not",
             ),
-            example(
-                "timer_and_sleep_loop",
-                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
-                Replace(NODE, SPINS, LOOPS.replace("            node.timer_callback()\n", "")),
-                fails="run.spins",
-                blocks=("run.output", *SILENT),
-                note="the timer is there, and nothing calls it",
-            ),
         ),
     ),
     _node(
@@ -357,6 +349,14 @@ KINDS = (
         },
         fixed_by=(node_life.executor, node_life.idle_loop, node_life.spin),
         examples=(
+            example(
+                "timer_and_sleep_loop",
+                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
+                Replace(NODE, SPINS, LOOPS.replace("            node.timer_callback()\n", "")),
+                fails="run.spins",
+                blocks=("run.output", *SILENT),
+                note="the timer is there, and nothing calls it",
+            ),
             example(
                 "executor_not_spun",
                 Replace(
