@@ -321,6 +321,24 @@ def _in_text(suspect: Suspect) -> RecognisedMistake | None:
     )
 
 
+def _copy_increased(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a local copy of an attribute that the callback increases."""
+    parts = parts_of_callback(suspect.source)
+    copies: dict[str, str] = {}
+    for node in (node for part in parts for node in ast.walk(part)):
+        target = node.targets[0] if isinstance(node, ast.Assign) else None
+        value = dotted(node.value) if isinstance(node, ast.Assign) else ""
+        if isinstance(target, ast.Name) and value.startswith("self."):
+            copies[target.id] = value
+        if isinstance(node, ast.AugAssign) and dotted(node.target) in copies:
+            module, name = suspect.source.module_of(node), copies[dotted(node.target)]
+            code = module.text.code(node)
+            new = code.replace(dotted(node.target), name, 1)
+            params = {"name": code, "written": new, "attribute": name}
+            return suspect.finding("copy_increased", node, **params)
+    return None
+
+
 def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
     counter = counter_in(suspect)
     if counter is None or counter.added or counter.set or not _is_number(suspect, counter.name):
@@ -759,6 +777,27 @@ KINDS = (
                     "        if self.counter_ == 5:\n"
                     "            self.counter_ = 0",
                 ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "copy_increased",
+        "counter",
+        msg("A copy of the counter is increased"),
+        msg(
+            "A variable that gets the value of {attribute} is a copy: to add to it does not change "
+            "{attribute}."
+        ),
+        msg("Write {written} instead of {name}."),
+        behind={"run.constant_counter": _copy_increased},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "copy_increased",
+                Replace(NODE, LOG_LINE, f"        count = self.counter_\n{LOG_LINE}"),
+                Replace(NODE, "str(self.counter_)", "str(count)"),
+                Replace(NODE, "self.counter_ += 1", "count += 1"),
                 fails="run.output",
             ),
         ),

@@ -114,6 +114,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},
     "node.period_zero": {"name": "0", "written": "1.0"},
+    "node.copy_increased": {
+        "name": "count += 1",
+        "written": "self.counter += 1",
+        "attribute": "self.counter",
+    },
     "node.main_misspelt": {"name": "mian"},
     "node.waits_first": {"name": "input()"},
     "node.init_underscores": {"name": "_init_"},

@@ -198,6 +198,7 @@ SIGNS = {
         "{wanted} is a word of Python and cannot be a name. Choose another name, for example "
         "my_{wanted}."
     ),
+    "word_misspelt": msg("A word of Python is misspelt. Write: {wanted}"),
     "parameter_dot": msg(
         "The brackets of a def contain plain names. Remove the part with the dot: the method "
         "reaches all attributes through self."

@@ -6,6 +6,7 @@ import keyword
 import re
 from collections.abc import Callable, Iterator
 
+from grader.base.nearest import nearest
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
 
@@ -24,14 +25,19 @@ WORD_AS_NAME = (
     re.compile(r"\.(?P<name>[a-z]+)\b"),
     re.compile(r"^[ \t]*(?P<name>[a-z]+)[ \t]*=(?!=)"),
 )
+FIRST_WORD = re.compile(r"^[ \t]*(?P<word>[a-z]{2,8})\b(?=[ \t]+[\w('\"]|[ \t]*:)")
+WORDS = (
+    *("from", "import", "class", "def", "return", "while", "for", "if", "elif", "else", "try"),
+    *("except", "finally", "with", "raise", "pass", "global", "async", "lambda"),
+)
+MISSPELT = {"form": "from", "fro": "from", "dfe": "def", "fi": "if"}
 PARAMETERS = re.compile(r"^[ \t]*def[ \t]+\w+[ \t]*\([^)]*\b\w+\.\w")
 FROM_PARTS = re.compile(r"^[ \t]*from[ \t]+[\w.]+(?P<blank>[ \t]+)(?!import\b)[\w.]+[ \t]+import\b")
 NO_NAME = re.compile(r"^[ \t]*(?:from[ \t]+[\w.]+[ \t]+)?import(?:[ \t]+[\w.]+[ \t]+as)?[ \t]*$")
 CALL_WITHOUT = re.compile(rf"^[ \t]*(?P<name>{PLACE})(?P<blank>[ \t]+)(?P<given>[\w'\"].*?)[ \t]*$")
 HANDLER = re.compile(r"^[ \t]*except[ \t]+(?P<types>[\w.]+[ \t]*,[ \t]*(?P<last>\w+))[ \t]*:")
-OPERANDS = re.compile(
-    r"(?P<before>[\w'\")\]}])(?P<blank>[ \t]+(?:\r\n|\r|\n)?[ \t]*|(?:\r\n|\r|\n)[ \t]*)(?=[\w'\"])"
-)
+OPERANDS = re.compile(r"(?P<before>[\w'\")\]}])(?P<blank>[ \t]+|[ \t]*[\r\n][ \t\r\n]*)(?=[\w'\"])")
+LINES_BETWEEN = 5  # lines, at most, of which the last has the next value
 TEXTS = re.compile(r"(?:\.(?:info|warn|warning|error|debug|fatal)|\bprint|\bstr)\(")
 
 
@@ -97,6 +103,18 @@ def _word_as_name(text: Broken) -> Slip | None:
     return None
 
 
+def _word(text: Broken) -> Slip | None:
+    """Return a misspelt word of Python at the start of a line."""
+    match = FIRST_WORD.match(text.line)
+    if match is None or match["word"] in WORDS:
+        return None
+    close = MISSPELT.get(match["word"]) or nearest(match["word"], WORDS, cutoff=0.7)
+    splice = text.within(*match.span("word"), close)
+    new = text.changed(splice) if close else None
+    written = text.source.line(text.number)
+    return text.slip("signs", "word_misspelt", written, splice, fixed=new) if new else None
+
+
 def _parameters(text: Broken) -> Slip | None:
     """Return a function with an attribute among its parameters."""
     if PARAMETERS.match(text.line) is None:
@@ -157,7 +175,7 @@ def _between(text: Broken) -> Slip | None:
 
 def _ways(text: Broken) -> Iterator[tuple[Splice, str]]:
     """Yield what could stand between the values of the line, and of it and the next one."""
-    start, end = text.code.start_of(text.number), text.code.end_of(text.number + 1)
+    start, end = text.code.start_of(text.number), text.code.end_of(text.number + LINES_BETWEEN)
     code = text.code.text[start:end]
     for match in list(OPERANDS.finditer(code))[: MOST_TRIES * 2]:
         if match.start("blank") > len(text.line):
@@ -290,7 +308,7 @@ def _list_with_keys(text: Broken) -> Slip | None:
 
 
 STATEMENT_LOOKS: tuple[Look, ...] = (
-    _entry_parts, _assigned, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
+    _entry_parts, _assigned, _word, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
     _loop_word, _global_late, _backslash, _list_with_keys,
     _says(r"name '(\w+)' is parameter and (?:global|nonlocal)", "global_parameter"),
     _says(r"(?:no binding for nonlocal '\w+'|nonlocal declaration not allowed)", "nonlocal"),
