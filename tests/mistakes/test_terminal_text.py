@@ -118,6 +118,11 @@ SHOWN = {
     ],
     "node.step_is_text": ["TypeError: unsupported operand type(s) for +=: 'int' and 'str'"],
     "node.not_callable": ["TypeError: 'int' object is not callable"],
+    "node.logger_method": ["AttributeError: 'RcutilsLogger' object has no attribute 'print'"],
+    "node.get_logger_arguments": [
+        "TypeError: Node.get_logger() takes 1 positional argument but 2 were given"
+    ],
+    "node.len_of_number": ["TypeError: object of type 'int' has no len()"],
     "node.spin_of_class": ["TypeError: 'property' object is not iterable"],
     "node.str_plus_int": ['TypeError: can only concatenate str (not "int") to str'],
     "node.counter_local": [
