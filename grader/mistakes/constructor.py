@@ -15,8 +15,10 @@ from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, always
 from grader.package.edit.tree import Replace
+from grader.package.source.imported import full_name
 from grader.package.source.names import calls_in, dotted, last_part
 
+NODES = ("rclpy.node.Node", "rclpy.Node")
 PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
 NO_NODE_NAME = r"(?<!\w)Node\.__init__\(\) missing 1 required positional argument: 'node_name'"
 
@@ -31,8 +33,16 @@ def _class_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     del match
     for call, name in raised.source.calls:
         given = dotted(call.args[0]) if call.args else ""
-        if last_part(name) == "spin" and _is_class(raised, given):
-            return raised.finding("spin_of_class", at=call, name=given)
+        if last_part(name) != "spin":
+            continue
+        imported = bool(given) and full_name(raised.source.module_of(call), call.args[0]) in NODES
+        if not imported and not _is_class(raised, given):
+            continue
+        found = raised.finding("spin_of_class", at=call, name=given)
+        node, made = raised.source.node_variables, raised.source.node_class
+        words = {**found.words, "made": made.name if made is not None else CLASS}
+        words["written"] = f"{name}({found.words['node']})"
+        return replace(found, variant="variable" if len(node) == 1 else "", words=words)
     return None
 
 
@@ -136,8 +146,14 @@ KINDS = (
         "spin",
         msg("rclpy.spin gets the class instead of the node"),
         msg("spin needs the node that was created, not its class."),
-        msg("Write node = {name}() and then rclpy.spin(node)."),
+        msg("Write {node} = {made}() and then {written}."),
         links.EXECUTORS,
+        whys={
+            "variable": msg(
+                "{name} is a class. spin needs the node that was created: the variable {node}."
+            )
+        },
+        fixes={"variable": msg("Write {written} on this line.")},
         seen=r"TypeError: 'property' object is not iterable",
         raised={r"\w": _class_is_spun},
         fixed_by=(node_life.spin,),
@@ -145,6 +161,11 @@ KINDS = (
             example(
                 "spin_of_class",
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin(MyFirstNode)"),
+                fails="run.starts",
+            ),
+            example(
+                "spin_of_imported_class",
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(Node)"),
                 fails="run.starts",
             ),
         ),

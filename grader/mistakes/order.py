@@ -24,6 +24,7 @@ from grader.package.source.names import calls_in, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at
 
+SPIN = "        rclpy.spin(node)\n"
 MAIN = """\
     rclpy.init(args=args)
     node = MyFirstNode()
@@ -89,7 +90,7 @@ def _cleaned_up_first(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     in_main = raised.line is None or line <= raised.line <= last
     if not in_main and "NotInitializedException" not in raised.error:
         return None
-    return raised.finding("cleanup_early", at=early[0], name=name)
+    return _with_later(source, raised.finding("cleanup_early", at=early[0], name=name))
 
 
 def _cleans_up_first(suspect: Suspect) -> RecognisedMistake | None:
@@ -97,7 +98,15 @@ def _cleans_up_first(suspect: Suspect) -> RecognisedMistake | None:
     found = _cleanup(suspect.source)
     if early is None or found is None:
         return None
-    return suspect.finding("cleanup_early", early[0], name=found[0])
+    return _with_later(suspect.source, suspect.finding("cleanup_early", early[0], name=found[0]))
+
+
+def _with_later(source: NodeSource, found: RecognisedMistake) -> RecognisedMistake:
+    """Say that the line can be deleted if a line after spin does the same."""
+    later = node_order.cleaned_up_later(source)
+    if later is None:
+        return found
+    return replace(found, variant="again", words={**found.words, "line": str(later.lineno)})
 
 
 def spun_names(source: NodeSource) -> set[str]:
@@ -211,6 +220,7 @@ KINDS = (
         ),
         msg("Move {name} to the end of {function}, below rclpy.spin."),
         links.RCLPY,
+        fixes={"again": msg("Delete this line: line {line} cleans up after rclpy.spin.")},
         raised={r"\w": _cleaned_up_first},
         behind={
             "run.never_spins": _cleans_up_first,
@@ -252,6 +262,17 @@ KINDS = (
                     "    node = MyFirstNode()\n    node.destroy_node()\n",
                 ),
                 fails="run.starts",
+            ),
+            example(
+                "clean_up_in_try",
+                Replace(NODE, SPIN, f"        node.destroy_node()\n{SPIN}"),
+                fails="run.starts",
+            ),
+            example(
+                "shutdown_in_try",
+                Replace(NODE, SPIN, f"        rclpy.shutdown()\n{SPIN}"),
+                fails="run.starts",
+                note="rclpy.spin raises the error of an executor that does not exist any more",
             ),
         ),
     ),

@@ -273,6 +273,8 @@ def spin(case: Case) -> Files | None:
         "rclpy.spin()",
         f"rclpy.spin({dotted(made[0].value).removesuffix('()')})",
     ]
+    if case.finding.mistake == "node.spin_of_class":
+        wrong.append(f"rclpy.spin({case.finding.params.get('name', '')})")
     if len(spun) != 1 or ast.unparse(spun[0]) not in wrong:
         return None
     return case.changed(module, text.swap(spun[0], f"rclpy.spin({target.id})"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from itertools import pairwise
 
 from grader.mistakes.fixes.case import Case
@@ -101,7 +102,7 @@ def early_cleanup(source: NodeSource) -> tuple[ast.Expr, ast.stmt] | None:
 
     Only statements that always run count; a program that calls rclpy.init() again is right.
     """
-    body = source.main.body if source.main is not None else []
+    body = list(_always_run(source.main.body)) if source.main is not None else []
     spins = [s for s in body if _calls(s, SPINS)]
     for statement in body if spins else []:
         if statement is spins[0]:
@@ -112,8 +113,28 @@ def early_cleanup(source: NodeSource) -> tuple[ast.Expr, ast.stmt] | None:
     return None
 
 
+def _always_run(body: list[ast.stmt]) -> Iterator[ast.stmt]:
+    """Yield the statements of a block in their order, with those in a try and in its finally."""
+    for statement in body:
+        if isinstance(statement, ast.Try):
+            yield from _always_run(statement.body + statement.orelse + statement.finalbody)
+        else:
+            yield statement
+
+
 def _calls(statement: ast.stmt, names: tuple[str, ...]) -> bool:
     return any(last_part(name) in names for _, name in calls_in(statement))
+
+
+def cleaned_up_later(source: NodeSource) -> ast.stmt | None:
+    """Return the statement after spin that does the same as the early clean-up."""
+    found = early_cleanup(source)
+    if found is None or source.main is None or not isinstance(found[0].value, ast.Call):
+        return None
+    name = dotted(found[0].value.func)
+    kind = ("destroy_node",) if name.endswith("destroy_node") else ("shutdown", "try_shutdown")
+    body = list(_always_run(source.main.body))
+    return next((s for s in body[body.index(found[1]) :] if _calls(s, kind)), None)
 
 
 def cleanup_last(case: Case) -> Files | None:
@@ -126,14 +147,14 @@ def cleanup_last(case: Case) -> Files | None:
     module, body = node.module_of(early), node.main.body
     if not _is_own_line(module, early) or not isinstance(early.value, ast.Call):
         return None
-    name = dotted(early.value.func)
-    later = body[body.index(spin) :]
-    kind = ("destroy_node",) if name.endswith("destroy_node") else ("shutdown", "try_shutdown")
-    text = module.text
-    if any(_calls(s, kind) for s in later):
+    if len(block_of(module, early)) == 1:
+        return None
+    name, text = dotted(early.value.func), module.text
+    if cleaned_up_later(node) is not None:
         return case.changed(module, text.without(early.lineno))
-    last = spin if name.endswith("destroy_node") else body[-1]
-    row = text.line(early.lineno)
+    around = next(s for s in body if _has(s, spin))
+    last = around if name.endswith("destroy_node") else body[-1]
+    row = indent_of(text.line(last.lineno)) + text.code(early)
     below = (last.end_lineno or last.lineno) + 1
     return case.changed(module, text.without(early.lineno), text.before(below, row))
 
