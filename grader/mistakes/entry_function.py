@@ -11,7 +11,7 @@ from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
-from grader.mistakes.fixes import node_life, node_main, node_names
+from grader.mistakes.fixes import node_input, node_life, node_main, node_names
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -29,6 +29,10 @@ PLACEHOLDER = re.compile(
     re.I,
 )
 """A comment of a chatbot, or of a tutorial, in the place of code."""
+ASKS = msg(
+    "{name} waits until someone types a line and presses Enter. Until then no line after it runs, "
+    "so the program does not reach rclpy.spin, and nothing calls the node's callbacks."
+)
 LOOKED_FOR = msg(
     "The entry point ends in :{function}, so Python looks for a function {function} at the top "
     "level of the module."
@@ -98,10 +102,22 @@ def _waits_first(suspect: Suspect) -> RecognisedMistake | None:
     main = suspect.function
     for call, name in calls_in(main) if main is not None else ():
         if suspect.source.is_node_class(call.func):
-            return None
+            break
         if name in WAITS:
             return suspect.finding("waits_first", call, name=f"{name}()")
-    return None
+    return _asks_first(suspect)
+
+
+def _asks_first(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for input() where the program runs it before the node spins."""
+    call = node_input.input_before_spin(suspect.source)
+    if call is None:
+        return None
+    found = suspect.finding("waits_first", call, name="input()")
+    counter = node_input.counter_of_input(suspect.source, call)
+    if not counter:
+        return replace(found, variant="input")
+    return replace(found, variant="counter", words={**found.words, "counter": counter})
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -250,13 +266,35 @@ KINDS = (
     _node(
         "waits_first",
         "start",
-        msg("The program waits before it creates the node"),
+        msg("The program waits before the node spins"),
         msg(
             "Until input(), sleep() or a loop is done, nothing after it runs, and there is no node."
         ),
         msg("Remove {name}. What must happen again and again belongs in a timer's callback."),
-        behind={"run.no_node": _waits_first},
+        whys={
+            "input": ASKS,
+            "counter": ASKS,
+        },
+        fixes={
+            "input": msg("Write the value in the code instead of {name}, or delete this line."),
+            "counter": msg("Write {counter} = {start} on this line, without {name}."),
+        },
+        behind={"run.no_node": _waits_first, "run.never_spins": _asks_first},
+        fixed_by=(node_input.number, node_input.deleted),
         examples=(
+            example(
+                "counter_from_input",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = int(input('start? '))"),
+                fails="run.spins",
+                blocks=("run.output", "run.logger", "run.period"),
+            ),
+            example(
+                "input_at_import",
+                Replace(
+                    NODE, "\n\nclass MyFirst", "name = input('Your name: ')\n\n\nclass MyFirst"
+                ),
+                fails="run.starts",
+            ),
             example(
                 "waits_for_input",
                 Replace(
