@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_loops
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -46,6 +46,27 @@ def _sleeps_in_callback(suspect: Suspect) -> RecognisedMistake | None:
     return found if found is not None and found.variant == "sleep" else None
 
 
+def _floods_in_callback(suspect: Suspect) -> RecognisedMistake | None:
+    """The same for a loop that logs or prints, and does not sleep."""
+    found = _in_callback(suspect)
+    if found is None or found.variant or found.where is None:
+        return None
+    line, module = found.where.line, suspect.source.module_at(found.where.file)
+    loops = [n for n in module.nodes if isinstance(n, Loop) and n.lineno == line]
+    logs = any(node_loops.prints_in(suspect.source, loop) for loop in loops)
+    return replace(found, variant="flood") if logs else None
+
+
+def _in_main(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop of main that prints or logs without a pause, and has no end."""
+    loop = node_loops.printing_loop(suspect.source)
+    if loop is None or not suspect.source.timers:
+        return None
+    found = suspect.finding("main_prints", loop, name=_word(loop))
+    after = node_loops.spins_after(suspect.source, loop)
+    return replace(found, variant="spins" if after else "")
+
+
 def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a loop that keeps __init__ from returning."""
     source, init = suspect.source, suspect.source.methods.get("__init__")
@@ -82,6 +103,12 @@ KINDS = (
             "not return: the timer cannot call it, and ROS can call no other callback."
         ),
         msg("Delete this {name}, and indent its lines as far as the {name} is indented now."),
+        whys={
+            "flood": msg(
+                "This loop does not wait, and logs without end. While it runs, the callback does "
+                "not return: the timer cannot call it again, and ROS can call no other callback."
+            )
+        },
         fixes={
             "sleep": msg(
                 "Delete this {name} and the sleep in it, and indent its other lines as far as the "
@@ -93,6 +120,7 @@ KINDS = (
             "run.no_lines": _sleeps_in_callback,
             "run.stops": _sleeps_in_callback,
             "run.twice": _in_callback,
+            "run.too_much_output": _floods_in_callback,
         },
         fixed_by=(node_loops.without_loop,),
         examples=(
@@ -102,6 +130,51 @@ KINDS = (
                 WHILE_OK,
                 fails="run.spins",
                 also={"run.output": "node.callback_repeats"},
+            ),
+            example(
+                "while_ok_logs_in_callback",
+                Replace(NODE, LOG_LINE, f"        while rclpy.ok():\n    {LOG_LINE}"),
+                fails="run.output",
+                blocks=("run.spins", *DEAD),
+            ),
+        ),
+    ),
+    _node(
+        "main_prints",
+        "spin",
+        msg("A loop prints without a pause, and the node does not spin"),
+        msg(
+            "This loop does not wait between two lines, and does not end. While it runs, the lines "
+            "below it do not run, and ROS can call no callback."
+        ),
+        msg(
+            "Delete this {name} and its lines, and write rclpy.spin({node}) instead: the timer "
+            "calls {callback} in each period."
+        ),
+        fixes={
+            "spins": msg(
+                "Delete this {name} and its lines: rclpy.spin waits, and the timer calls "
+                "{callback} in each period."
+            )
+        },
+        behind=dict.fromkeys(
+            (
+                *("run.never_spins", "run.too_much_output", "run.constant_counter"),
+                *("run.wrong_period", "run.twice", "run.print_not_logger", "run.no_node"),
+            ),
+            _in_main,
+        ),
+        fixed_by=(node_loops.spin_for_loop,),
+        examples=(
+            example(
+                "while_prints_in_main",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while True:\n            print('Hello time: 0')\n",
+                ),
+                fails="run.spins",
+                also=dict.fromkeys(("run.output", "run.logger", "run.period"), "node.main_prints"),
             ),
         ),
     ),

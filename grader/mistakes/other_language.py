@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
@@ -62,7 +63,8 @@ def _lost_sum(suspect: Suspect) -> RecognisedMistake | None:
     if found is None:
         return None
     step = suspect.output.step
-    return suspect.finding("sum_not_kept", found[0], name=found[1], step=step)
+    mistake = suspect.finding("sum_not_kept", found[0], name=found[1], step=step)
+    return replace(mistake, variant="return" if isinstance(found[0], ast.Return) else "")
 
 
 _node = Family("node", links.PYTHON_ERRORS)
@@ -149,6 +151,13 @@ KINDS = (
         ),
         msg("Write {name} += {step}"),
         links.PYTHON_CLASSES,
+        whys={
+            "return": msg(
+                "return gives the sum to what calls {callback}. The timer calls it, and does not "
+                "keep what it gets: {name} stays as it is."
+            )
+        },
+        fixes={"return": msg("Write {name} += {step} instead of this return.")},
         behind={"run.constant_counter": _lost_sum},
         fixed_by=(node_words.kept_sum,),
         examples=(
@@ -160,6 +169,11 @@ KINDS = (
             example(
                 "sum_not_kept",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ + 1"),
+                fails="run.output",
+            ),
+            example(
+                "sum_returned",
+                Replace(NODE, "self.counter_ += 1", "return self.counter_ + 1"),
                 fails="run.output",
             ),
             example(

@@ -37,6 +37,10 @@ BACK_TO_SOLUTION = (
     *("tabs_and_spaces", "timer_again_in_callback"),
     *("asyncio_sleep_in_callback", "thread_logs_in_loop", "daemon_thread_logs_in_loop"),
     *("python_logging_bare", "shell_line_without_prompt", "shell_line_that_is_python"),
+    *("logger_print", "logger_log", "name_for_get_logger", "text_for_get_logger"),
+    *("spin_of_imported_class", "clean_up_in_try", "shutdown_in_try"),
+    *("counter_from_input", "input_at_import", "sum_returned", "len_of_counter"),
+    *("counter_is_list", "while_ok_logs_in_callback", "while_prints_in_main"),
     *("entry_outside_list", "inner_folder_with_capitals", "resource_folder_misnamed"),
 )
 STEPS_ALONE = (

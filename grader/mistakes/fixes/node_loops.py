@@ -9,12 +9,14 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.endless import Loop, calls_of_methods, sleeps_in
+from grader.package.source.endless import Loop, calls_of_methods, goes_on, sleeps_in
 from grader.package.source.module import Function, Module
-from grader.package.source.names import own_name
-from grader.package.source.node import NodeSource
+from grader.package.source.names import calls_in, last_part, own_name
+from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, function_at
 
+QUICK = ("print", "str", "format", "ok", "int", "get_logger", "get_logger()", *LOG_METHODS)
+"""What a loop may call that does not wait."""
 FREE = ("counter", "count", "own_counter", "calls_of_callback")  # names for a new counter
 
 
@@ -148,3 +150,52 @@ def counted_by_calls(case: Case) -> Files | None:
         return None
     there = replace(case.finding, line=loop.lineno + 1)
     return lines.unwrapped(replace(case, files=made, finding=there))
+
+
+def prints_in(source: NodeSource, part: ast.AST) -> bool:
+    """Return whether a part of the source logs or prints, or a method that it calls does."""
+    called = [source.methods.get(last_part(name)) for _, name in calls_in(part)]
+    parts = [part, *(method for method in called if method is not None)]
+    return any(source.logs(each) or source.prints(each) for each in parts)
+
+
+def printing_loop(source: NodeSource) -> ast.While | None:
+    """Return the loop of the entry function that prints or logs, has no end, and never waits."""
+    for loop in ast.walk(source.main) if source.main is not None else ():
+        if not isinstance(loop, ast.While) or not goes_on(loop) or not prints_in(source, loop):
+            continue
+        quick = all(_is_quick(source, name) for _, name in calls_in(loop))
+        ends = any(isinstance(n, ast.Raise | ast.Await | ast.Try) for n in ast.walk(loop))
+        if quick and not ends:
+            return loop
+    return None
+
+
+def _is_quick(source: NodeSource, name: str) -> bool:
+    """Whether what is called does not wait: a method of the node only if nothing in it does."""
+    method = source.methods.get(last_part(name))
+    inside = [last_part(called) for _, called in calls_in(method)] if method is not None else ()
+    loops = [n for n in ast.walk(method) if isinstance(n, Loop)] if method is not None else ()
+    own = method is not None and not loops and all(called in QUICK for called in inside)
+    return last_part(name) in QUICK or own
+
+
+def spins_after(source: NodeSource, loop: ast.While) -> bool:
+    """Return whether the entry function spins below the loop."""
+    calls = calls_in(source.main) if source.main is not None else ()
+    last = loop.end_lineno or loop.lineno
+    return any(last_part(name) == "spin" and call.lineno > last for call, name in calls)
+
+
+def spin_for_loop(case: Case) -> Files | None:
+    """Spin instead of the loop of the entry function that prints."""
+    node = case.node
+    loop = printing_loop(node) if node is not None else None
+    if node is None or loop is None or loop.lineno != case.finding.line or loop.orelse:
+        return None
+    if spins_after(node, loop):
+        return lines.deleted(case)
+    variables, module = node.node_variables, node.module_of(loop)
+    if len(variables) != 1 or node.calls_of("spin", "spin_once"):
+        return None
+    return case.changed(module, module.text.swap(loop, f"rclpy.spin({min(variables)})"))

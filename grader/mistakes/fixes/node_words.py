@@ -10,9 +10,9 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.commented import commented
 from grader.package.source.commented import uncommented as uncommented_in
-from grader.package.source.counter import logged_counter
-from grader.package.source.module import Module
-from grader.package.source.names import dotted
+from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.module import Function, Module
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 
 COMPUTED = (ast.BinOp, ast.UnaryOp, ast.Compare)
@@ -43,7 +43,7 @@ def comment(case: Case) -> Files | None:
     return case.changed(module, Splice(at, at + 2, "#"))
 
 
-def lost_sum(source: NodeSource) -> tuple[ast.Expr, str] | None:
+def lost_sum(source: NodeSource) -> tuple[ast.Expr | ast.Return, str] | None:
     """Return the statement of the callback that computes with the counter and keeps nothing."""
     logged = logged_counter(source)
     if source.callback is None or logged is None:
@@ -53,7 +53,28 @@ def lost_sum(source: NodeSource) -> tuple[ast.Expr, str] | None:
         used = {dotted(part) for part in ast.walk(value)} if isinstance(value, COMPUTED) else set()
         if isinstance(node, ast.Expr) and logged[1] in used:
             return node, logged[1]
-    return None
+    return _returned_sum(source, source.callback, logged[1])
+
+
+def _returned_sum(
+    source: NodeSource, callback: Function, counter: str
+) -> tuple[ast.Return, str] | None:
+    """Return the last line of the callback if it returns the counter plus a number.
+
+    Nothing but a timer may call the callback: other code could keep what it gets.
+    """
+    last = callback.body[-1]
+    value = last.value if isinstance(last, ast.Return) else None
+    if not isinstance(last, ast.Return) or not isinstance(value, ast.BinOp):
+        return None
+    parts = {dotted(value.left), dotted(value.right)}
+    number = isinstance(value.left, ast.Constant) or isinstance(value.right, ast.Constant)
+    only_timer = callback.name in {timer.method for timer in source.timers}
+    called = any(last_part(name) == callback.name for _, name in source.calls)
+    changed = any(counter in targets_of(node) for node in ast.walk(callback))
+    if not isinstance(value.op, ast.Add) or counter not in parts or not number:
+        return None
+    return (last, counter) if only_timer and not called and not changed else None
 
 
 def kept_sum(case: Case) -> Files | None:
