@@ -11,11 +11,11 @@ from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_arguments, node_log
+from grader.mistakes.fixes import lines, node_arguments, node_log
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace, Write
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
 
 LOGGER_OPTION = (
@@ -144,7 +144,28 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return None  # (super() passes self on its own)
     if own and call is not None and raised.line in lines_of(call):
         return replace(found, variant="super")
-    return found
+    return _only_self(raised, match["function"]) or found
+
+
+def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
+    """The function is a method of the student's that takes only self."""
+    owner, _, method = function.rpartition(".")
+    taken = [
+        m
+        for found in (c for module in raised.source.modules for c in module.classes)
+        for m in found.body
+        if found.name == owner and isinstance(m, Function) and m.name == method
+    ]
+    if len(taken) != 1 or len(taken[0].args.args) != 1 or taken[0].args.vararg is not None:
+        return None
+    wanted = owner if method == "__init__" else method
+    for call, name in raised.source.calls:
+        if raised.line in lines_of(call) and last_part(name) == wanted and call.args:
+            text = raised.source.module_of(call).text
+            code, written = text.code(call), f"{text.code(call.func)}()"
+            found_call = raised.finding("arguments_many", at=call, name=code, written=written)
+            return replace(found_call, variant="only_self")
+    return None
 
 
 def _ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -358,15 +379,28 @@ KINDS = (
         msg("{name} takes fewer arguments than this call gives it. Python passes self on its own."),
         msg("Remove what is too much from the () of {name}."),
         links.PYTHON_ERRORS,
-        fixes={"super": msg("Write super().__init__('{node_name}').")},
+        whys={
+            "only_self": msg(
+                "The def has only self in its brackets, which Python passes on its own."
+            )
+        },
+        fixes={
+            "super": msg("Write super().__init__('{node_name}')."),
+            "only_self": msg("Write {written} instead of {name}."),
+        },
         raised={
             (
                 r"TypeError: (?P<function>\w{1,120}\.\w{1,120})\(\) takes [1-9] positional "
                 r"arguments? but \d{1,2} were given"
             ): _many_given
         },
-        fixed_by=(node_arguments.only_name,),
+        fixed_by=(node_arguments.only_name, lines.written),
         examples=(
+            example(
+                "name_given_where_made",
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
+                fails="run.starts",
+            ),
             example(
                 "two_names_for_node",
                 Replace(NODE, "('my_first_node')", "('my_first_node', 'robot')"),
