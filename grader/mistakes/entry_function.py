@@ -325,4 +325,24 @@ KINDS = (
         ),
         msg("Write: if __name__ == '__main__':"),
     ),
+    _node(
+        "guard_without_call",
+        "start",
+        msg("The () below the guard is missing"),
+        msg(
+            "A function's name alone does nothing; only calling it does. (ros2 run does not need "
+            "this line, but python3 with the file does.)"
+        ),
+        msg("Write {name}() on this line."),
+    ),
+    _node(
+        "guard_inside",
+        "start",
+        msg("The guard is inside of a function"),
+        msg(
+            "Nothing calls {name} if the file is started directly, because the call is inside of "
+            "{name}. (ros2 run does not need it.)"
+        ),
+        msg("Move this line and the line below it to the left margin, below the function."),
+    ),
 )

@@ -119,6 +119,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "self.counter += 1",
         "attribute": "self.counter",
     },
+    "node.guard_without_call": {"name": "main"},
+    "node.guard_inside": {"name": "main"},
     "node.main_misspelt": {"name": "mian"},
     "node.logger_method": {"name": "print"},
     "node.spin_of_class": {"made": "MyNode", "written": "rclpy.spin(node)"},

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import compared, nearest
-from grader.package.source.guard import called_on_import
+from grader.package.source.guard import called_on_import, is_guard
 from grader.package.source.names import dotted, own_name
 from grader.package.source.second_node import second_node
 
@@ -24,6 +24,7 @@ def hints(tree: ast.Module, function: str = "main") -> list[str]:
             found.append(_advice("node.shutdown_not_called", node.lineno))
         elif isinstance(node, ast.Assign) and (name := _hidden_method(node)):
             found.append(_advice("node.timer_hides_method", node.lineno, {"name": name}))
+    found += _below_guard(tree, function)
     second = second_node(tree)
     if second is not None:
         values: Mapping[str, Value] = {"name": second.name, "line": second.line}
@@ -42,6 +43,21 @@ def _hidden_method(made: ast.Assign) -> str:
     given = {own_name(n) for n in (*call.args, *(keyword.value for keyword in call.keywords))}
     names = given & {own_name(target) for target in made.targets}
     return next(iter(names - {""}), "")
+
+
+def _below_guard(tree: ast.Module, function: str) -> list[str]:
+    """Return advice on a guard that does not call the function, or that is inside of it."""
+    values: Mapping[str, Value] = {"name": function}
+    found: list[str] = []
+    for statement in tree.body:
+        if is_guard(statement) and isinstance(statement, ast.If):
+            named = (n for n in statement.body if isinstance(n, ast.Expr))
+            lines = [n.lineno for n in named if dotted(n.value) == function]
+            found += [_advice("node.guard_without_call", line, values) for line in lines]
+        if isinstance(statement, ast.FunctionDef) and statement.name == function:
+            inside = [n for n in statement.body if is_guard(n)]
+            found += [_advice("node.guard_inside", n.lineno, values) for n in inside]
+    return found
 
 
 def _guard(node: ast.Compare) -> list[str]:

@@ -55,3 +55,16 @@ def test_a_timer_under_its_callbacks_name_gets_advice(line: str, advised: bool) 
     found = hints(ast.parse(line))
     assert len(found) == advised
     assert all("self.on_timer is the timer" in text for text in found)
+
+
+@pytest.mark.parametrize(
+    ("end", "title"),
+    [
+        ("if __name__ == '__main__':\n    main\n", "line 8: The () below the guard is missing"),
+        ("    if __name__ == '__main__':\n        main()\n", "line 7: The guard is inside of a"),
+        ("if __name__ == '__main__':\n    main()\n", ""),
+    ],
+)
+def test_a_guard_that_calls_nothing(end: str, title: str) -> None:
+    found = hints(ast.parse(MAIN.format(body="rclpy.spin(node)") + "\n" + end))
+    assert [text[: len(title)] for text in found] == ([title] if title else [])
