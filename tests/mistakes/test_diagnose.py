@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
+SPIN = "rclpy.spin(node)"
 TRACEBACK = """\
 Traceback (most recent call last):
   File "/ws/install/my_robot_controller/lib/my_robot_controller/test_node", line 33, in <module>
@@ -231,3 +232,59 @@ def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
         assert output in advice
     bench.write(NODE, RIGHT)
     assert not bench.passes(source.node_file).advice
+
+
+@pytest.mark.parametrize(
+    ("symptom", "old", "new", "mistake", "fix"),
+    [
+        # what the callback returns is kept by the code that calls it: nothing is accused
+        (
+            "run.constant_counter",
+            "self.counter_ += 1",
+            "return self.counter_ + 1\n\n    def run(self):\n"
+            "        self.counter_ = self.timer_callback()",
+            "",
+            "",
+        ),
+        # the loop waits, or what it calls is not known
+        (
+            "run.too_much_output",
+            SPIN,
+            "while True:\n            wait()\n            print(1)",
+            "",
+            "",
+        ),
+        ("run.too_much_output", SPIN, "while rclpy.ok():\n            pass", "", ""),
+        (
+            "run.too_much_output",
+            SPIN,
+            "while rclpy.ok():\n            node.timer_callback()",
+            "node.main_prints",
+            "rclpy.spin(node)",
+        ),
+        # input() is not reached before spin, or only if the file is started directly
+        ("run.never_spins", SPIN, f"{SPIN}\n        input()", "", ""),
+        (
+            "run.never_spins",
+            "    try:\n",
+            "    name = input()\n    print(name)\n    try:\n",
+            "node.waits_first",
+            "Write the value in the code instead of input(), or delete this line.",
+        ),
+        (
+            "run.no_node",
+            SPIN,
+            f"node.destroy_node()\n        print(1)\n        {SPIN}",
+            "node.cleanup_early",
+            "Delete this line: line 33 cleans up after rclpy.spin.",
+        ),
+    ],
+)
+def test_a_cause_is_named_only_if_it_is_certain(
+    bench: Bench, symptom: str, old: str, new: str, mistake: str, fix: str
+) -> None:
+    assert old in RIGHT
+    found = diagnose(failed(symptom), evidence(bench, RIGHT.replace(old, new, 1)))
+    names = {"node.sum_not_kept", "node.main_prints", "node.waits_first", "node.cleanup_early"}
+    assert {m.id for m in found.mistakes} & names == ({mistake} if mistake else set())
+    assert fix in str(found.fix)
