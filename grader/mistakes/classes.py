@@ -163,7 +163,7 @@ KINDS = (
         msg("The file defines the node's class twice"),
         msg(
             "A file has one class of each name. The second class {name} replaces the one in line "
-            "{line}, of which nothing runs."
+            "{line}, which is never used."
         ),
         msg("Delete the class that you do not need, with all its lines."),
         behind=dict.fromkeys(

@@ -786,7 +786,7 @@ KINDS = (
         "counter",
         msg("A copy of the counter is increased"),
         msg(
-            "A variable that gets the value of {attribute} is a copy: to add to it does not change "
+            "A variable that gets the value of {attribute} is a copy: adding to it does not change "
             "{attribute}."
         ),
         msg("Write {written} instead of {name}."),
