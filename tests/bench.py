@@ -266,8 +266,8 @@ def peak_memory() -> float:
     """Return the peak resident memory of the grader's own process in MB."""
     with tempfile.TemporaryDirectory() as out:
         code = (
-            "import resource, sys; from grader.cli.main import main; main(sys.argv[1:]); "
-            "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+            "import sys; from grader.cli.main import main; main(sys.argv[1:]); "
+            "from tests.memory import peak_memory; print(peak_memory())"
         )
         command = [sys.executable, "-c", code, "grade", str(SOLUTION), "--out", str(Path(out))]
         done = subprocess.run(
@@ -276,9 +276,9 @@ def peak_memory() -> float:
             capture_output=True,
             text=True,
             check=True,
-            env=dict(os.environ),
+            env={**os.environ, "PYTHONPATH": str(processes.ROOT)},
         )
-    return int(done.stdout.split()[-1]) * 1024 / 1e6
+    return float(done.stdout.split()[-1])
 
 
 if __name__ == "__main__":

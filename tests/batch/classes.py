@@ -80,8 +80,7 @@ def grade_all(
 
 
 MEASURED = """
-import functools, json, resource, sys
-from pathlib import Path
+import functools, json, sys
 from grader.publish import class_run as g
 from grader.batch.local_pool import LocalPool
 from grader.cli.main import main
@@ -89,8 +88,8 @@ stub = json.loads(sys.argv[1])
 if stub:
     g.LocalPool = functools.partial(LocalPool, command=tuple(stub))
 status = main(sys.argv[2:])
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
-print(json.dumps({"status": status, "peak": peak}))
+from tests.memory import peak_memory
+print(json.dumps({"status": status, "peak": peak_memory()}))
 """
 
 
