@@ -50,7 +50,7 @@ KINDS = (
         msg("The timer has another period, and the logger leaves out lines"),
         msg(
             "The timer calls {callback} every {seconds} s. throttle_duration_sec only leaves out "
-            "lines: how many depends on how fast ROS time runs, and their numbers are lost."
+            "lines, and the count goes on without them."
         ),
         msg(
             "Write {period} as the period in this line, and remove throttle_duration_sec=… from "

@@ -30,6 +30,8 @@ UNASKED_SECONDS = 2.0  # the same until a tick is missing
 SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record ends the next ones
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
 TRIES, TRY_SECONDS = 12, 0.5  # barriers and wall time after which a tick is missing
+REAL = 0.97  # of real time: what keeps lines a whole period apart leaves out each second one
+MADE_UP = 0.05  # seconds of wall time by which a clock in real time may be late and make up for it
 GRID = 20  # steps per period while the actual period is measured
 MEASURED = 12  # periods of ROS time in which the actual period is measured
 WALL_TICKS = 5
@@ -66,11 +68,17 @@ class VirtualClock:
         *,
         deadline: float,
         fine: bool = False,
+        real_time: bool = False,
         more_ticks: int = 0,
         stay_until: float = 0,
     ) -> None:
-        """Watch `more_ticks` beyond the announced ones, the last not before `stay_until`."""
-        self._fine = fine
+        """Watch `more_ticks` beyond the announced ones, the last not before `stay_until`.
+
+        With `real_time` ROS time runs in `fine` steps and as fast as the wall clock.
+        """
+        self._fine = fine or real_time
+        self._real_time = real_time
+        self._set_at = 0.0  # by time.monotonic(): when the clock was set, if it is in real time
         self._ticks = output.ticks + more_ticks
         self._stay_until = stay_until  # by time.monotonic()
         self._observer = observer
@@ -318,8 +326,9 @@ class VirtualClock:
         seconds: float = BARRIER_SECONDS,
     ) -> tuple[list[Event], Answer]:
         """Set the clock, make the barrier, and return the new events and the probe's answer."""
-        self._at = max(at, self._at)
         observer = self._observer
+        waited = self._wait_until_real(at)
+        self._at = max(at, self._at)
         observer.now = self._at / SECOND
         published = time.time()
         enough = int(until_log and self._slow)
@@ -327,7 +336,7 @@ class VirtualClock:
             "clock", seconds=seconds, at=self._at, until_log=enough, patient=patient
         )
         self._slow = self._slow or (not patient and time.time() - published > SLOW_BARRIER)
-        events = observer.take(answer, seconds=0.02 if wait else 0)
+        events = waited + observer.take(answer, seconds=0.02 if wait else 0)
         events += observer.catch_up(answer.logs)
         if self._unasked:
             quiet = observer.probe.ask("wait", seconds=QUIET_SECONDS)
@@ -339,6 +348,15 @@ class VirtualClock:
         if answer.clocks > 1:
             raise ForeignClock(events)
         return events, answer
+
+    def _wait_until_real(self, at: int) -> list[Event]:
+        """Wait until an instant has come on the wall clock too; return what came meanwhile."""
+        if not self._real_time or at <= self._at:
+            return []
+        began = time.monotonic()
+        wanted = max(self._set_at, began - MADE_UP) + REAL * (at - self._at) / SECOND
+        self._set_at = wanted if self._at else began
+        return self._observer.watch_for(min(self._set_at, self._deadline) - began)
 
     def _at_their_instants(self, events: list[Event], published: float) -> list[Event]:
         """Assign events from before this step's clock message to the previous instant."""

@@ -256,8 +256,8 @@ class Observer:
         """Return the new events of a time on the wall clock."""
         deadline = time.monotonic() + seconds
         events: list[Event] = []
-        while time.monotonic() < deadline and not self.over:
-            events += self.take(self.probe.ask("wait", seconds=0.1))
+        while not self.over and (left := deadline - time.monotonic()) > 0:
+            events += self.take(self.probe.ask("wait", seconds=min(left, 0.1)))
         return events
 
     def settle(self) -> list[Event]:

@@ -121,12 +121,13 @@ def observe(
     *,
     until: float = math.inf,
     fine: bool = False,
+    real_time: bool = False,
     more_ticks: int = 0,
     stay_seconds: float = 0,
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, return the result.
 
-    The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
+    With `real_time` ROS time is as fast as the wall clock.     The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
     `stay_seconds` of wall time after the node at the earliest.
 
     The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
@@ -152,6 +153,7 @@ def observe(
                 assignment.output,
                 deadline=deadline,
                 fine=fine,
+                real_time=real_time,
                 more_ticks=more_ticks,
                 stay_until=time.monotonic() + stay_seconds if stay_seconds else 0,
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from grader.package.edit.tree import Edit, Replace
 
 from .model import NODE, right
-from .right_node import CATCH, LINE, STEP, TIMER
+from .right_node import CATCH, COUNT, LINE, STEP, TIMER
 
 SPIN = "rclpy.spin(node)"
 
@@ -50,6 +50,12 @@ TENTHS = f"""\
         if self.tenths % 10 == 0:
             {LINE}
             {STEP}"""
+AT_MOST_TWICE_A_SECOND = f"""\
+now = time.monotonic()
+        if now - self.last < 0.5:
+            return
+        self.last = now
+        {LINE}"""
 TWO_NODES = """\
 other = Node('my_idle_node')
         executor = SingleThreadedExecutor()
@@ -107,6 +113,12 @@ TIMING = (
     right("tenths", _timer("self.tenths = 0\n        self.create_timer(0.1, self.timer_callback)"),
           Replace(NODE, f"        {LINE}\n        {STEP}", TENTHS),
           note="ten short periods a line: a clock that jumps by a second skips nine of them"),
+    right("throttled_below_its_period",
+          Replace(NODE, LINE, f"{LINE[:-1]}, throttle_duration_sec=0.5)"),
+          note="the logger leaves out nothing in real time, but most lines on a faster clock"),
+    right("asks_the_real_clock", _imports("import time", ""),
+          Replace(NODE, COUNT, f"{COUNT}\n        self.last = 0.0"),
+          Replace(NODE, LINE, AT_MOST_TWICE_A_SECOND)),
     right("escapes_sim_time", Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args=[])"),
           wall_clock=True, note="use_sim_time never reaches it, but it is right"),
 )  # fmt: skip

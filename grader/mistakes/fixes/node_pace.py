@@ -14,9 +14,8 @@ from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
+from grader.package.source.real_time import THROTTLE
 from grader.package.source.sleeps import longest_sleep, sleeps_of
-
-THROTTLE = "throttle_duration_sec"
 
 
 def period_of(source: NodeSource) -> tuple[ast.expr, float] | None:

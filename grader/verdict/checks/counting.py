@@ -10,7 +10,6 @@ from grader.base.i18n.message import Message, joined, say, say_plural
 from grader.base.nearest import compared, with_difference
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
-from grader.mistakes.fixes.node_pace import throttled
 from grader.package.source.counter import logged_counter
 from grader.package.source.remarks import remarks_on
 from grader.report.model import Where
@@ -106,7 +105,7 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
         raise Failed(
             mistake,
             expected=expected,
-            actual=joined(joined(text, shown, by=": "), _left_out(evidence), by="\n"),
+            actual=joined(text, shown, by=": "),
             where=line_of(evidence, events[0].record),
             variant="" if _is_named(evidence) else "unnamed",
             words=words(evidence),
@@ -249,7 +248,7 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
     raise Failed(
         "run.ended_early" if run.ended_by_itself else "run.stops",
         expected=say("{lines} until Ctrl+C", lines=expected),
-        actual=actual if run.ended_by_itself else joined(actual, _left_out(evidence), by="\n"),
+        actual=actual,
         where=where or node_file(evidence),
     )
 
@@ -258,17 +257,6 @@ def _is_named(evidence: Evidence) -> bool:
     """Whether the source shows which variable the logged counter is."""
     source = source_of_node(evidence)
     return source is not None and logged_counter(source) is not None
-
-
-def _left_out(evidence: Evidence) -> str:
-    """Return that a terminal shows other lines, if the logger leaves some out by wall time."""
-    source = source_of_node(evidence)
-    if evidence.run.watch.clock != "virtual" or source is None or throttled(source) is None:
-        return ""
-    return say(
-        "ROS time runs fast here, but throttle_duration_sec counts real time: a terminal shows "
-        "more lines."
-    )
 
 
 def _is_silent(evidence: Evidence) -> bool:

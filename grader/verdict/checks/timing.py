@@ -115,8 +115,8 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
 def _seen_every(evidence: Evidence, seconds: float) -> str:
     """Return at which instants of ROS time the lines came, as far as a terminal shows the same.
 
-    ROS time runs fast here: a logger that counts wall time leaves out more lines than it does on a
-    terminal, and ROS time waits for a callback that sleeps.
+    What a throttled logger leaves out is not the timer's, and ROS time waits for a callback that
+    sleeps.
     """
     source = source_of_node(evidence)
     if not seconds or (source is not None and throttled(source) is not None):
