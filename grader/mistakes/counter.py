@@ -15,6 +15,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
+from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, parts_of_callback, targets_of
 from grader.package.source.module import Function
@@ -108,6 +109,10 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             continue
         if raised.line not in range(node.lineno, (node.end_lineno or node.lineno) + 1):
             continue
+        if (sum_of := _number_added_last(node, raised.module.text)) is not None:
+            name, written, variant = sum_of
+            found = raised.finding("str_plus_int", name=name, written=written)
+            return replace(found, variant=variant)
         operand = next((part for part in (node.right, node.left) if _may_be_number(part)), None)
         if operand is not None:
             text = raised.module.text
@@ -118,6 +123,41 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             return raised.finding("str_plus_int", name=text.code(operand), written=written)
     counter = str(raised.words["counter"])
     return raised.finding("str_plus_int", name=counter, written=f"str({counter})")
+
+
+def _number_added_last(node: ast.BinOp, text: SourceText) -> tuple[str, str, str] | None:
+    """Return the end of a sum of a text, a value and a number, what to write for it, and a variant.
+
+    As in `'%d' % n + 1`, `'n: ' + str(n) + 1` ("late": the value is text when the number is added)
+    and `'n: ' + n + 1`. None if the sum has another form or more than one line.
+    """
+    made, number = node.left, text.code(node.right)
+    if not _is_literal(node.right) or "\n" in text.code(node):
+        return None
+    if isinstance(made, ast.BinOp) and isinstance(made.op, ast.Mod):
+        if isinstance(made.right, ast.Tuple | ast.Dict) or text.plain_string(made.left) is None:
+            return None
+        return (
+            text.code_between(made.right, node.right),
+            f"({text.code(made.right)} + {number})",
+            "late",
+        )
+    if isinstance(made, ast.BinOp) and isinstance(made.op, ast.Add):
+        made = made.right
+        if isinstance(made, ast.Name | ast.Attribute):
+            whole = text.code_between(made, node.right)
+            return whole, f"str({whole})", ""
+    if not isinstance(made, ast.Call) or len(made.args) != 1 or made.keywords:
+        return None
+    if called_name(made) not in ("str", "format"):
+        return None
+    start, (_, end) = text.span(made)[0], text.span(made.args[0])
+    written = f"{text.text[start:end]} + {number})"
+    return text.code_between(made, node.right), written, "late"
+
+
+def _is_literal(part: ast.expr) -> bool:
+    return isinstance(part, ast.Constant) and type(part.value) in (int, float)
 
 
 def _adds_text(statement: ast.Assign) -> str:
@@ -455,6 +495,10 @@ KINDS = (
         msg("Python's + joins a string only with another string."),
         msg("Write {written} instead of {name}: str() makes a string of a number."),
         links.PYTHON_STRINGS,
+        whys={"late": msg("Python makes the string first, and then adds a number to it.")},
+        fixes={
+            "late": msg("Write {written} instead of {name}, so that the numbers are added first.")
+        },
         seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
         raised={
@@ -465,6 +509,17 @@ KINDS = (
             example(
                 "int_for_str",
                 Replace(NODE, "str(self.counter_)", "int(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "added_after_percent",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = -1"),
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %d' % self.counter_ + 1",
+                ),
                 fails="run.output",
                 blocks=DEAD,
             ),
