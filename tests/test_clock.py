@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import pytest
 
 from grader.course.load import load_assignment
-from grader.run.clock import MOST_AT_ONCE, VirtualClock
-from grader.run.observer import SECOND, Observer, Watch
+from grader.run.clock import MOST_AT_ONCE, VirtualClock, watch_wall
+from grader.run.observer import SECOND, Event, Observer, Watch
 from grader.run.probe_link import Answer, LogRecord, ProbeLink
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
@@ -156,3 +156,42 @@ def test_the_clock_is_not_driven_on_when_timers_multiply() -> None:
     watch = driven(Node(console, multiplies=True), console)
     assert (watch.clock, watch.early, watch.missing) == ("virtual", [], [])
     assert len(watch.counted) == sum(2**k for k in range(MOST_AT_ONCE.bit_length() + 1))
+
+
+class Fast(Node):
+    """A node that logs without a pause, or `most` lines at once, whatever the clock shows."""
+
+    def __init__(self, console: SlowConsole, *, most: int, each: int) -> None:
+        super().__init__(console, barrier=False)
+        self._left, self._each = most, each
+
+    def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
+        answer = super().ask(do, seconds=seconds, **more)
+        logs = [self._log() for _ in range(min(self._each, self._left))]
+        self._left -= len(logs)
+        joined = b"".join(self._console.pieces)
+        self._console.pieces[:] = [joined] if joined else []
+        return replace(answer, logs=(*answer.logs, *logs))
+
+
+@pytest.mark.parametrize(("most", "flood"), [(100_000, True), (60, False)])
+def test_lines_without_a_pause_are_a_flood_before_the_limit_of_the_output(
+    most: int, flood: bool
+) -> None:
+    console = SlowConsole()
+    node = Fast(console, most=most, each=20)
+    observer = Observer(Terminal(console, most=100_000_000), node, OUTPUT)
+    watch = Watch()
+    clock = VirtualClock(observer, OUTPUT, deadline=time.monotonic() + 6)
+    clock.drive(watch, lambda event: None)
+    assert observer.flooded == flood
+
+
+def test_lines_of_the_clock_are_not_several_at_one_time_on_the_wall() -> None:
+    console = SlowConsole()
+    node = Node(console)
+    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
+    event = Event("Hello time: 0", time.time(), 1.0, "logger", 0, due=0)
+    watch = Watch(events=[event, replace(event, n=1, text="Hello time: 1")])
+    watch_wall(observer, OUTPUT, watch, lambda event: None, deadline=time.monotonic() + 0.1)
+    assert [(event.n, event.due) for event in watch.counted] == [(0, None), (1, None)]

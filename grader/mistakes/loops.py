@@ -129,7 +129,6 @@ KINDS = (
                 IMPORT,
                 WHILE_OK,
                 fails="run.spins",
-                also={"run.output": "node.callback_repeats"},
             ),
             example(
                 "while_ok_logs_in_callback",

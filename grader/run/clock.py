@@ -35,6 +35,7 @@ MADE_UP = 0.05  # seconds of wall time by which a clock in real time may be late
 GRID = 20  # steps per period while the actual period is measured
 MEASURED = 12  # periods of ROS time in which the actual period is measured
 WALL_TICKS = 5
+FIRST_SECONDS = 0.5  # of it, in which a flood shows itself
 WALL_SPARE = 3.0  # seconds of wall time in addition to the ticks'
 MOST_AT_ONCE = 16  # lines of the count at one instant, after which the clock is no longer driven
 STILL = 1.3  # periods of wall time without a /clock message, to detect a wall clock
@@ -299,7 +300,7 @@ class VirtualClock:
     def _unmask(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Stop the clock for a while: lines that still come follow the wall clock."""
         left = self._deadline - time.monotonic()
-        still = self._observer.watch_for(min(left, STILL * self._output.period))
+        still = self._observer.watch_still(min(left, STILL * self._output.period))
         watch.events += still
         kinds = {event.kind for event in watch.counted}
         if any(event.kind in kinds for event in still) or (still and not watch.dues):
@@ -416,7 +417,13 @@ def watch_wall(
     """Watch a fixed number of ticks on the wall clock; the period is the median of the gaps."""
     watch.clock = "wall"
     watch.dues, watch.missing, watch.early = [], [], []
-    end = min(deadline, time.monotonic() + (WALL_TICKS + 1) * output.period + WALL_SPARE)
+    watch.events = _without_dues(watch.events)
+    now = time.monotonic()
+    end = min(deadline, now + (WALL_TICKS + 1) * output.period + WALL_SPARE)
+    first = observer.watch_still(min(end - now, FIRST_SECONDS))
+    watch.events += first
+    for event in first:
+        on_event(event)
     while time.monotonic() < end and not observer.over:
         if len(watch.counted) > WALL_TICKS and any(e.n is not None for e in watch.events):
             break

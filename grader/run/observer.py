@@ -18,6 +18,7 @@ GRACE = 0.1  # seconds of wall time within which a log record follows its line o
 LATE_GRACE = 1.0  # the same for records from before the probe had discovered the node
 STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
+FLOOD = 200  # lines per second of wall time, above which a program does not wait between them
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
 Source = Literal["logger", "print", "faked"]
@@ -160,12 +161,16 @@ class Observer:
         self._linked: float | None = None
         self._mirrored = True  # whether log records appear on the terminal
         self.logged = 0  # bytes that the log records would take on a terminal
+        self._flooding = False  # whether lines came without a pause
         self._doubled: Counter[str] = Counter()  # answers in which a node had two log publishers
 
     @property
     def flooded(self) -> bool:
-        """Whether the output exceeds the limit, on the terminal or on /rosout alone."""
-        return self.terminal.flooded or self.logged >= self.terminal.most
+        """Whether the output exceeds the limit, on the terminal or on /rosout alone.
+
+        Also if lines came without a pause: how much there is until a run ends is chance.
+        """
+        return self._flooding or self.terminal.flooded or self.logged >= self.terminal.most
 
     @property
     def doubled(self) -> str:
@@ -258,6 +263,14 @@ class Observer:
         events: list[Event] = []
         while not self.over and (left := deadline - time.monotonic()) > 0:
             events += self.take(self.probe.ask("wait", seconds=min(left, 0.1)))
+        return events
+
+    def watch_still(self, seconds: float) -> list[Event]:
+        """Do the same while ROS time stands still, when no timer of the node has lines to make."""
+        before, began = self.terminal.lines, time.monotonic()
+        events = self.watch_for(seconds)
+        rate = (self.terminal.lines - before) / (time.monotonic() - began)
+        self._flooding = self._flooding or (rate > FLOOD and not self.terminal.ended)
         return events
 
     def settle(self) -> list[Event]:

@@ -51,6 +51,7 @@ class Terminal:
         self._rest = b""
         self.ended = False
         self.flooded = False
+        self.lines = 0  # that it has returned
 
     @property
     def raw(self) -> bytes:
@@ -84,6 +85,7 @@ class Terminal:
             left = deadline - time.monotonic()
         if self.ended and self._rest:
             lines += self._split(b"\n")
+        self.lines += len(lines)
         return lines
 
     def _split(self, data: bytes) -> list[Line]:

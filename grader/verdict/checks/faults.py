@@ -148,10 +148,14 @@ def flood(evidence: Evidence, expected: str) -> Failed:
     """Return the failure of a node that printed more than the limit."""
     run = evidence.run
     size = f"{max(len(run.transcript.encode()), run.logged) / 1e6:.1f}"
+    lines = run.transcript.count("\n")
+    after = say("so much output that the run was stopped after {size} MB", size=size)
+    if size == "0.0":  # MB
+        after = say("so much output that the run was stopped after {count} lines", count=lines)
     return Failed(
         "run.too_much_output",
         expected=expected,
-        actual=say("so much output that the run was stopped after {size} MB", size=size),
+        actual=after,
         where=node_file(evidence),
     )
 
