@@ -278,6 +278,17 @@ def test_the_gaps_of_a_throttled_log_are_not_shown_as_a_period(bench: Bench) -> 
     assert caught.value.actual == "lines came at other instants"
 
 
+def test_the_lines_that_came_at_one_time_are_shown(bench: Bench) -> None:
+    events = [
+        line(n, virtual=due + 1, wall=due + 1, due=due) for n, due in enumerate((0, 1, 1, 2, 2))
+    ]
+    seen = Watch(clock="virtual", events=events, dues=[1.0, 2.0, 3.0])
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, Run("ros2 run", seen, started=True))
+    assert caught.value.mistake.id == "run.twice"
+    assert caught.value.actual.endswith(": Hello time: 1, Hello time: 2")
+
+
 def test_a_line_before_the_error_is_not_denied(bench: Bench) -> None:
     first = Event("Hello time: (0,)", 1.0, 1.0, "logger", None, 0)
     seen = Watch(clock="virtual", events=[first], dues=[1.0])

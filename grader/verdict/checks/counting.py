@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from pydantic import Field, field_validator
@@ -21,6 +22,8 @@ from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from grader.run.observer import Event, Watch
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
@@ -101,6 +104,8 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
             words=words(evidence),
         )
     mistake, text = _count_fault(run, wanted, numbers)
+    if mistake == "run.twice":
+        shown = ", ".join(event.text[:80] for event in _at_one_time(events)[:4])
     if mistake:
         raise Failed(
             mistake,
@@ -178,8 +183,7 @@ def _count_fault(run: Run, wanted: Count, numbers: list[int]) -> tuple[str, str]
 
     Both are empty if the numbers are right.
     """
-    dues = [event.due for event in run.watch.counted if event.due is not None]
-    if len(dues) != len(set(dues)):
+    if _at_one_time(run.watch.counted):
         return "run.twice", say("several lines came at the same time")
     if len(numbers) > 1 and len(set(numbers)) == 1:
         return "run.constant_counter", say("the number never changes")
@@ -192,6 +196,13 @@ def _count_fault(run: Run, wanted: Count, numbers: list[int]) -> tuple[str, str]
         said = say("the count does not go up by {step} each time", step=wanted.step)
         return "run.wrong_step", said
     return "", ""
+
+
+def _at_one_time(events: Sequence[Event]) -> list[Event]:
+    """Return the events of the first instant at which there are several, [] if there is none."""
+    lines = Counter(event.due for event in events if event.due is not None)
+    due = next((due for due, count in lines.items() if count > 1), -1)
+    return [event for event in events if event.due == due]
 
 
 def _must_stay_a_count(evidence: Evidence, wanted: Count, expected: str) -> None:
