@@ -176,6 +176,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_never_ends": {"name": "while True"},
     "node.exits": {"name": "sys.exit()"},
     "node.attribute_not_set": BARE_COUNTER,
+    "node.compared_not_assigned": {
+        "name": "self.counter",
+        "written": "self.counter = 0",
+        "line": "10",
+    },
     "node.counter_local": BARE_COUNTER,
     "node.str_plus_int": {"name": "self.counter", "written": "str(self.counter)"},
     "node.step_is_text": COUNTER,

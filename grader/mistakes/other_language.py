@@ -64,6 +64,8 @@ def _lost_sum(suspect: Suspect) -> RecognisedMistake | None:
         return None
     step = suspect.output.step
     mistake = suspect.finding("sum_not_kept", found[0], name=found[1], step=step)
+    if isinstance(found[0], ast.Expr) and isinstance(found[0].value, ast.Compare):
+        return replace(mistake, variant="compared")
     return replace(mistake, variant="return" if isinstance(found[0], ast.Return) else "")
 
 
@@ -155,7 +157,11 @@ KINDS = (
             "return": msg(
                 "return gives the sum to what calls {callback}. The timer calls it, and does not "
                 "keep what it gets: {name} stays as it is."
-            )
+            ),
+            "compared": msg(
+                "== only compares, and this line keeps no result: {name} stays as it is. One = "
+                "assigns a value."
+            ),
         },
         fixes={"return": msg("Write {name} += {step} instead of this return.")},
         behind={"run.constant_counter": _lost_sum},

@@ -23,6 +23,7 @@ BACK_TO_SOLUTION = (
     *("get_logger_without_self", "counter_logged_without_self", "returns_before_log"),
     *("returns_before_step", "returns_before_spin", "this_for_self", "plus_plus_before_name"),
     *("sum_not_kept", "compared_instead_of_set", "definition_misspelt", "logged_once"),
+    *("counter_compared", "node_compared"),
     *("log_throttled", "log_skips_first", "import_of_cpp_client", "module_of_rclpy_misspelt"),
     *("import_in_lower_case", "import_of_misspelt_name", "super_with_self"),
     *("super_with_self_alone", "interrupt_misspelt", "counter_of_other_name"),
