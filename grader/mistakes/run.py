@@ -27,6 +27,7 @@ UNSPUN = msg(
     "the node, and it does not follow simulated time."
 )
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
+WRITE_NUMBER = msg("Write {written} instead of {old} in line {line}: {code} is then {period} s.")
 
 _run = Family("run", links.FIRST_NODE)
 KINDS = (
@@ -349,8 +350,23 @@ KINDS = (
         "timer",
         msg("The lines come at the wrong times"),
         PERIOD,
-        msg("Write create_timer({period}, self.{callback}) once."),
-        fixes={"named": msg("Write {value} = {period}.")},
+        msg("Write create_timer({period}, self.{callback})."),
+        whys={
+            "calculated": msg(
+                "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s."
+            ),
+            "rate": msg(
+                "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s: "
+                "{rate} lines a second."
+            ),
+        },
+        fixes={
+            "named": msg("Write {value} = {period}."),
+            "several": msg("Write create_timer({period}, self.{callback}) once."),
+            "origin": msg("Write {written} instead of {old} in line {line}."),
+            "calculated": WRITE_NUMBER,
+            "rate": WRITE_NUMBER,
+        },
         fixed_by=(node_timer.period,),
         examples=(
             example("period_half", Replace(NODE, "(1.0,", "(0.5,"), fails="run.period"),
@@ -371,6 +387,19 @@ KINDS = (
                 "period_two_with_constant",
                 Replace(NODE, "class MyFirstNode", "PERIOD = 2.0\n\n\nclass MyFirstNode"),
                 Replace(NODE, "(1.0,", "(PERIOD,"),
+                fails="run.period",
+            ),
+            example(
+                "rate_as_parameter",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    (
+                        "        self.declare_parameter('rate', 10.0)\n"
+                        "        rate = self.get_parameter('rate').value\n"
+                        "        self.create_timer(1.0 / rate,"
+                    ),
+                ),
                 fails="run.period",
             ),
         ),

@@ -26,6 +26,7 @@ from grader.mistakes.recognised import (
 from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
 from grader.package.source.names import calls_in, dotted, own_name
+from grader.package.source.period import origin_of
 from grader.package.source.place import function_at
 
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
@@ -255,6 +256,9 @@ def _stopped(suspect: Suspect) -> RecognisedMistake | None:
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
     given = suspect.source.timers[0].period
     value = node_timer.value_of(suspect.source, given) if given is not None else None
+    origin = origin_of(suspect.source, given)
+    if value is None and origin is not None and origin.calculation is None:
+        value = origin.number  # (the default of a parameter, or a constant of the class)
     number = value.value if isinstance(value, ast.Constant) else None
     if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
         return None

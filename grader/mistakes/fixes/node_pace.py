@@ -13,6 +13,7 @@ from grader.package.edit.text import Splice
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
+from grader.package.source.period import number_in
 from grader.package.source.place import block_of
 from grader.package.source.real_time import THROTTLE
 from grader.package.source.sleeps import longest_sleep, sleeps_of
@@ -22,20 +23,8 @@ def period_of(source: NodeSource) -> tuple[ast.expr, float] | None:
     """Return where the period of the node's only timer is written, and its seconds."""
     periods = [timer.period for timer in source.timers]
     written = value_of(source, periods[0]) if len(periods) == 1 and periods[0] else None
-    seconds = _number(written)
+    seconds = number_in(written)
     return (written, seconds) if written is not None and seconds else None
-
-
-def _number(value: ast.expr | None) -> float | None:
-    """Return the value of a number, or of a product or a fraction of numbers."""
-    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult | ast.Div):
-        left, right = _number(value.left), _number(value.right)
-        if not left or not right:
-            return None
-        return left * right if isinstance(value.op, ast.Mult) else left / right
-    if not isinstance(value, ast.Constant) or isinstance(value.value, bool):
-        return None
-    return float(value.value) if isinstance(value.value, int | float) else None
 
 
 def throttled(source: NodeSource) -> ast.keyword | None:

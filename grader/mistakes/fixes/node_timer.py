@@ -11,6 +11,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.period import is_right, number_in, origin_of
 from grader.package.source.timer import timer_of
 
 NAMES = ("create_timer", "get_logger")
@@ -159,9 +160,14 @@ def period(case: Case) -> Files | None:
         return None
     given = value_of(node, period)
     wanted = case.assignment.output.period
-    if not isinstance(given, ast.Constant) or given.value == wanted:
-        return None
-    if not _number(given) and not isinstance(given.value, str):
+    origin = origin_of(node, period)
+    if origin is not None:
+        right = origin.right(wanted) if not is_right(origin.seconds, wanted) else ""
+        module = node.module_of(origin.number)
+        return case.changed(module, module.text.swap(origin.number, right)) if right else None
+    seconds = number_in(given)
+    text = isinstance(given, ast.Constant) and isinstance(given.value, str)
+    if given is None or is_right(seconds, wanted) or not (seconds is not None or text):
         return None
     module = node.module_of(given)
     return case.changed(module, module.text.swap(given, repr(wanted)))

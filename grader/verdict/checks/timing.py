@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import ast
 import statistics
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from pydantic import Field
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Value, say
 from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
 from grader.package.source.names import dotted
+from grader.package.source.node import NodeSource
+from grader.package.source.period import Origin, is_right, number_in, origin_of
 from grader.package.source.place import place_of
 from grader.package.source.sleeps import longest_sleep
+from grader.package.source.timer import Timer
 from grader.report.model import Where
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of, words
@@ -31,6 +35,7 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
+LONGEST_CODE = 80  # characters of a calculation in a text
 
 
 class LinePeriod(Parameters):
@@ -209,32 +214,70 @@ def _advice(evidence: Evidence) -> list[str]:
 
 
 def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
-    where, name = _place_of_period(evidence)
-    known = {"value": name} if name else {}
+    told = _period_told(evidence)
     return Failed(
         "run.wrong_period",
         expected=expected,
         actual=actual,
-        where=where,
-        variant="named" if name else "",
+        where=told.where,
+        variant=told.variant,
         params={"period": round(seconds, 3)},
-        words={**words(evidence), **known},
+        words={**words(evidence), **told.words},
     )
 
 
-def _place_of_period(evidence: Evidence) -> tuple[Where, str]:
-    """Return where the period of the first timer is written, and its name if it has one.
+@dataclass(frozen=True)
+class Told:
+    """Where the period of the first timer is written, and which text says so with which words."""
 
-    A name whose value is right already is not the reason: then it is the call of create_timer.
-    """
+    where: Where
+    variant: str = ""
+    words: Mapping[str, Value] = field(default_factory=dict)
+
+
+def _period_told(evidence: Evidence) -> Told:
     source = source_of_node(evidence)
     if source is None or not source.timers:
-        return line_of(evidence, evidence.run.watch.counted[0].record), ""
+        return Told(line_of(evidence, evidence.run.watch.counted[0].record))
+    return told_of_period(source, evidence.assignment.output.period)
+
+
+def told_of_period(source: NodeSource, wanted: float) -> Told:
+    """Return what to say of the first timer's period.
+
+    A number that is right already is not the reason: then it is the call of create_timer.
+    """
     timer = source.timers[0]
     name = dotted(timer.period) if timer.period is not None else ""
     value = value_of(source, timer.period) if timer.period is not None and name else None
-    number = value.value if isinstance(value, ast.Constant) else None
-    right = number == evidence.assignment.output.period
-    if value is None or right or type(number) not in (int, float):
-        return place_of(source, timer.call), ""
-    return place_of(source, value), name
+    seconds = number_in(value)
+    if value is not None and seconds is not None and not is_right(seconds, wanted):
+        return Told(place_of(source, value), "named", {"value": name})
+    origin = origin_of(source, timer.period) if len(source.timers) == 1 else None
+    if origin is not None and not is_right(origin.seconds, wanted) and origin.right(wanted):
+        return _told_of_origin(source, origin, wanted)
+    return Told(place_of(source, timer.call), "several" if _is_made_again(source, timer) else "")
+
+
+def _told_of_origin(source: NodeSource, origin: Origin, wanted: float) -> Told:
+    """Return what to say of a number from which the period is calculated."""
+    where, text = place_of(source, origin.number), source.module_of(origin.number).text
+    known: dict[str, Value] = {
+        "old": text.code(origin.number),
+        "written": origin.right(wanted),
+        "line": where.line or 0,
+    }
+    code = text.code(origin.calculation) if origin.calculation is not None else ""
+    if not code or "\n" in code or len(code) > LONGEST_CODE:
+        return Told(where, "origin", known)
+    known |= {"code": code, "seconds": f"{origin.seconds:g}", "rate": f"{1 / origin.seconds:.3g}"}
+    return Told(where, "rate" if origin.power < 0 and origin.seconds < 1 else "calculated", known)
+
+
+def _is_made_again(source: NodeSource, timer: Timer) -> bool:
+    """Whether there can be several timers: several calls, or one in a loop or in a callback."""
+    around = list(source.module_of(timer.call).around(timer.call))
+    looped = any(isinstance(part, ast.For | ast.While) for part in around)
+    name = timer.function.name if timer.function is not None else ""
+    called = len(source.calls_of(name)) > 1 or name in {t.method for t in source.timers}
+    return len(source.timers) > 1 or looped or bool(name and called)
